@@ -1,0 +1,230 @@
+"""Exact algebra: expressions as rational functions in generators, with a normal form of zero.
+
+Every subexpression that is not arithmetic becomes a *generator*, a fresh symbol: a derivative or value of an
+undefined function, sin and cos of one argument, an exponential or a power whose exponent is not an integer.
+Powers of one base share their generators, so that V^(2q) is recognised as (V^q)², and the relations that
+generators satisfy (sin² + cos² = 1, (√b)² = b, |x|² = x²) are kept beside them. Two expressions that agree
+as rational functions modulo these relations are equal wherever both are defined; the converse is not claimed.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+
+class NotAlgebraic(Exception):
+    """The expression contains something that exact algebra has no rule for."""
+
+
+def prepare(expression: sp.Expr) -> sp.Expr:
+    """Carry out derivatives, write tan and hyperbolic functions by sin, cos, exp, and split sums of angles."""
+    expression = sp.sympify(expression).doit(limits=False, integrals=False)
+    if expression.has(sp.Float):
+        raise NotAlgebraic("a floating-point number; write it as a fraction or as decimal text")
+    if expression.has(sp.tan, sp.cot, sp.sec, sp.csc):
+        expression = expression.replace(sp.tan, lambda a: sp.sin(a) / sp.cos(a))
+        expression = expression.replace(sp.cot, lambda a: sp.cos(a) / sp.sin(a))
+        expression = expression.replace(sp.sec, lambda a: 1 / sp.cos(a)).replace(sp.csc, lambda a: 1 / sp.sin(a))
+    expression = expression.replace(sp.sinh, lambda a: (sp.exp(a) - sp.exp(-a)) / 2)
+    expression = expression.replace(sp.cosh, lambda a: (sp.exp(a) + sp.exp(-a)) / 2)
+    expression = expression.replace(
+        sp.tanh, lambda a: (sp.exp(a) - sp.exp(-a)) / (sp.exp(a) + sp.exp(-a))
+    )
+    return expression.replace(
+        lambda node: isinstance(node, sp.sin | sp.cos), lambda node: _angle(node.func, node.args[0])
+    )
+
+
+def _angle(function: type, argument: sp.Expr) -> sp.Expr:
+    """Write sin or cos of a sum by sines and cosines of its terms, their arguments in expanded form."""
+    numerator, denominator = sp.fraction(sp.together(argument))
+    terms = [sp.cancel(term / denominator) for term in sp.Add.make_args(sp.expand(numerator))]
+    return sp.expand_trig(function(sp.Add(*terms)))
+
+
+@dataclass
+class Generators:
+    """The generators met so far, the symbols that stand for them, and their relations.
+
+    One object must see all expressions that are to be compared: :meth:`read` first, :meth:`rational` then.
+    """
+
+    symbols: dict[sp.Expr, sp.Symbol] = field(default_factory=dict)
+    relations: list[tuple[sp.Symbol, sp.Expr]] = field(default_factory=list)
+    meaning: dict[sp.Symbol, sp.Expr] = field(default_factory=dict)
+    _powers: dict[sp.Expr, list[sp.Expr]] = field(default_factory=lambda: defaultdict(list))
+    _roots: dict[sp.Expr, dict[sp.Expr, tuple[sp.Symbol, int]]] = field(default_factory=dict)
+    _denominators: dict[sp.Expr, sp.Expr] = field(default_factory=dict)
+
+    def symbol(self, meaning: sp.Expr, **assumptions: bool) -> sp.Symbol:
+        """The symbol that stands for ``meaning``; the same one each time."""
+        if meaning not in self.symbols:
+            generator = sp.Dummy(f"g{len(self.symbols)}", **assumptions)
+            self.symbols[meaning] = generator
+            self.meaning[generator] = meaning
+        return self.symbols[meaning]
+
+    def read(self, expressions: Iterable[sp.Expr]) -> list[sp.Expr]:
+        """Prepare the expressions and note each base with all exponents that it carries."""
+        prepared = [_split_powers(prepare(expression)) for expression in expressions]
+        for expression in prepared:
+            for node in sp.preorder_traversal(expression):
+                pair = _symbolic_power(node)
+                if pair is not None:
+                    self._powers[pair[0]].append(pair[1])
+        for base, exponents in self._powers.items():
+            self._choose_roots(base, exponents)
+        return prepared
+
+    def _choose_roots(self, base: sp.Expr, exponents: Sequence[sp.Expr]) -> None:
+        """Find exponents e_j such that every exponent of this base is an integer combination of them."""
+        fractions = [sp.fraction(sp.together(exponent)) for exponent in exponents]
+        common = sp.Integer(1)
+        for _, denominator in fractions:
+            common = sp.lcm(common, denominator)
+        parts: dict[sp.Expr, list[sp.Rational]] = defaultdict(list)
+        for exponent in exponents:
+            for monomial, coefficient in _exponent_terms(exponent, common):
+                parts[monomial].append(coefficient)
+        self._denominators[base] = common
+        self._roots[base] = {}
+        for monomial, coefficients in parts.items():
+            lcm = int(sp.ilcm(1, *(coefficient.q for coefficient in coefficients)))
+            root = base ** (monomial / common / lcm)
+            positive = bool(base.is_positive) and bool((monomial / common).is_real)
+            generator = self.symbol(root, **({"positive": True} if positive else {}))
+            self._roots[base][monomial] = (generator, lcm)
+
+    def rational(self, expression: sp.Expr) -> sp.Expr:
+        """Replace everything that is not arithmetic by its generator (after :meth:`read`)."""
+        match expression:
+            case sp.Symbol() | sp.Rational():
+                return expression
+            case sp.Add() | sp.Mul():
+                return expression.func(*(self.rational(argument) for argument in expression.args))
+            case sp.sin() | sp.cos():
+                sine = self.symbol(sp.sin(expression.args[0]), real=True)
+                cosine = self.symbol(sp.cos(expression.args[0]), real=True)
+                self._relate(sine, 1 - cosine**2)
+                return sine if isinstance(expression, sp.sin) else cosine
+            case sp.Abs():
+                argument = expression.args[0]
+                generator = self.symbol(expression, nonnegative=True)
+                if argument.is_real:
+                    self._relate(generator, self.rational(argument) ** 2)
+                return generator
+        pair = _symbolic_power(expression)
+        if pair is not None:
+            return self._power(*pair)
+        if isinstance(expression, sp.Pow) and expression.exp.is_Integer:
+            return self.rational(expression.base) ** expression.exp
+        if isinstance(expression, AppliedUndef | sp.Derivative | sp.log | sp.Function | sp.Integral | sp.Piecewise):
+            return self.symbol(expression, **({"real": True} if expression.is_real else {}))
+        if expression in (sp.pi, sp.E) or expression.is_NumberSymbol:
+            return self.symbol(expression, positive=True)
+        raise NotAlgebraic(f"no rule for {type(expression).__name__}: {expression}")
+
+    def _power(self, base: sp.Expr, exponent: sp.Expr) -> sp.Expr:
+        result: sp.Expr = sp.Integer(1)
+        for monomial, coefficient in _exponent_terms(exponent, self._denominators[base]):
+            generator, lcm = self._roots[base][monomial]
+            result *= generator ** int(coefficient * lcm)
+        own, monomial = self._denominators[base].as_coeff_Mul(rational=True)
+        if base is not sp.E and monomial in self._roots[base]:  # a root of the base, such as √b
+            generator, lcm = self._roots[base][monomial]
+            self._relate(generator, self.rational(base), int(own * lcm))
+        return result
+
+    def _relate(self, generator: sp.Symbol, value: sp.Expr, degree: int = 2) -> None:
+        entry = (generator, generator**degree - value)
+        if entry not in self.relations:
+            self.relations.append(entry)
+
+
+def _symbolic_power(node: sp.Expr) -> tuple[sp.Expr, sp.Expr] | None:
+    if isinstance(node, sp.exp):
+        return sp.E, node.args[0]
+    if isinstance(node, sp.Pow) and not node.exp.is_Integer:
+        return node.base, node.exp
+    return None
+
+
+def _exponent_terms(exponent: sp.Expr, common: sp.Expr) -> list[tuple[sp.Expr, sp.Rational]]:
+    numerator = sp.expand(sp.cancel(exponent * common))
+    terms = []
+    for term in sp.Add.make_args(numerator):
+        coefficient, monomial = term.as_coeff_Mul(rational=True)
+        terms.append((monomial, sp.Rational(coefficient)))
+    return terms
+
+
+def _split_powers(expression: sp.Expr) -> sp.Expr:
+    """Give every power a base that is one positive factor where SymPy's assumptions allow to split it."""
+
+    def split(node: sp.Expr) -> sp.Expr:
+        base, exponent = node.base, node.exp
+        if exponent.is_Integer:
+            return node
+        if isinstance(base, sp.Pow) and base.base.is_positive and base.exp.is_real:
+            return split(sp.Pow(base.base, sp.expand(base.exp * exponent), evaluate=False))
+        if isinstance(base, sp.exp) and base.args[0].is_real:
+            return sp.exp(base.args[0] * exponent)
+        if not base.is_Symbol and not base.is_number:
+            base = sp.factor(sp.together(base))
+        positive = [factor for factor in sp.Mul.make_args(base) if factor.is_positive]
+        rest = sp.Mul(*(factor for factor in sp.Mul.make_args(base) if not factor.is_positive))
+        factors: list[sp.Expr] = []
+        for factor in positive:
+            inner, power = factor.as_base_exp()
+            if factor.is_Rational and factor.q != 1:
+                factors += [sp.Integer(factor.p) ** exponent, sp.Integer(factor.q) ** (-exponent)]
+            elif power != 1 and inner.is_positive and power.is_real:
+                factors.append(inner ** sp.expand(power * exponent))
+            else:
+                factors.append(factor**exponent)
+        if rest != 1:
+            factors.append(rest**exponent)
+        return sp.Mul(*factors)
+
+    return expression.replace(lambda node: isinstance(node, sp.Pow), split)
+
+
+def reduce_modulo(numerator: sp.Expr, relations: Sequence[tuple[sp.Symbol, sp.Expr]]) -> sp.Expr:
+    """The remainder of a polynomial by each relation in turn, until nothing changes."""
+    current = sp.expand(numerator)
+    for _ in range(len(relations) + 1):
+        before = current
+        for generator, polynomial in relations:
+            if current.has(generator):
+                lifted, scale = sp.fraction(sp.together(polynomial))
+                current = sp.expand(sp.fraction(sp.together(sp.prem(current, lifted, generator)))[0])
+                del scale
+        if current == before:
+            break
+    return current
+
+
+def is_zero(expression: sp.Expr) -> bool:
+    """Whether the expression has the normal form 0; True is a proof, False says only "not shown".
+
+    >>> x, k = sp.symbols("x kappa", positive=True)
+    >>> is_zero((x ** ((2 * k - 1) / (2 * k))) ** 2 - x ** (2 - 1 / k))
+    True
+    >>> is_zero(sp.cos(2 * x) - 1 + 2 * sp.sin(x) ** 2)
+    True
+    >>> is_zero(sp.cos(2 * x) - 1 + sp.sin(x) ** 2)
+    False
+    """
+    generators = Generators()
+    (prepared,) = generators.read([expression])
+    numerator, denominator = sp.fraction(sp.together(generators.rational(prepared)))
+    if reduce_modulo(numerator, generators.relations) != 0:
+        return False
+    if reduce_modulo(denominator, generators.relations) == 0:
+        raise NotAlgebraic("the denominator vanishes identically")
+    return True
