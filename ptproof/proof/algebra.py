@@ -29,12 +29,12 @@ def prepare(expression: sp.Expr) -> sp.Expr:
     if expression.has(sp.tan, sp.cot, sp.sec, sp.csc):
         expression = expression.replace(sp.tan, lambda a: sp.sin(a) / sp.cos(a))
         expression = expression.replace(sp.cot, lambda a: sp.cos(a) / sp.sin(a))
-        expression = expression.replace(sp.sec, lambda a: 1 / sp.cos(a)).replace(sp.csc, lambda a: 1 / sp.sin(a))
+        expression = expression.replace(sp.sec, lambda a: 1 / sp.cos(a)).replace(
+            sp.csc, lambda a: 1 / sp.sin(a)
+        )
     expression = expression.replace(sp.sinh, lambda a: (sp.exp(a) - sp.exp(-a)) / 2)
     expression = expression.replace(sp.cosh, lambda a: (sp.exp(a) + sp.exp(-a)) / 2)
-    expression = expression.replace(
-        sp.tanh, lambda a: (sp.exp(a) - sp.exp(-a)) / (sp.exp(a) + sp.exp(-a))
-    )
+    expression = expression.replace(sp.tanh, lambda a: (sp.exp(a) - sp.exp(-a)) / (sp.exp(a) + sp.exp(-a)))
     return expression.replace(
         lambda node: isinstance(node, sp.sin | sp.cos), lambda node: _angle(node.func, node.args[0])
     )
@@ -60,6 +60,7 @@ class Generators:
     _powers: dict[sp.Expr, list[sp.Expr]] = field(default_factory=lambda: defaultdict(list))
     _roots: dict[sp.Expr, dict[sp.Expr, tuple[sp.Symbol, int]]] = field(default_factory=dict)
     _denominators: dict[sp.Expr, sp.Expr] = field(default_factory=dict)
+    _branches: dict[sp.Expr, sp.Expr] = field(default_factory=dict)
 
     def symbol(self, meaning: sp.Expr, **assumptions: bool) -> sp.Symbol:
         """The symbol that stands for ``meaning``; the same one each time."""
@@ -96,9 +97,17 @@ class Generators:
         for monomial, coefficients in parts.items():
             lcm = int(sp.ilcm(1, *(coefficient.q for coefficient in coefficients)))
             root = base ** (monomial / common / lcm)
-            positive = bool(base.is_positive) and bool((monomial / common).is_real)
-            generator = self.symbol(root, **({"positive": True} if positive else {}))
+            sign = "positive" if base.is_positive else "nonnegative" if base.is_nonnegative else None
+            known = {sign: True} if sign and (monomial / common).is_real else {}
+            generator = self.symbol(root, **known)
             self._roots[base][monomial] = (generator, lcm)
+
+    def choice(self, generator: sp.Symbol) -> tuple[type, list[sp.Expr]] | None:
+        """For a generator that stands for a maximum or minimum: which, and of what."""
+        meaning = self.meaning[generator]
+        if not isinstance(meaning, sp.Max | sp.Min):
+            return None
+        return type(meaning), [self._branches[argument] for argument in meaning.args]
 
     def rational(self, expression: sp.Expr) -> sp.Expr:
         """Replace everything that is not arithmetic by its generator (after :meth:`read`)."""
@@ -118,12 +127,18 @@ class Generators:
                 if argument.is_real:
                     self._relate(generator, self.rational(argument) ** 2)
                 return generator
+            case sp.Max() | sp.Min():
+                for argument in expression.args:
+                    self._branches[argument] = self.rational(argument)
+                return self.symbol(expression, real=True)
         pair = _symbolic_power(expression)
         if pair is not None:
             return self._power(*pair)
         if isinstance(expression, sp.Pow) and expression.exp.is_Integer:
             return self.rational(expression.base) ** expression.exp
-        if isinstance(expression, AppliedUndef | sp.Derivative | sp.log | sp.Function | sp.Integral | sp.Piecewise):
+        if isinstance(
+            expression, AppliedUndef | sp.Derivative | sp.log | sp.Function | sp.Integral | sp.Piecewise
+        ):
             return self.symbol(expression, **({"real": True} if expression.is_real else {}))
         if expression in (sp.pi, sp.E) or expression.is_NumberSymbol:
             return self.symbol(expression, positive=True)

@@ -1,0 +1,252 @@
+"""Claims: a statement as data, its assumptions, the claims that it uses, and a proof that is a function.
+
+A proof receives a :class:`Goal`, which holds the claim's own statement, and returns evidence about exactly
+that. It is never told the verdict that the author expects.
+"""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import Any, TypeAlias
+
+import sympy as sp
+
+from ptproof.errors import InputError
+from ptproof.proof.statement import (
+    All,
+    Assumption,
+    Exists,
+    Implication,
+    Prose,
+    Relation,
+    Smooth,
+    Statement,
+    relations_of,
+    substitute_in,
+)
+from ptproof.proof.verdict import Evidence, Verdict
+
+
+@dataclass(frozen=True)
+class Goal:
+    """What a proof has to show: the statement, under the assumptions, with the facts of the claims used."""
+
+    id: str
+    statement: Statement
+    assumptions: tuple[Assumption, ...] = ()
+    uses: tuple[Claim, ...] = ()
+
+    @property
+    def facts(self) -> tuple[Implication, ...]:
+        """The statements of the claims used, at the same symbols, each under that claim's own assumptions."""
+        return tuple(fact for used in self.uses for fact in instance(used))
+
+    @property
+    def relations(self) -> tuple[Relation, ...]:
+        """The assumptions that are plain relations."""
+        return tuple(item for assumption in self.assumptions if isinstance(assumption, Relation)
+                     for item in assumption.components())  # fmt: skip
+
+
+Proof: TypeAlias = Callable[[Goal], Evidence]
+
+
+@dataclass(frozen=True)
+class Claim:
+    """One statement of a derivation.
+
+    Attributes
+    ----------
+    id
+        Permanent and unique.
+    title
+        A few words.
+    statement
+        What is claimed.
+    prove
+        The proof: a function from :class:`Goal` to :class:`~ptproof.proof.verdict.Evidence`.
+    assumptions
+        What is assumed beyond the assumptions of the symbols.
+    uses
+        The claims that the proof relies on.
+    labels
+        The paper's labels that this claim covers.
+    expected
+        What the author expects; recorded, never shown to the proof.
+    prose
+        The explanation in the report: the docstring of the proof.
+    section
+        The part of the derivation, for grouping.
+    corrects
+        The printed claim of which this one is the correction.
+    place
+        Where in the paper a statement without a label stands.
+    """
+
+    id: str
+    title: str
+    statement: Statement
+    prove: Proof
+    assumptions: tuple[Assumption, ...] = ()
+    uses: tuple[Claim, ...] = ()
+    labels: tuple[str, ...] = ()
+    expected: Verdict = Verdict.PROVED
+    prose: str = ""
+    section: str = ""
+    corrects: Claim | None = None
+    place: str = ""
+
+    def __post_init__(self) -> None:
+        for used in (*self.uses, *([self.corrects] if self.corrects is not None else [])):
+            if not isinstance(used, Claim):
+                raise InputError(f"claim {self.id}: `uses` and `corrects` take claims, got {used!r}")
+
+    @property
+    def kind(self) -> str:
+        """A word for the form of the statement."""
+        if self.expected in (Verdict.CITED, Verdict.OBSERVED):
+            return {Verdict.CITED: "citation", Verdict.OBSERVED: "observation"}[self.expected]
+        match self.statement:
+            case Exists():
+                return "existence"
+            case Smooth():
+                return "smoothness"
+            case Relation() | All():
+                parts = relations_of(self.statement)
+                if any(side.has(sp.Limit) for part in parts for side in (part.left, part.right)):
+                    return "limit"
+                return "equality" if all(part.sign == "=" for part in parts) else "inequality"
+        return "statement"
+
+    def goal(self) -> Goal:
+        """What the proof receives."""
+        return Goal(self.id, self.statement, self.assumptions, self.uses)
+
+
+@dataclass(frozen=True)
+class Definition:
+    """A displayed formula that introduces something: nothing to decide, but its label is covered.
+
+    What the paper uses of it (an initial value, a sign, a limit) is stated as claims beside it.
+    """
+
+    id: str
+    title: str
+    labels: tuple[str, ...]
+    statement: Statement
+    prose: str = ""
+    section: str = ""
+
+
+def claim(
+    id: str,
+    title: str,
+    states: Statement,
+    *,
+    given: Iterable[Assumption] = (),
+    uses: Iterable[Claim] = (),
+    labels: Iterable[str] = (),
+    expected: str = "proved",
+    corrects: Claim | None = None,
+    place: str = "",
+) -> Callable[[Proof], Claim]:
+    """Make the decorated proof a :class:`Claim`; its docstring is the prose of the report."""
+
+    def make(prove: Proof) -> Claim:
+        module = inspect.getmodule(prove)
+        section = getattr(module, "SECTION", "") if module is not None else ""
+        return Claim(
+            id, title, states, prove, tuple(given), tuple(uses), tuple(labels), Verdict(expected),
+            inspect.cleandoc(prove.__doc__ or ""), section, corrects, place,
+        )  # fmt: skip
+
+    return make
+
+
+def definition(
+    id: str, title: str, states: Statement, *, labels: Iterable[str], prose: str = "", section: str = ""
+) -> Definition:
+    """A displayed definition; ``section`` is taken from the module that calls, where left out."""
+    if not section:
+        frame = inspect.currentframe()
+        caller = frame.f_back if frame is not None else None
+        section = str(caller.f_globals.get("SECTION", "")) if caller is not None else ""
+    return Definition(id, title, tuple(labels), states, inspect.cleandoc(prose), section)
+
+
+def instance(used: Claim, values: Mapping[Any, Any] | None = None) -> tuple[Implication, ...]:
+    """What ``used`` says when its symbols are given ``values``, as facts under its own assumptions.
+
+    Raises
+    ------
+    InputError
+        If the claim says something that is not a conjunction of relations, or a value does not have the
+        sign or kind that its symbol was declared with.
+    """
+    if isinstance(used.statement, Prose | Smooth | Exists):
+        return ()
+    values = dict(values or {})
+    for symbol, value in values.items():
+        if isinstance(symbol, sp.Symbol) and not admissible(symbol, value):
+            raise InputError(f"claim {used.id}: {value} is not known to be what {symbol} stands for")
+    if any(not isinstance(item, Relation) for item in used.assumptions):
+        return ()
+    hypotheses = tuple(
+        substitute_in(part, values) for item in used.assumptions if isinstance(item, Relation) for part in item.components()
+    )
+    return tuple(
+        Implication(hypotheses, substitute_in(part, values), source=used.id) for part in relations_of(used.statement)
+    )
+
+
+def admissible(symbol: sp.Symbol, value: Any) -> bool:
+    """Whether ``value`` is known to satisfy every assumption that ``symbol`` was declared with."""
+    value = sp.sympify(value)
+    for name, truth in symbol._assumptions_orig.items():
+        if name == "commutative":
+            continue
+        if getattr(value, f"is_{name}") is not truth:
+            return False
+    return True
+
+
+def cited(reference: str) -> Proof:
+    """The proof of a statement that is taken from the literature: no proof, and it says so."""
+
+    def prove(goal: Goal) -> Evidence:
+        return Evidence("citation", Verdict.CITED, reference)
+
+    return prove
+
+
+@dataclass(frozen=True)
+class Result:
+    """A claim with what came out: the verdict after its ancestors were looked at, and all evidence."""
+
+    claim: Claim
+    verdict: Verdict
+    evidence: tuple[Evidence, ...]
+    fully_proved: bool
+    rests_on: tuple[str, ...] = field(default=())
+
+    @property
+    def as_expected(self) -> bool:
+        return self.verdict is self.claim.expected
+
+    def to_json(self) -> dict[str, Any]:
+        witness = next((item.witness for item in self.evidence if item.witness is not None), None)
+        return {
+            "id": self.claim.id,
+            "labels": list(self.claim.labels),
+            "title": self.claim.title,
+            "kind": self.claim.kind,
+            "statement": str(self.claim.statement),
+            "verdict": str(self.verdict),
+            "expected": str(self.claim.expected),
+            "fully_proved": self.fully_proved,
+            "uses": [used.id for used in self.claim.uses],
+            "evidence": [item.to_json() for item in self.evidence],
+            "witness": None if witness is None else witness.to_json(),
+        }

@@ -1,0 +1,163 @@
+"""Real inequalities by z3: a statement follows if its negation is unsatisfiable.
+
+Whatever is not arithmetic becomes a generator (:mod:`ptproof.proof.algebra`), an unknown real number about
+which only a few safe facts are told: its sign, sin² + cos² = 1, (√b)² = b, |x|² = x². A proof for all values
+of the generators is a proof for the values that they have; a counterexample is only a candidate.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import Any
+
+import sympy as sp
+
+from ptproof.proof.algebra import Generators, NotAlgebraic
+from ptproof.proof.claim import Goal
+from ptproof.proof.refute import or_refute
+from ptproof.proof.statement import Implication, Relation, relations_of
+from ptproof.proof.verdict import Evidence, Verdict
+
+SECONDS = 20.0
+
+
+def reals(goal: Goal, *lemmas: Implication, seconds: float = SECONDS) -> Evidence:
+    """Show the goal's relations from its assumptions, the claims that it uses, and the ``lemmas``."""
+    start = time.perf_counter()
+    facts = [*goal.facts, *lemmas]
+    details = []
+    for part in relations_of(goal.statement):
+        outcome, detail = follows(part, goal.relations, facts, seconds=seconds)
+        details.append(detail)
+        if not outcome:
+            tried = Evidence("z3", Verdict.UNDECIDED, f"{part}: {detail}", time.perf_counter() - start)
+            return or_refute(goal, tried)
+    names = sorted({fact.source for fact in facts if fact.source})
+    told = f" with {', '.join(names)}" if names else ""
+    detail = f"the negation is unsatisfiable over the reals{told}"
+    if len(details) > 1:
+        detail += f" ({len(details)} parts)"
+    return Evidence("z3", Verdict.PROVED, detail, time.perf_counter() - start)
+
+
+def follows(
+    conclusion: Relation, assumptions: Sequence[Relation], facts: Sequence[Implication] = (), *, seconds: float = SECONDS
+) -> tuple[bool, str]:
+    """Whether ``conclusion`` follows over the reals: (True, how) or (False, what was tried)."""
+    import z3
+
+    try:
+        problem = _Problem(conclusion, assumptions, facts)
+    except NotAlgebraic as error:
+        return False, str(error)
+    tried = []
+    for tactic, share in (("default", 0.5), ("qfnra-nlsat", 0.5)):
+        context = problem.solver(z3, tactic, int(1000 * seconds * share))
+        answer = context.check()
+        if answer == z3.unsat:
+            return True, f"z3 ({tactic})"
+        if answer == z3.sat:
+            return False, f"z3 ({tactic}) finds values of the generators that satisfy the negation"
+        tried.append(f"{tactic}: {context.reason_unknown()}")
+    return False, f"z3 gave no answer in {seconds:g} s ({'; '.join(tried)})"
+
+
+class _Problem:
+    """The relations as rational functions in generators, beside what is known of the generators."""
+
+    def __init__(self, conclusion: Relation, assumptions: Sequence[Relation], facts: Sequence[Implication]) -> None:
+        relations = [conclusion, *assumptions]
+        for fact in facts:
+            relations += [*fact.hypotheses, fact.conclusion]
+        self.generators = Generators()
+        prepared = self.generators.read([side for relation in relations for side in (relation.left, relation.right)])
+        sides = iter([self.generators.rational(side) for side in prepared])
+        read = [Relation(next(sides), relation.sign, next(sides)) for relation in relations]
+        self.conclusion, rest = read[0], read[1:]
+        self.assumptions, rest = rest[: len(assumptions)], rest[len(assumptions) :]
+        self.facts: list[Implication] = []
+        for fact in facts:
+            count = len(fact.hypotheses)
+            self.facts.append(Implication(tuple(rest[:count]), rest[count], fact.source))
+            rest = rest[count + 1 :]
+        self.choices = [(g, self.generators.choice(g)) for g in self.generators.meaning if self.generators.choice(g)]
+
+    def solver(self, z3: Any, tactic: str, milliseconds: int) -> Any:
+        if tactic == "default":
+            solver = z3.Solver()
+        else:
+            solver = z3.Then("simplify", "purify-arith", "propagate-values", "solve-eqs", "tseitin-cnf", tactic).solver()
+        solver.set("timeout", max(milliseconds, 1))
+        variables: dict[sp.Symbol, Any] = {}
+
+        def number(expression: sp.Expr) -> Any:
+            return _to_z3(expression, variables, z3)
+
+        def relation(item: Relation) -> Any:
+            left, right = number(item.left), number(item.right)
+            return {"=": left == right, "!=": left != right, "<=": left <= right,
+                    "<": left < right, ">=": left >= right, ">": left > right}[item.sign]  # fmt: skip
+
+        for item in self.assumptions:
+            solver.add(relation(item))
+        for fact in self.facts:
+            solver.add(z3.Implies(z3.And([relation(item) for item in fact.hypotheses]), relation(fact.conclusion)))
+        for _, polynomial in self.generators.relations:
+            solver.add(number(polynomial) == 0)
+        for generator, (operation, arguments) in self.choices:
+            symbol, values = number(generator), [number(argument) for argument in arguments]
+            solver.add(z3.Or([symbol == value for value in values]))
+            for value in values:
+                solver.add(symbol >= value if operation is sp.Max else symbol <= value)
+        solver.add(z3.Not(relation(self.conclusion)))
+        for symbol, variable in list(variables.items()):
+            for fact in _known(symbol, variable, self.generators.meaning.get(symbol), z3):
+                solver.add(fact)
+        return solver
+
+
+def _to_z3(expression: sp.Expr, variables: dict[sp.Symbol, Any], z3: Any) -> Any:
+    match expression:
+        case sp.Rational():
+            return z3.RealVal(f"{expression.p}/{expression.q}")
+        case sp.Symbol():
+            if expression not in variables:
+                variables[expression] = z3.Real(f"{expression.name}_{len(variables)}")
+            return variables[expression]
+        case sp.Add():
+            return z3.Sum([_to_z3(argument, variables, z3) for argument in expression.args])
+        case sp.Mul():
+            numerator, denominator = sp.fraction(expression)
+            if denominator != 1:
+                return _to_z3(numerator, variables, z3) / _to_z3(denominator, variables, z3)
+            return z3.Product([_to_z3(argument, variables, z3) for argument in expression.args])
+        case sp.Pow():
+            base, exponent = _to_z3(expression.base, variables, z3), int(expression.exp)
+            power = z3.Product([base] * abs(exponent)) if exponent else z3.RealVal(1)
+            return power if exponent >= 0 else 1 / power
+    raise NotAlgebraic(f"no rule for {expression}")
+
+
+def _known(symbol: sp.Symbol, variable: Any, meaning: sp.Expr | None, z3: Any) -> list[Any]:
+    """The facts that hold for a symbol by its declaration, or for a generator by its meaning."""
+    facts = []
+    whole = bool(symbol.is_integer)
+    if symbol.is_positive:
+        facts.append(variable >= 1 if whole else variable > 0)
+    elif symbol.is_nonnegative:
+        facts.append(variable >= 0)
+    elif symbol.is_negative:
+        facts.append(variable <= -1 if whole else variable < 0)
+    elif symbol.is_nonpositive:
+        facts.append(variable <= 0)
+    elif symbol.is_nonzero:
+        facts.append(variable != 0)
+    if isinstance(meaning, sp.sin | sp.cos):
+        facts += [variable <= 1, variable >= -1]
+    if meaning is not None and meaning.is_NumberSymbol:
+        # An enclosure from SymPy's rational bounds of the constant; wide enough to be safe.
+        low, high = meaning.approximation_interval(sp.Rational)
+        facts += [variable > z3.RealVal(str(Fraction(low.p, low.q))), variable < z3.RealVal(str(Fraction(high.p, high.q)))]
+    return facts
