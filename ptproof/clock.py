@@ -109,7 +109,8 @@ def _tidy(entry: sp.Expr, rate: sp.Expr) -> sp.Expr:
 
 
 def _cancel_factors(term: sp.Expr) -> sp.Expr:
-    rational, rest = [], []
+    rational: list[sp.Expr] = []
+    rest: list[sp.Expr] = []
     for factor in sp.Mul.make_args(term):
         (rational if factor.is_rational_function() and not factor.is_Add else rest).append(factor)
     return sp.factor(sp.cancel(sp.Mul(*rational))) * sp.Mul(*rest)
@@ -163,12 +164,8 @@ def change_variable(
     InputError
         Unless ``forward`` and ``backward`` undo each other by exact algebra.
     """
-    if not (
-        is_zero(forward.subs(replaced, backward) - by) and is_zero(backward.subs(by, forward) - replaced)
-    ):
-        raise InputError(
-            f"{system.name}: {by} = {forward} and {replaced} = {backward} do not undo each other"
-        )
+    if not (is_zero(forward.subs(replaced, backward) - by) and is_zero(backward.subs(by, forward) - replaced)):
+        raise InputError(f"{system.name}: {by} = {forward} and {replaced} = {backward} do not undo each other")
     old = {replaced: backward}
     rate = system.derivative_along(forward).subs(old)
     rhs = tuple(

@@ -39,9 +39,7 @@ def no_drift(dimension: int = 2) -> Drift:
     return Drift("none", (sp.Integer(0),) * dimension)
 
 
-def gradient_drift(
-    matrix: Sequence[Sequence[sp.Expr]], field: sp.Expr, position: Sequence[sp.Symbol]
-) -> Drift:
+def gradient_drift(matrix: Sequence[Sequence[sp.Expr]], field: sp.Expr, position: Sequence[sp.Symbol]) -> Drift:
     """f = E∇F for the matrix E (n × n) and the field F(x) over n coordinates."""
     E = sp.ImmutableDenseMatrix(matrix)
     if E.shape != (len(position), len(position)):

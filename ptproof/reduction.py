@@ -46,13 +46,11 @@ class SlowFast:
     def boundary_layer(self, deviation: Sequence[sp.Symbol], fast_time: sp.Symbol) -> System:
         """dỹ/dτ̃ = g(x, ỹ + l(x)) with ỹ = z − l(x) and x frozen."""
         if len(deviation) != len(self.fast_state):
-            raise InputError(
-                f"{self.name}: {len(self.fast_state)} fast states but {len(deviation)} deviations"
-            )
+            raise InputError(f"{self.name}: {len(self.fast_state)} fast states but {len(deviation)} deviations")
         moved = dict(
             zip(
                 self.fast_state,
-                (y + l for y, l in zip(deviation, self.quasi_steady_state, strict=True)),
+                (deviation_ + steady for deviation_, steady in zip(deviation, self.quasi_steady_state, strict=True)),
                 strict=True,
             )
         )
@@ -92,9 +90,7 @@ def split(
         steady, unique = tuple(map(sp.sympify, quasi_steady_state)), _is_affine_regular(rates, fast)
         residual = [rate.subs(dict(zip(fast, steady, strict=True)), simultaneous=True) for rate in rates]
         if not all(is_zero(entry) for entry in residual):
-            raise InputError(
-                f"{system.name}: the quasi-steady state {steady} does not make the fast rates vanish"
-            )
+            raise InputError(f"{system.name}: the quasi-steady state {steady} does not make the fast rates vanish")
     slow = [i for i, symbol in enumerate(system.state) if symbol not in fast]
     return SlowFast(
         system.time, tuple(system.state[i] for i in slow), tuple(system.rhs[i] for i in slow),
@@ -124,9 +120,7 @@ def solve_quasi_steady_state(
         if any(set(fast) & value.free_symbols or value.is_real is False for value in values):
             continue
         try:
-            if all(
-                is_zero(rate.subs(dict(zip(fast, values, strict=True)), simultaneous=True)) for rate in rates
-            ):
+            if all(is_zero(rate.subs(dict(zip(fast, values, strict=True)), simultaneous=True)) for rate in rates):
                 solutions.append(values)
         except NotAlgebraic:
             continue

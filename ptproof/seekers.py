@@ -42,9 +42,7 @@ class Feedback:
     filter_rate: sp.Expr
 
 
-def feedback(
-    field: sp.Expr, filter: sp.Symbol, k: sp.Expr, omega: sp.Expr, mu: sp.Expr, gain: sp.Expr
-) -> Feedback:
+def feedback(field: sp.Expr, filter: sp.Symbol, k: sp.Expr, omega: sp.Expr, mu: sp.Expr, gain: sp.Expr) -> Feedback:
     """u₁ = K√ω, u₂ = K(ω − (k/μ)(y − z)), dz/dt = K(y − z)/μ, with the gain K (eq:pt_controlla for K = 1/ν²)."""
     innovation = (field - filter) / mu
     return Feedback(gain * sp.sqrt(omega), gain * (omega - k * innovation), gain * innovation)
@@ -88,7 +86,7 @@ def prescribed_time_seeker(
 
 def asymptotic_seeker(
     field: sp.Expr, drift: Drift | Sequence[sp.Expr], *, k: sp.Expr, omega: sp.Expr, mu: sp.Expr,
-    time: sp.Symbol, gain: sp.Expr = sp.Integer(1), states: Letters | None = None,
+    time: sp.Symbol, gain: sp.Expr = sp.S.One, states: Letters | None = None,
 ) -> System:  # fmt: skip
     """The asymptotic seeker (eq:exponential_seeker); a constant ``gain`` other than 1 speeds it up."""
     states = states or letters()

@@ -197,7 +197,9 @@ class DitherSystem:
             if len(field) != n:
                 raise InputError(f"{self.name}: field {i} has {len(field)} entries for {n} states")
             if any(self.phase in entry.free_symbols for entry in field):
-                raise InputError(f"{self.name}: field {i} depends on the phase {self.phase}; that belongs into its signal")
+                raise InputError(
+                    f"{self.name}: field {i} depends on the phase {self.phase}; that belongs into its signal"
+                )
         if len(self.fields) != len(self.dithers):
             raise InputError(f"{self.name}: {len(self.fields)} fields but {len(self.dithers)} dithers")
         for i, dither in enumerate(self.dithers, start=1):
