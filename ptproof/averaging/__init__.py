@@ -1,0 +1,27 @@
+"""Lie bracket averaging of dithered systems.
+
+>>> import sympy as sp
+>>> from ptproof.averaging import average
+>>> from ptproof.system import DitherSystem
+>>> tau, theta, x = sp.symbols("tau theta x", real=True)
+>>> omega, k = sp.symbols("omega k", positive=True)
+>>> F = sp.Function("F", real=True)(x)
+>>> seeker = DitherSystem(tau, theta, omega, (x,), (0,), ((1,), (k * F,)), (sp.cos(theta), sp.sin(theta)))
+>>> average(seeker).rhs
+(k*Derivative(F(x), x)/2,)
+"""
+
+from ptproof.averaging.average import Derived, average, derive
+from ptproof.averaging.coefficients import v_matrix
+from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided
+from ptproof.averaging.split import split_dithers
+
+__all__ = [
+    "AveragingRefused",
+    "AveragingUndecided",
+    "Derived",
+    "average",
+    "derive",
+    "split_dithers",
+    "v_matrix",
+]

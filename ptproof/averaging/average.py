@@ -1,0 +1,94 @@
+"""The Lie bracket system of a dithered system."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import sympy as sp
+
+from ptproof.averaging.brackets import SparseField, Vector, dense, sparse_bracket, tidy
+from ptproof.averaging.coefficients import Coefficients, v_matrix
+from ptproof.averaging.refusal import AveragingRefused
+from ptproof.system import DitherSystem, System
+
+Pair = tuple[int, int]
+
+
+@dataclass(frozen=True)
+class Derived:
+    """A dither system, its coefficients v_ji, the Lie brackets that enter, and the averaged system."""
+
+    dithered: DitherSystem
+    system: System
+    v: Coefficients
+    brackets: Mapping[Pair, Vector] = field(repr=False)
+
+    def _repr_latex_(self) -> str:
+        return self.system._repr_latex_()
+
+
+def average(system: DitherSystem) -> System:
+    """The Lie bracket system dx/dτ = b₀ + Σ_{i<j} [b_i, b_j] v_ji, in readable form.
+
+    Parameters
+    ----------
+    system
+        n states, N fields and dithers; undefined functions stay as they are, with their derivatives.
+
+    Returns
+    -------
+    System
+        In the same time and states. Equal to the definition (eq:Lie_Bracket_System) by exact algebra only:
+        exact v_ji, derivatives, and reduction modulo sin² + cos² = 1.
+
+    Raises
+    ------
+    AveragingRefused
+        If the system is not of the class: non-zero mean, a period that is not one, a drift that depends on
+        the phase, fields that contain the frequency.
+    AveragingUndecided
+        If a dither is outside the class that is integrated exactly.
+    """
+    return derive(system).system
+
+
+def derive(system: DitherSystem) -> Derived:
+    """As :func:`average`, with the coefficients and the brackets; only brackets with v_ji ≠ 0 are formed."""
+    check_form(system)
+    v = v_matrix(system)
+    fields = [SparseField(entries, system.state) for entries in system.fields]
+    brackets: dict[Pair, Vector] = {}
+    n = len(system.state)
+    sums: dict[int, list[sp.Expr]] = {}
+    for (j, i), value in v.items():
+        if value == 0 or not (fields[i - 1].entries and fields[j - 1].entries):
+            continue
+        bracket = sparse_bracket(fields[i - 1], fields[j - 1])
+        brackets[i, j] = dense(bracket.entries, n)
+        for row, entry in bracket.entries.items():
+            sums.setdefault(row, []).append(value * entry)
+    rhs = [drift + (tidy(sp.Add(*sums[row])) if row in sums else 0) for row, drift in enumerate(system.drift)]
+    averaged = System(system.time, system.state, tuple(rhs), name=f"average of {system.name}")
+    return Derived(system, averaged, v, brackets)
+
+
+def check_form(system: DitherSystem) -> None:
+    """Refuse what is not of the form drift + √ω Σ field · dither with the frequency in √ω and the phase only."""
+    places: list[tuple[str, Any]] = [("drift", system.drift)]
+    places += [(f"field {i}", entries) for i, entries in enumerate(system.fields, start=1)]
+    places += [(f"dither {i}", (entry,)) for i, entry in enumerate(system.dithers, start=1)]
+    for place, entries in places:
+        free = set().union(*(entry.free_symbols for entry in entries))
+        if system.omega in free:
+            raise AveragingRefused(
+                "form",
+                place,
+                f"it contains the frequency {system.omega}; the theorem is for the amplitude "
+                f"sqrt({system.omega}) exactly, with fields, drift and signals that do not depend on it",
+            )
+        if place == "drift" and system.phase in free:
+            raise AveragingRefused(
+                "form", place, f"it depends on the phase {system.phase}; the theorem's drift b0 varies slowly only"
+            )

@@ -1,0 +1,138 @@
+"""Lie brackets of sparse vector fields, and averages in readable form."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Mapping, Sequence
+
+import sympy as sp
+
+Vector = tuple[sp.Expr, ...]
+_FACTORED = 200
+
+
+class SparseField:
+    """A vector field that remembers which entries are not zero and what these depend on."""
+
+    def __init__(self, entries: Sequence[sp.Expr], state: Sequence[sp.Symbol]) -> None:
+        self.entries = {row: entry for row, entry in enumerate(entries) if entry != 0}
+        self.state = tuple(state)
+        self._columns = {symbol: column for column, symbol in enumerate(state)}
+        self._derivatives: dict[tuple[int, int], sp.Expr] = {}
+
+    @functools.cached_property
+    def depends(self) -> dict[int, frozenset[int]]:
+        """Row → the columns of the states that its entry contains."""
+        return {
+            row: frozenset(self._columns[symbol] for symbol in entry.free_symbols if symbol in self._columns)
+            for row, entry in self.entries.items()
+        }
+
+    def derivative(self, row: int, column: int) -> sp.Expr:
+        key = (row, column)
+        if key not in self._derivatives:
+            self._derivatives[key] = sp.diff(self.entries[row], self.state[column])
+        return self._derivatives[key]
+
+    def along(self, direction: SparseField) -> dict[int, sp.Expr]:
+        """The derivative of this field along ``direction``: (∂self/∂x) direction, nonzero rows only."""
+        result = {}
+        for row, columns in self.depends.items():
+            terms = [
+                self.derivative(row, column) * direction.entries[column]
+                for column in columns
+                if column in direction.entries
+            ]
+            if terms:
+                result[row] = sp.Add(*terms)
+        return result
+
+
+def sparse_bracket(f: SparseField, g: SparseField) -> SparseField:
+    """[f, g] = (∂g/∂x) f − (∂f/∂x) g, as :func:`ptproof.system.lie_bracket`, touching nonzero entries only."""
+    forward, backward = g.along(f), f.along(g)
+    entries = [
+        forward.get(row, sp.S.Zero) - backward.get(row, sp.S.Zero) if row in forward or row in backward else sp.S.Zero
+        for row in range(len(f.state))
+    ]
+    return SparseField([tidy(entry) if entry != 0 else entry for entry in entries], f.state)
+
+
+def dense(entries: Mapping[int, sp.Expr], count: int) -> Vector:
+    return tuple(entries.get(row, sp.S.Zero) for row in range(count))
+
+
+def tidy(expression: sp.Expr) -> sp.Expr:
+    """The same expression with sin² + cos² = 1 used up, for every argument, in the shortest form found.
+
+    Sines and cosines, functions, derivatives and other transcendentals become generators, the rest is
+    polynomial algebra: exact, and fast also where ``simplify`` gives no answer.
+    """
+    masked, sines, cosines, back = _mask(expression)
+    expanded = sp.expand(masked)
+    forms = [_reduce(expanded, sines, cosines)]
+    if sines:
+        forms.append(_reduce(expanded, cosines, sines))
+    for form in list(forms):
+        if form.is_Add:
+            forms.append(sp.factor_terms(form))
+            if len(form.args) <= _FACTORED:
+                forms.append(sp.factor(form))
+    if len(forms[0].free_symbols) >= len(masked.free_symbols):
+        forms.append(masked)
+    return _unmask(min(forms, key=lambda form: (sp.count_ops(form), len(str(form)))), back)
+
+
+def _unmask(form: sp.Expr, back: Mapping[sp.Symbol, sp.Expr]) -> sp.Expr:
+    while form.free_symbols & back.keys():
+        form = form.xreplace(back)
+    return form
+
+
+def _mask(
+    expression: sp.Expr,
+) -> tuple[sp.Expr, dict[sp.Expr, sp.Symbol], dict[sp.Expr, sp.Symbol], dict[sp.Symbol, sp.Expr]]:
+    """Sines and cosines, and the functions outside of them, become symbols; with the way back."""
+    sines: dict[sp.Expr, sp.Symbol] = {}
+    cosines: dict[sp.Expr, sp.Symbol] = {}
+    forward: dict[sp.Expr, sp.Symbol] = {}
+    for node in sorted(expression.atoms(sp.sin, sp.cos), key=sp.default_sort_key):
+        table = sines if isinstance(node, sp.sin) else cosines
+        forward[node] = table.setdefault(node.args[0], sp.Dummy(node.func.__name__))
+    masked = expression.xreplace(forward)
+    # Outermost first, so that no argument changes under a node that is still to be replaced.
+    for kind in (sp.Subs, sp.Derivative, sp.Function):
+        for node in sorted(masked.atoms(kind), key=lambda entry: (-len(str(entry)), str(entry))):
+            if masked.has(node):
+                forward[node] = sp.Dummy("f")
+                masked = masked.xreplace({node: forward[node]})
+    # A denominator stays as it is written.
+    for node in sorted(masked.atoms(sp.Pow), key=lambda entry: (-len(str(entry)), str(entry))):
+        if node.base.is_Add and not (node.exp.is_Integer and node.exp > 0) and masked.has(node):
+            forward[node] = sp.Dummy("p")
+            masked = masked.xreplace({node: forward[node]})
+    for argument in set(sines) | set(cosines):
+        sines.setdefault(argument, sp.Dummy("sin"))
+        cosines.setdefault(argument, sp.Dummy("cos"))
+    back = {symbol: node for node, symbol in forward.items()}
+    back |= {symbol: sp.sin(argument) for argument, symbol in sines.items()}
+    back |= {symbol: sp.cos(argument) for argument, symbol in cosines.items()}
+    return masked, sines, cosines, back
+
+
+def _reduce(expanded: sp.Expr, removed: Mapping[sp.Expr, sp.Symbol], kept: Mapping[sp.Expr, sp.Symbol]) -> sp.Expr:
+    """Modulo removed² + kept² = 1 for every argument, so that the removed symbol occurs at most once."""
+    for argument, symbol in removed.items():
+        other = kept[argument]
+        terms = []
+        changed = False
+        for term in sp.Add.make_args(expanded):
+            power = term.as_powers_dict().get(symbol, sp.S.Zero)
+            if power.is_Integer and power >= 2:
+                half = int(power) // 2
+                term = sp.expand(term / symbol ** (2 * half) * (1 - other**2) ** half)
+                changed = True
+            terms.append(term)
+        if changed:
+            expanded = sp.expand(sp.Add(*terms))
+    return expanded

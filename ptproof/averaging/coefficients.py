@@ -1,0 +1,140 @@
+"""The coefficients v_ji = (1/P) ∫₀^P u_j(θ) ∫₀^θ u_i(s) ds dθ of Lie bracket averaging, exactly."""
+
+from __future__ import annotations
+
+import itertools
+from collections import defaultdict
+
+import sympy as sp
+from sympy.simplify.fu import TR10i
+
+from ptproof.averaging.enclosure import check_coefficients
+from ptproof.averaging.quasipolynomial import exact_sign
+from ptproof.averaging.refusal import AveragingRefused
+from ptproof.averaging.signal import Signal, read_signal
+from ptproof.system import DitherSystem
+
+Coefficients = dict[tuple[int, int], sp.Expr]
+
+
+def signals(system: DitherSystem) -> tuple[Signal, ...]:
+    """Each dither over one period, exactly.
+
+    Raises
+    ------
+    AveragingRefused
+        If the period is not one, or a dither does not have zero mean.
+    AveragingUndecided
+        If a dither is outside the class that is integrated exactly.
+    """
+    if not system.period.is_number or exact_sign(system.period) <= 0:
+        raise AveragingRefused("D", "period", f"the period must be a positive number, not {system.period}")
+    result = []
+    for i, dither in enumerate(system.dithers, start=1):
+        where = f"dither {i}"
+        signal = read_signal(dither, system.phase, system.period, where)
+        if not vanishes(signal.mean):
+            raise AveragingRefused(
+                "D",
+                where,
+                f"{dither} has the mean {signal.mean} over a period, not 0; with the factor sqrt({system.omega}) "
+                "the average would grow without bound; subtract the mean",
+            )
+        result.append(signal)
+    return tuple(result)
+
+
+def vanishes(value: sp.Expr) -> bool:
+    """Whether an expression free of the phase is identically zero."""
+    value = sp.expand(value)
+    if value == 0 or value.is_Rational:
+        return bool(value == 0)
+    return bool(sp.simplify(value) == 0)
+
+
+def v_matrix(system: DitherSystem, *, check: bool = True) -> Coefficients:
+    """v_ji for all pairs i < j, exactly.
+
+    Returns
+    -------
+    dict
+        {(j, i): v_ji} with i < j counted from 1, as in eq:Lie_Bracket_System. The values may contain the
+        symbols of phases and amplitudes and, where amplitudes vary slowly, the slow time.
+
+    Raises
+    ------
+    AveragingRefused
+        If the period is not one, or a dither does not have zero mean.
+    AveragingUndecided
+        If a dither is outside the class that is integrated exactly.
+    ArithmeticError
+        If an exact value lies outside its independent enclosure (that would be a bug).
+
+    Guarantees
+    ----------
+    Each value is the exact integral, by finite algebra on smooth pieces, and (with ``check``) lies inside a
+    rigorous enclosure that is computed from the dithers themselves by another method; where a value contains
+    symbols, at exact values of these.
+    """
+    found = signals(system)
+    values = _all_pairs(found)
+    if check:
+        check_coefficients(system, values, [point for signal in found for point in signal.points])
+    return values
+
+
+def _all_pairs(found: tuple[Signal, ...]) -> Coefficients:
+    values: Coefficients = {}
+    sums = _trigonometric_pairs(found)
+    for i, j in itertools.combinations(range(1, len(found) + 1), 2):
+        if found[i - 1].is_trigonometric and found[j - 1].is_trigonometric:
+            values[j, i] = tidy_constant(sp.Add(*sums.get((j, i), ())))
+        else:
+            values[j, i] = tidy_constant(nested_mean(found[j - 1], found[i - 1]))
+    return values
+
+
+def _trigonometric_pairs(found: tuple[Signal, ...]) -> dict[tuple[int, int], list[sp.Expr]]:
+    """Σ over the common frequencies r of (a_i b_j − a_j b_i) / (2 r)."""
+    by_rate: dict[sp.Expr, list[tuple[int, sp.Expr, sp.Expr]]] = defaultdict(list)
+    for index, signal in enumerate(found, start=1):
+        if signal.is_trigonometric:
+            for (_, rate), (a, b) in signal.pieces[0].terms.items():
+                if rate != 0:
+                    by_rate[rate].append((index, a, b))
+    sums: dict[tuple[int, int], list[sp.Expr]] = defaultdict(list)
+    for rate, entries in by_rate.items():
+        for (i, a_i, b_i), (j, a_j, b_j) in itertools.combinations(entries, 2):
+            sums[j, i].append((a_i * b_j - a_j * b_i) / (2 * rate))
+    return sums
+
+
+def nested_mean(outer: Signal, inner: Signal) -> sp.Expr:
+    """(1/P) ∫₀^P outer(θ) ∫₀^θ inner(s) ds dθ from the exact pieces of both."""
+    total = []
+    for start, end, p, q in common_pieces(outer, inner):
+        primitive = (outer.pieces[p] * inner.antiderivatives[q]).antiderivative()
+        total.append(primitive.at(end) - primitive.at(start))
+    return sp.Add(*total) / outer.period
+
+
+def common_pieces(first: Signal, second: Signal) -> list[tuple[sp.Expr, sp.Expr, int, int]]:
+    """(from, to, piece of the first, piece of the second) on the common refinement of their points."""
+    result, p, q, start = [], 0, 0, sp.S.Zero
+    while p < len(first.pieces) and q < len(second.pieces):
+        left, right = first.points[p + 1], second.points[q + 1]
+        order = exact_sign(left - right)
+        end = left if order <= 0 else right
+        result.append((start, end, p, q))
+        start, p, q = end, p + (order <= 0), q + (order >= 0)
+    return result
+
+
+def tidy_constant(value: sp.Expr) -> sp.Expr:
+    """The same value in readable form: sums of products of sines of phases become sines of differences."""
+    if value.is_Rational:
+        return value
+    value = sp.expand(value)
+    if value.has(sp.sin, sp.cos) and value.free_symbols and sp.count_ops(value) < 200:
+        value = min((value, sp.factor_terms(TR10i(value))), key=sp.count_ops)
+    return sp.radsimp(value) if value.is_number else value

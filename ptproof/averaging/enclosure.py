@@ -1,0 +1,232 @@
+"""Rigorous enclosures of all v_ji at once, from the dithers themselves and by another route than the exact one.
+
+The period is cut into panels. On each the dither is interpolated at Chebyshev points in ball arithmetic; the
+error is bounded by the size of the analytic dither on a Bernstein ellipse (4 M ρ⁻ⁿ/(ρ − 1) for degree n, see
+Trefethen, Approximation Theory and Approximation Practice, theorem 8.2). Where a dither switches, a sliver of
+tiny width is left over and enters with its largest size.
+"""
+
+from __future__ import annotations
+
+import functools
+import itertools
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import sympy as sp
+
+from ptproof.averaging import switching
+from ptproof.averaging.ball import compile_ball, enclose
+from ptproof.system import DitherSystem
+
+_BITS = 96
+_DEGREE = 32
+_RHO = 4
+_TARGET = sp.Rational(1, 10**11)
+_SLIVER = sp.Rational(1, 10**13)
+_MOST_PANELS = 20_000
+
+
+def check_coefficients(
+    system: DitherSystem, values: Mapping[tuple[int, int], sp.Expr], hints: Sequence[sp.Expr] = ()
+) -> None:
+    """Raise ``ArithmeticError`` if an exact v_ji lies outside its enclosure.
+
+    ``hints`` are points where panels should end; wrong or missing ones cost time, not rigour.
+    """
+    from flint import ctx
+
+    with ctx.workprec(_BITS):
+        symbols = sample(set().union(*(dither.free_symbols for dither in system.dithers)) - {system.phase})
+        enclosures = enclose_coefficients(system, symbols, hints)
+        for (j, i), exact in values.items():
+            ball = enclosures[j - 1, i - 1]
+            if not ball.overlaps(enclose(exact, symbols, _BITS)):
+                raise ArithmeticError(f"v_{j},{i} = {exact} lies outside its enclosure {ball}; please report this")
+
+
+def sample(symbols: set[sp.Symbol]) -> dict[sp.Symbol, Any]:
+    """Exact positive values for symbols, as balls: the same ones each time."""
+    from flint import arb, fmpq
+
+    ordered = sorted(symbols, key=lambda symbol: symbol.name)
+    return {symbol: arb(fmpq(7 * place + 5, 3 * place + 8)) for place, symbol in enumerate(ordered)}
+
+
+@dataclass(frozen=True)
+class _Panel:
+    """One dither on one panel: ball values at the nodes, error of the interpolant, largest size."""
+
+    nodes: list[Any] | None
+    error: Any
+    size: Any
+
+
+def enclose_coefficients(system: DitherSystem, symbols: Mapping[sp.Symbol, Any], hints: Sequence[sp.Expr] = ()) -> Any:
+    """The matrix (flint ``arb_mat``, N × N) whose entry (j, i) contains v_ji."""
+    from flint import arb, arb_mat
+
+    count, nodes, weights, nested = len(system.dithers), *_rules()
+    readers = [_Reader(system, dither, symbols) for dither in system.dithers]
+    total = arb_mat(count, count)
+    before = arb_mat(count, 1)
+    for left, right in _panels(system, hints, readers):
+        half, middle = (right - left) / 2, (right + left) / 2
+        panels = [reader.panel(middle, half, nodes) for reader in readers]
+        rows = arb_mat(count, len(nodes), [v for p in panels for v in (p.nodes or [arb(0)] * len(nodes))])
+        sizes = [p.size for p in panels]
+        errors = [p.error for p in panels]
+        integral = rows * weights
+        integrals = arb_mat(
+            count, 1, [half * integral[k, 0] + arb(0, 1) * (2 * half * errors[k]) for k in range(count)]
+        )
+        # |u_j u_i − p_j p_i| ≤ e_j M_i + (M_j + e_j) e_i on a triangle of area 2 half².
+        column = arb_mat(count, 1, errors)
+        bound = column * arb_mat(1, count, sizes)
+        bound += arb_mat(count, 1, [s + e for s, e in zip(sizes, errors, strict=True)]) * column.transpose()
+        inner = rows * nested * rows.transpose() * (half * half)
+        total += inner + integrals * before.transpose()
+        total += arb_mat(count, count, [arb(0, 1) * (2 * half * half * entry) for entry in bound.entries()])
+        before += integrals
+    return total * (1 / enclose(system.period, {}, _BITS))
+
+
+def _panels(system: DitherSystem, hints: Sequence[sp.Expr], readers: list[_Reader]) -> list[tuple[Any, Any]]:
+    """Consecutive panels on each of which every dither is well interpolated, or that are slivers."""
+    from flint import arb
+
+    end = enclose(system.period, {}, _BITS)
+    gap = enclose(_SLIVER, {}, _BITS)
+    inner = sorted({float(enclose(hint, {}, _BITS).mid()): hint for hint in hints}.items())
+    cuts = [arb(0)]
+    for _, hint in inner:
+        point = enclose(hint, {}, _BITS)
+        cuts += [cut for cut in ((point - gap).mid(), (point + gap).mid()) if cut > cuts[-1] and cut < end]
+    if any(reader.switches for reader in readers):
+        cuts += [cut for cut in [(end - gap).mid()] if cut > cuts[-1]]
+    cuts.append(end)
+    done: list[tuple[Any, Any]] = []
+    todo = list(reversed(list(itertools.pairwise(cuts))))
+    while todo:
+        left, right = todo.pop()
+        half, middle = (right - left) / 2, (right + left) / 2
+        if half < gap or all(reader.fits(middle, half) for reader in readers):
+            done.append((left, right))
+        else:
+            centre = middle.mid()
+            todo += [(centre, right), (left, centre)]
+        if len(done) + len(todo) > _MOST_PANELS:
+            raise ArithmeticError("the check of the coefficients needs too many panels")
+    return done
+
+
+class _Reader:
+    """Evaluates one dither on panels; switches are resolved where they are decided on the whole panel."""
+
+    def __init__(self, system: DitherSystem, dither: sp.Expr, symbols: Mapping[sp.Symbol, Any]) -> None:
+        self.phase, self.symbols, self.dither = system.phase, dict(symbols), dither
+        self.switches = switching.has_switch(dither, system.phase)
+        self.compiled = functools.cache(lambda expression: compile_ball(expression, entire=True))
+
+    def smooth(self, middle: Any, half: Any) -> Any:
+        """The analytic function that the dither is on the panel, or None."""
+        from flint import arb
+
+        if not self.switches:
+            return self.compiled(self.dither)
+        callbacks = switching.decide_on_ball(self.phase, arb(middle.mid(), _radius(middle, half)), self.symbols)
+        resolved = switching.resolve(self.dither, self.phase, *callbacks)
+        return None if resolved is None else self.compiled(resolved)
+
+    def fits(self, middle: Any, half: Any) -> bool:
+        function = self.smooth(middle, half)
+        return function is not None and bool(self.error(function, middle, half) < enclose(_TARGET, {}, _BITS))
+
+    def error(self, function: Any, middle: Any, half: Any) -> Any:
+        """A bound for the error of the interpolant of degree ``_DEGREE`` on the panel."""
+        from flint import acb, arb
+
+        wide, high = arb(_RHO + arb(1) / _RHO) / 2, arb(_RHO - arb(1) / _RHO) / 2
+        box = acb(arb(middle.mid(), _radius(middle, half * wide)), arb(0, (half * high).abs_upper()))
+        size = acb(function({**self.symbols, self.phase: box})).abs_upper()
+        return 4 * size / (arb(_RHO) ** _DEGREE * (_RHO - 1))
+
+    def panel(self, middle: Any, half: Any, nodes: Sequence[Any]) -> _Panel:
+        from flint import arb
+
+        ball = arb(middle.mid(), _radius(middle, half))
+        function = self.smooth(middle, half)
+        if function is None:
+            size = _size(self.dither, self.phase, ball, self.symbols)
+            return _Panel(None, size, size)
+        values = [arb(function({**self.symbols, self.phase: middle + half * node})) for node in nodes]
+        size = arb(function({**self.symbols, self.phase: ball})).abs_upper()
+        return _Panel(values, self.error(function, middle, half), size)
+
+
+def _radius(middle: Any, half: Any) -> Any:
+    return (half.abs_upper() + middle.rad()).abs_upper()
+
+
+def _size(dither: sp.Expr, phase: sp.Symbol, ball: Any, symbols: Mapping[sp.Symbol, Any]) -> Any:
+    """An upper bound of |dither| on a sliver: the largest over all branches."""
+    from flint import arb
+
+    def bound(node: sp.Expr) -> Any:
+        if not switching.has_switch(node, phase):
+            return arb(enclose(node, {**symbols, phase: ball}, _BITS)).abs_upper()
+        if isinstance(node, sp.Piecewise):
+            return functools.reduce(_larger, [bound(value) for value, _ in node.args])
+        if isinstance(node, sp.Max | sp.Min):
+            return functools.reduce(_larger, [bound(arg) for arg in node.args])
+        if isinstance(node, sp.Abs):
+            return bound(node.args[0])
+        if isinstance(node, sp.sign | sp.Heaviside):
+            return arb(1)
+        if isinstance(node, sp.Mod):
+            return bound(node.args[1])
+        if isinstance(node, sp.floor):
+            return bound(node.args[0]) + 1
+        if isinstance(node, sp.asin | sp.acos | sp.atan):
+            return arb(4)
+        if isinstance(node, sp.sin | sp.cos):
+            return arb(1)
+        if node.is_Add:
+            return functools.reduce(lambda a, b: a + b, [bound(arg) for arg in node.args])
+        if node.is_Mul:
+            return functools.reduce(lambda a, b: a * b, [bound(arg) for arg in node.args])
+        if node.is_Pow and node.exp.is_Integer and node.exp > 0:
+            return bound(node.base) ** int(node.exp)
+        raise ArithmeticError(f"no bound for {node} near a switching point")
+
+    return bound(dither)
+
+
+def _larger(a: Any, b: Any) -> Any:
+    return (a + b + abs(a - b)) / 2
+
+
+@functools.cache
+def _rules() -> tuple[list[Any], Any, Any]:
+    """Chebyshev nodes on [−1, 1], weights of ∫ p, and Q with f·Q·g = ∫ p_f(t) ∫₋₁^t p_g for interpolants."""
+    from flint import arb, arb_mat, arb_poly
+
+    n = _DEGREE + 1
+    nodes = [-arb.cos_pi(arb(k) / _DEGREE) for k in range(n)]
+    basis = []
+    for k, node in enumerate(nodes):
+        poly = arb_poly([1])
+        for other in nodes[:k] + nodes[k + 1 :]:
+            poly = poly * arb_poly([-other, 1]) * (1 / (node - other))
+        basis.append(poly)
+
+    def integral(poly: Any) -> Any:
+        primitive = poly.integral()
+        return primitive(arb(1)) - primitive(arb(-1))
+
+    primitives = [poly.integral() for poly in basis]
+    primitives = [poly - arb_poly([poly(arb(-1))]) for poly in primitives]
+    weights = arb_mat(n, 1, [integral(poly) for poly in basis])
+    nested = arb_mat(n, n, [integral(outer * inner) for outer in basis for inner in primitives])
+    return nodes, weights, nested

@@ -1,0 +1,20 @@
+"""What averaging raises for a system that the averaging theorem does not cover."""
+
+from __future__ import annotations
+
+
+class AveragingRefused(ValueError):
+    """The system is well formed, but Lie bracket averaging does not apply to it.
+
+    ``assumption`` is the letter of the violated hypothesis (A to F of ass:singular_ass, or "form" where the
+    system is not of the averaged class at all), ``place`` says which field, dither or state it is, and
+    ``reason`` why, with what would help where something would.
+    """
+
+    def __init__(self, assumption: str, place: str, reason: str) -> None:
+        super().__init__(f"{place}: {reason}")
+        self.assumption, self.place, self.reason = assumption, place, reason
+
+
+class AveragingUndecided(ValueError):
+    """No exact route that is trusted here leads to a value; ``str`` says what was met and where."""

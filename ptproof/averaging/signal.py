@@ -1,0 +1,124 @@
+"""One dither over one period: exact smooth pieces, mean, antiderivative."""
+
+from __future__ import annotations
+
+import functools
+from dataclasses import dataclass
+
+import sympy as sp
+
+from ptproof.averaging import switching
+from ptproof.averaging.quasipolynomial import QuasiPolynomial, exact_sign, read
+from ptproof.averaging.refusal import AveragingRefused
+
+
+@dataclass(frozen=True)
+class Signal:
+    """A dither on [0, period]: ``pieces[p]`` holds between ``points[p]`` and ``points[p + 1]``."""
+
+    period: sp.Expr
+    points: tuple[sp.Expr, ...]
+    pieces: tuple[QuasiPolynomial, ...]
+
+    @property
+    def is_trigonometric(self) -> bool:
+        """Whether the signal is one trigonometric polynomial."""
+        return len(self.pieces) == 1 and self.pieces[0].is_trigonometric_polynomial
+
+    @functools.cached_property
+    def antiderivatives(self) -> tuple[QuasiPolynomial, ...]:
+        """The pieces of the continuous antiderivative that vanishes at 0."""
+        value: sp.Expr = sp.S.Zero
+        result = []
+        for start, end, piece in zip(self.points, self.points[1:], self.pieces, strict=False):
+            primitive = piece.antiderivative()
+            primitive = primitive + QuasiPolynomial.constant(value - primitive.at(start))
+            result.append(primitive)
+            value = primitive.at(end)
+        return tuple(result)
+
+    @functools.cached_property
+    def mean(self) -> sp.Expr:
+        """The exact mean over one period."""
+        if self.is_trigonometric:
+            return self.pieces[0].terms.get((0, sp.S.Zero), (sp.S.Zero, sp.S.Zero))[0]
+        return sp.simplify(self.antiderivatives[-1].at(self.points[-1]) / self.period)
+
+
+def read_signal(dither: sp.Expr, phase: sp.Symbol, period: sp.Expr, where: str) -> Signal:
+    """The pieces of ``dither`` on [0, ``period``]; one that contains Piecewise is extended periodically.
+
+    Raises
+    ------
+    AveragingRefused
+        If what stands outside Piecewise does not have the declared period.
+    AveragingUndecided
+        If the dither is outside the class that is integrated exactly.
+    """
+    if not switching.has_switch(dither, phase):
+        terms = read(dither, phase, where)
+        _check_period(terms, dither, phase, period, where)
+        return Signal(period, (sp.S.Zero, period), (terms,))
+    _check_period_of_switches(dither, phase, period, where)
+    points: list[sp.Expr] = [sp.S.Zero]
+    parts: list[QuasiPolynomial] = []
+    for _, end, expression in switching.pieces(dither, phase, sp.S.Zero, period, where):
+        points.append(end)
+        parts.append(read(expression, phase, where))
+    return Signal(period, tuple(points), tuple(parts))
+
+
+def turns(rate: sp.Expr, period: sp.Expr) -> sp.Expr:
+    """How many turns a sinusoid of this rate makes in one period."""
+    return sp.radsimp(sp.simplify(rate * period / (2 * sp.pi)))
+
+
+def _check_period(terms: QuasiPolynomial, dither: sp.Expr, phase: sp.Symbol, period: sp.Expr, where: str) -> None:
+    if not terms.is_trigonometric_polynomial:
+        raise AveragingRefused(
+            "D", where, f"{dither} grows with {phase}, it is not periodic; write Mod({phase}, {period}) for {phase}"
+        )
+    for _, rate in terms.terms:
+        number = turns(rate, period)
+        if number.is_integer:
+            continue
+        if number.is_Rational:
+            raise AveragingRefused(
+                "D",
+                where,
+                f"{period} is not a period of {dither}: its part of frequency {rate} makes {number} turns in it; "
+                f"{sp.simplify(number.q * period)} would be a common period",
+            )
+        raise AveragingRefused(
+            "D",
+            where,
+            f"{period} is not a period of {dither}: its part of frequency {rate} makes {number} turns in it, "
+            "and with an irrational ratio of frequencies there is no common period",
+        )
+
+
+def _check_period_of_switches(dither: sp.Expr, phase: sp.Symbol, period: sp.Expr, where: str) -> None:
+    """A Piecewise is what it says on one period; everything else must have the period by itself."""
+    masked = dither.replace(lambda node: isinstance(node, sp.Piecewise), lambda node: sp.Dummy())
+    if phase not in masked.free_symbols:
+        return
+    if not switching.has_switch(masked, phase):
+        _check_period(read(masked, phase, where), dither, phase, period, where)
+        return
+    # The same pieces, one period later, must be the same functions.
+    constants = {symbol: sp.Symbol(f"c{i}") for i, symbol in enumerate(masked.atoms(sp.Dummy))}
+    masked = masked.xreplace(constants)
+    first = list(switching.pieces(masked, phase, sp.S.Zero, period, where))
+    later = list(switching.pieces(masked.subs(phase, phase + period), phase, sp.S.Zero, period, where))
+    same = len(first) == len(later) and all(
+        exact_sign(left[0] - right[0]) == 0
+        and all(
+            sp.simplify(a) == 0 and sp.simplify(b) == 0
+            for a, b in (
+                read(left[2], phase, where) + read(right[2], phase, where).scale(sp.S.NegativeOne)
+            ).terms.values()
+        )
+        for left, right in zip(first, later, strict=True)
+    )
+    if not same:
+        raise AveragingRefused("D", where, f"{period} is not a period of {dither}")

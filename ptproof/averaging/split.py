@@ -1,0 +1,119 @@
+"""A right-hand side written with sin and cos of (frequency · time + g(x)) becomes drift, fields and dithers."""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from ptproof.averaging.brackets import tidy
+from ptproof.averaging.quasipolynomial import exact_sign, read
+from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided
+from ptproof.system import DitherSystem, System
+
+
+def split_dithers(
+    system: System, omega: sp.Symbol, phase: sp.Symbol | None = None, *, name: str | None = None
+) -> DitherSystem:
+    """Angle addition: write a system as drift + √ω Σ field · cos(mθ) or sin(mθ), with θ = ω·time.
+
+    Parameters
+    ----------
+    system
+        Its right-hand side contains the frequency only in √ω and in sines and cosines of m·ω·time + g, with
+        rational m, and g free of the frequency (powers and products of these are expanded).
+    omega
+        The frequency, declared positive.
+    phase
+        The symbol θ for ω·time; left out, a real symbol ``theta``.
+
+    Returns
+    -------
+    DitherSystem
+        With the dithers cos(mθ), sin(mθ) in the order of m, only those whose field is not zero, and with
+        their least common period.
+
+    Raises
+    ------
+    AveragingRefused
+        If a fast term does not have the factor √ω, or the factor stands with no dither.
+
+    Guarantees
+    ----------
+    The difference between the result's ``to_system`` and ``system`` has the normal form 0, exactly.
+    Source: the step from eq:reduced_model_tau to eq:reduced_model_tau_2.
+    """
+    theta = sp.Symbol("theta", real=True) if phase is None else phase
+    if theta in {system.time, *system.state, *(system.parameters or ())}:
+        raise AveragingRefused("form", "phase", f"the system already uses the symbol {theta}; name another phase")
+    root = sp.Dummy("root")
+    drift: list[sp.Expr] = []
+    columns: dict[tuple[sp.Expr, int], dict[int, sp.Expr]] = {}
+    for row, entry in enumerate(system.rhs):
+        where = f"d{system.state[row]}/d{system.time}"
+        masked = entry.subs(omega, root**2)
+        waves = [node for node in masked.atoms(sp.sin, sp.cos) if root in node.free_symbols]
+        masked = masked.xreplace(
+            {wave: wave.func(_in_phase(wave.args[0], system.time, theta, root, where)) for wave in waves}
+        )
+        slow, masked = sp.powdenest(masked, force=True).as_independent(root, theta, as_Add=True)
+        drift.append(slow)
+        for (power, rate), parts in read(masked, theta, where).terms.items():
+            for sine, part in enumerate(parts):
+                if part != 0:
+                    field = _of_root(part, root, power, rate, where)
+                    if rate == 0:
+                        drift[row] += field
+                    else:
+                        columns.setdefault((rate, sine), {})[row] = field
+    order = sorted(columns, key=lambda key: (key[0], key[1]))
+    result = DitherSystem(
+        system.time,
+        theta,
+        omega,
+        system.state,
+        tuple(drift),
+        tuple(tuple(tidy(columns[key].get(row, sp.S.Zero)) for row in range(system.dimension)) for key in order),
+        tuple((sp.sin if sine else sp.cos)(rate * theta) for rate, sine in order),
+        _common_period([rate for rate, _ in order]),
+        name=system.name if name is None else name,
+    )
+    recombined = result.to_system()
+    for row, (ours, given) in enumerate(zip(recombined.rhs, system.rhs, strict=True)):
+        if tidy(sp.expand(sp.expand_trig(ours - given))) != 0:
+            raise ArithmeticError(f"split_dithers: recombining gives {ours} for entry {row + 1}, not {given}")
+    return result
+
+
+def _in_phase(argument: sp.Expr, time: sp.Symbol, theta: sp.Symbol, root: sp.Symbol, where: str) -> sp.Expr:
+    argument = sp.expand(argument)
+    fast = argument.coeff(root**2 * time)
+    rest = sp.expand(argument - fast * root**2 * time)
+    if not fast.is_Rational or root in rest.free_symbols:
+        raise AveragingRefused(
+            "form", where, f"the argument {argument.subs(root**2, sp.Symbol('omega'))} is not m*omega*{time} + g(x)"
+        )
+    return fast * theta + rest
+
+
+def _of_root(part: sp.Expr, root: sp.Symbol, power: int, rate: sp.Expr, where: str) -> sp.Expr:
+    """The coefficient of a dithered (√ω) or of a slow (no ω) term."""
+    if power:
+        raise AveragingUndecided(f"{where}: the phase stands outside of sines and cosines")
+    polynomial = sp.expand(part)
+    field = polynomial.coeff(root, 1) if rate != 0 else polynomial.coeff(root, 0)
+    rest = sp.expand(polynomial - field * (root if rate != 0 else 1))
+    if rest != 0 and tidy(rest) != 0:
+        kind = "a fast term" if rate != 0 else "a term without dither"
+        wanted = "exactly the factor sqrt(omega)" if rate != 0 else "no factor of omega"
+        shown = rest.subs(root, sp.Symbol("sqrt(omega)"))
+        raise AveragingRefused("form", where, f"{kind} must have {wanted}, but there is {shown}")
+    return field
+
+
+def _common_period(rates: list[sp.Expr]) -> sp.Expr:
+    if not rates:
+        return 2 * sp.pi
+    common = rates[0]
+    for rate in rates[1:]:
+        common = sp.gcd(common, rate)
+    assert exact_sign(common) > 0
+    return 2 * sp.pi / common
