@@ -1,0 +1,125 @@
+"""Growth that fades in the stretched time against steady decay, its escape time and its critical initial value."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import sympy as sp
+
+from ptproof.comparison.power import PowerBound, holds
+from ptproof.errors import InputError
+
+_ELAPSED = sp.Symbol("s", nonnegative=True)
+
+
+@dataclass(frozen=True)
+class DilatedBound:
+    """du/dτ ≤ (g/(1 + (τ − t₀)/T)² − h)·u^(1+σ), u(t₀) ≤ initial: the bound, its domain and its escape time.
+
+    This is the paper's comparison for a drift that fades in the stretched time (eq:Lyapunov_inequality_upper_bound
+    with σ = 0 before its last step, eq:remark_inequality with σ > 0). g ≥ 0 is the growth at the start, h > 0 the
+    decay, T > 0 the prescribed time. With s = τ − t₀ the integral of the rate is A(s) = gTs/(T + s) − hs.
+
+    For σ > 0 the denominator times (T + s) is a quadratic in s, positive at 0:
+    T − Bs + Whs², W = σ·initial^σ, B = WT(g − h) − 1. It has a root s > 0 exactly if
+    WT(√g − √h)² ≥ 1 and g > h, and the first one is 2T/(B + √(B² − 4WhT)).
+    """
+
+    time: sp.Symbol
+    start: sp.Expr
+    initial: sp.Expr
+    horizon: sp.Expr
+    growth: sp.Expr
+    decay: sp.Expr
+    sigma: sp.Expr
+    result: PowerBound = field(init=False)
+
+    def __post_init__(self) -> None:
+        for name in ("start", "initial", "horizon", "growth", "decay", "sigma"):
+            object.__setattr__(self, name, sp.sympify(getattr(self, name)))
+        for name in ("horizon", "decay", "initial"):
+            if getattr(self, name).is_positive is False:
+                raise InputError(f"comparison: {name} = {getattr(self, name)} is not positive")
+        if self.growth.is_negative or self.sigma.is_negative:
+            raise InputError(f"comparison: growth = {self.growth} and sigma = {self.sigma} must not be negative")
+        s, T = self.time - self.start, self.horizon
+        rate = self.growth / (1 + s / T) ** 2 - self.decay
+        integral = self.growth * T * s / (T + s) - self.decay * s
+        object.__setattr__(
+            self,
+            "result",
+            PowerBound(self.time, self.start, self.initial, rate, 1 + self.sigma, integral),
+        )
+        if self.sigma != 0:
+            holds(
+                self.result.denominator * (T + s) - self.quadratic.subs(self._elapsed, s),
+                "the denominator is the stated quadratic over T + s",
+            )
+            B, R = sp.symbols("B R", real=True)  # in letters: B and the root of the discriminant
+            r = 2 * T / (B + R)
+            weight = (B**2 - R**2) / (4 * self.decay * T)
+            holds(T - B * r + weight * self.decay * r**2, "the escape time is a root of the quadratic")
+
+    @property
+    def _elapsed(self) -> sp.Symbol:
+        return _ELAPSED
+
+    @property
+    def weight(self) -> sp.Expr:
+        """W = σ·initial^σ."""
+        return self.sigma * self.initial**self.sigma
+
+    @property
+    def _linear(self) -> sp.Expr:
+        return self.weight * self.horizon * (self.growth - self.decay) - 1
+
+    @property
+    def discriminant(self) -> sp.Expr:
+        """B² − 4WhT; the bound escapes exactly if this is ≥ 0 and B > 0."""
+        return self._linear**2 - 4 * self.weight * self.decay * self.horizon
+
+    @property
+    def _root(self) -> sp.Expr:
+        return sp.sqrt(self.discriminant)
+
+    @property
+    def bound(self) -> sp.Expr:
+        """The upper bound of u as an expression in τ."""
+        return self.result.bound
+
+    @property
+    def quadratic(self) -> sp.Expr:
+        """T − Bs + Whs² in the symbol ``s`` of elapsed stretched time (σ > 0)."""
+        s = self._elapsed
+        return self.horizon - self._linear * s + self.weight * self.decay * s**2
+
+    @property
+    def escape_elapsed(self) -> sp.Expr:
+        """The first s = τ − t₀ at which the bound is infinite, as a formula; it applies where :attr:`escapes`."""
+        return 2 * self.horizon / (self._linear + self._root)
+
+    @property
+    def excess(self) -> sp.Expr:
+        """WT(√g − √h)² − 1: with g > h the bound escapes if this is ≥ 0 and is finite for all time if it is < 0."""
+        return self.weight * self.horizon * (sp.sqrt(self.growth) - sp.sqrt(self.decay)) ** 2 - 1
+
+    @property
+    def turning_elapsed(self) -> sp.Expr:
+        """s = T(√(g/h) − 1), where the rate changes sign: the bound has its maximum there (g > h)."""
+        return self.horizon * (sp.sqrt(self.growth / self.decay) - 1)
+
+    @property
+    def largest_integral(self) -> sp.Expr:
+        """max A = T(√g − √h)² for g ≥ h, reached at :attr:`turning_elapsed`."""
+        return self.horizon * (sp.sqrt(self.growth) - sp.sqrt(self.decay)) ** 2
+
+    @property
+    def critical_initial(self) -> sp.Expr:
+        """The smallest initial value whose bound escapes: [σT(√g − √h)²]^(−1/σ), for g > h and σ > 0."""
+        return (self.sigma * self.largest_integral) ** (-1 / self.sigma)
+
+    def critical_initial_at(self, elapsed: sp.Expr) -> sp.Expr:
+        """The initial value whose denominator vanishes at s = ``elapsed`` (critical-V_0): (σA(s))^(−1/σ), A(s) > 0."""
+        T = self.horizon
+        stretch = 1 + elapsed / T
+        return (stretch / (self.sigma * elapsed * (self.growth - self.decay * stretch))) ** (1 / self.sigma)

@@ -1,0 +1,123 @@
+"""Growth and decay by a power: du/dτ ≤ α(τ)·u^p."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import sympy as sp
+
+from ptproof.errors import InputError
+from ptproof.proof.algebra import NotAlgebraic, is_zero
+
+
+def holds(difference: sp.Expr, what: str) -> None:
+    """Raise unless ``difference`` has the normal form zero."""
+    try:
+        holds = is_zero(difference)
+    except NotAlgebraic as error:
+        raise InputError(f"comparison: cannot check that {what} ({error})") from None
+    if not holds:
+        raise InputError(f"comparison: it does not hold, or cannot be shown, that {what}")
+
+
+@dataclass(frozen=True)
+class PowerBound:
+    """du/dτ ≤ α(τ)·u^p with u(start) ≤ initial implies u(τ) ≤ ``bound`` while ``denominator`` > 0.
+
+    With σ = p − 1, A(τ) = ∫ α from start to τ and σ ≠ 0 (Bernoulli), w = u^(−σ) satisfies −dw/dτ ≤ σα for σ > 0,
+    so w ≥ initial^(−σ) − σA, and as long as the right side is positive the power −1/σ, a decreasing function,
+    turns this into an upper bound of u. For σ < 0 both directions flip and the conclusion is the same. For
+    σ = 0 the logarithm does the same with an exponential, for every τ.
+
+    Attributes
+    ----------
+    time, start, initial
+        τ, where the inequality starts to hold, and an upper bound of u there (positive).
+    rate, power
+        α as an expression in τ (of either sign, continuous), and p.
+    integral
+        A, with dA/dτ = α and A(start) = 0.
+    denominator
+        1 − σ·initial^σ·A, or 1 when p = 1; the bound is valid on the interval from start on which it stays positive.
+    bound
+        initial·denominator^(−1/σ), or initial·exp(A) when p = 1.
+
+    Raises
+    ------
+    InputError
+        Unless the bound starts at ``initial`` and solves du/dτ = α·u^p by exact algebra.
+    """
+
+    time: sp.Symbol
+    start: sp.Expr
+    initial: sp.Expr
+    rate: sp.Expr
+    power: sp.Expr
+    integral: sp.Expr
+    denominator: sp.Expr = field(init=False)
+    bound: sp.Expr = field(init=False)
+
+    def __post_init__(self) -> None:
+        for name in ("start", "initial", "rate", "power", "integral"):
+            object.__setattr__(self, name, sp.sympify(getattr(self, name)))
+        if self.initial.is_positive is False:
+            raise InputError(f"comparison: the initial value {self.initial} is not positive")
+        sigma = self.sigma
+        linear = sigma == 0
+        denominator = sp.Integer(1) if linear else 1 - sigma * self.initial**sigma * self.integral
+        object.__setattr__(self, "denominator", denominator)
+        object.__setattr__(
+            self,
+            "bound",
+            self.initial * (sp.exp(self.integral) if linear else denominator ** (-1 / sigma)),
+        )
+        holds(sp.diff(self.integral, self.time) - self.rate, "the integral's derivative is the rate")
+        holds(self.integral.subs(self.time, self.start), "the integral starts at zero")
+        if linear:
+            holds(sp.diff(self.bound, self.time) - self.rate * self.bound, "the bound solves the equation")
+        else:  # in letters: D for the denominator, positive on the domain, and σ for p − 1
+            D, V = sp.symbols("D V", positive=True)
+            exponent = sp.Dummy("sigma", real=True, nonzero=True)
+            masked = V * D ** (-1 / exponent)
+            slope = -exponent * V**exponent * self.rate
+            holds(
+                sp.diff(self.denominator, self.time) + sigma * self.initial**sigma * self.rate,
+                "the denominator's derivative follows from the rate",
+            )
+            holds(
+                sp.diff(masked, D) * slope - self.rate * masked ** (1 + exponent),
+                "the bound solves the equation",
+            )
+        holds(self.bound.subs(self.time, self.start) - self.initial, "the bound starts at the initial value")
+
+    @property
+    def sigma(self) -> sp.Expr:
+        """p − 1."""
+        return sp.cancel(sp.together(self.power - 1))
+
+
+def power_bound(
+    *, time: sp.Symbol, rate: sp.Expr, power: sp.Expr, initial: sp.Expr, start: sp.Expr = sp.S.Zero,
+    integral: sp.Expr | None = None,
+) -> PowerBound:  # fmt: skip
+    """The bound from du/dτ ≤ α(τ)·u^p; the integral of α is found, or given, and in both cases checked.
+
+    Raises
+    ------
+    InputError
+        If the integral is not found, or not right.
+
+    Examples
+    --------
+    >>> s = sp.Symbol("s", real=True)
+    >>> power_bound(time=s, rate=sp.Integer(-2), power=sp.Integer(1), initial=sp.Integer(3)).bound
+    3*exp(-2*s)
+    >>> power_bound(time=s, rate=sp.Integer(-2), power=sp.Integer(2), initial=sp.Integer(3)).bound
+    3/(6*s + 1)
+    """
+    if integral is None:
+        antiderivative = sp.integrate(rate, time)
+        if antiderivative.has(sp.Integral):
+            raise InputError(f"comparison: no antiderivative found for the rate {rate}; give the integral")
+        integral = antiderivative - antiderivative.subs(time, start)
+    return PowerBound(time, start, initial, rate, power, integral)
