@@ -1,0 +1,197 @@
+"""The data of a seeking problem, checked when they are put together."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import sympy as sp
+
+from ptproof.drift import Drift
+from ptproof.errors import InputError
+from ptproof.system import System
+
+TIME = sp.Symbol("t", real=True)
+_LARGEST = 1e15
+_SMALLEST = 1e-15
+
+
+def number(value: Any, where: str) -> sp.Expr:
+    """``value`` as an exact real number, refused unless it is finite and of a size that floats can follow."""
+    exact = sp.sympify(value)
+    if not isinstance(exact, sp.Expr) or exact.free_symbols or not exact.is_number:
+        raise InputError(f"{where}: {value} is not a number")
+    approximate = sp.N(exact, 17)
+    if not approximate.is_Float and not approximate.is_Integer and not approximate.is_Rational:
+        raise InputError(f"{where}: {value} is not a finite real number")
+    if abs(approximate) > _LARGEST:
+        raise InputError(f"{where}: {value} is too large; numbers up to {_LARGEST:g} make sense here")
+    return exact
+
+
+def positive(value: Any, where: str) -> sp.Expr:
+    """:func:`number`, refused unless it is positive and not vanishingly small."""
+    exact = number(value, where)
+    if not sp.N(exact, 17) >= _SMALLEST:
+        raise InputError(f"{where}: must be positive (at least {_SMALLEST:g}), got {value}")
+    return exact
+
+
+@dataclass(frozen=True)
+class Tuning:
+    """What the user of the seeker chooses.
+
+    Attributes
+    ----------
+    k, omega, mu
+        Gain, dither frequency ω [rad/time] and filter constant μ [time], positive.
+    T
+        The prescribed time. [time]
+    t0
+        The start. [time]
+    nu_min
+        ν_min in (0, 1], at which the gain 1/ν² is clipped; None if it never is.
+    """
+
+    k: sp.Expr
+    omega: sp.Expr
+    mu: sp.Expr
+    T: sp.Expr
+    t0: sp.Expr = sp.S.Zero
+    nu_min: sp.Expr | None = None
+
+    def __post_init__(self) -> None:
+        for name in ("k", "omega", "mu", "T"):
+            object.__setattr__(self, name, positive(getattr(self, name), f"seeker.{name}"))
+        object.__setattr__(self, "t0", number(self.t0, "seeker.t0"))
+        if self.nu_min is not None:
+            nu_min = positive(self.nu_min, "seeker.nu_min")
+            if nu_min > 1:
+                raise InputError(f"seeker.nu_min: must lie in (0, 1], got {nu_min}")
+            object.__setattr__(self, "nu_min", nu_min)
+
+
+@dataclass(frozen=True)
+class Saturation:
+    """An angular acceleration sat(…)/ε with sat at ±level, and the constant gain to compare with (eq:sat_seeker)."""
+
+    epsilon: sp.Expr
+    level: sp.Expr
+    gain: sp.Expr
+
+    def __post_init__(self) -> None:
+        for name in ("epsilon", "level", "gain"):
+            object.__setattr__(self, name, positive(getattr(self, name), f"saturation.{name}"))
+
+
+@dataclass(frozen=True)
+class Initial:
+    """Where the seeker starts: position x, heading θ, filter state z (None: the measured field) and velocity u₂."""
+
+    x: tuple[sp.Expr, ...]
+    theta: sp.Expr = sp.S.Zero
+    z: sp.Expr | None = None
+    u2: sp.Expr = sp.S.Zero
+
+    def __post_init__(self) -> None:
+        position = tuple(number(value, f"initial.x[{i}]") for i, value in enumerate(self.x))
+        object.__setattr__(self, "x", position)
+        for name in ("theta", "z", "u2"):
+            value = getattr(self, name)
+            if value is not None:
+                object.__setattr__(self, name, number(value, f"initial.{name}"))
+
+
+@dataclass(frozen=True)
+class Problem:
+    """A source to seek: a field with its source, a drift, a seeker's tuning and an initial state.
+
+    Attributes
+    ----------
+    variables
+        The n coordinates of the field, real symbols. Its closed loops need n = 2.
+    field
+        F, an expression in ``variables``.
+    source
+        x*, n exact numbers.
+    kappa
+        The κ of the field's bounds, a positive integer.
+    drift
+        f(t, x) in :data:`TIME` and ``variables``.
+    tuning, initial, saturation
+        See the classes; ``saturation`` is None where the problem has none.
+    name
+        For people.
+
+    Raises
+    ------
+    InputError
+        For data that don't fit together, naming the key at fault.
+    """
+
+    variables: tuple[sp.Symbol, ...]
+    field: sp.Expr
+    source: tuple[sp.Expr, ...]
+    kappa: int
+    drift: Drift
+    tuning: Tuning
+    initial: Initial
+    saturation: Saturation | None = None
+    name: str = "problem"
+
+    def __post_init__(self) -> None:
+        n = len(self.variables)
+        if n == 0 or len(set(self.variables)) != n:
+            raise InputError("field.variables: expected at least one name, each once")
+        source = tuple(number(value, f"field.source[{i}]") for i, value in enumerate(self.source))
+        object.__setattr__(self, "source", source)
+        for what, length in (("field.source", len(source)), ("initial.x", len(self.initial.x))):
+            if length != n:
+                raise InputError(f"{what}: {length} entries for {n} coordinates; give one for each")
+        if len(self.drift.rate) != n:
+            raise InputError(f"drift: {len(self.drift.rate)} entries for {n} coordinates; give one for each")
+        if isinstance(self.kappa, bool) or not isinstance(self.kappa, int) or not 1 <= self.kappa <= 1000:
+            raise InputError(f"field.kappa: must be a positive integer (up to 1000), got {self.kappa}")
+        if extra := self.field.free_symbols - set(self.variables):
+            raise InputError(
+                f"field.expression: contains {', '.join(sorted(map(str, extra)))}, which is not a variable"
+            )
+        for where, point in (("field.source", source), ("initial.x", self.initial.x)):
+            number_at(self.field, self.variables, point, f"field.expression at {where}")
+
+    @property
+    def measured(self) -> sp.Expr:
+        """z₀: the given filter state, or the field at the initial position."""
+        if self.initial.z is not None:
+            return self.initial.z
+        return self.field.subs(dict(zip(self.variables, self.initial.x, strict=True)), simultaneous=True)
+
+    @property
+    def peak(self) -> sp.Expr:
+        """F(x*)."""
+        return self.field.subs(dict(zip(self.variables, self.source, strict=True)), simultaneous=True)
+
+    @property
+    def values(self) -> Mapping[sp.Symbol, sp.Expr]:
+        """The exact value of each parameter symbol of the symbolic closed loops."""
+        from ptproof.problem.loops import parameter_values
+
+        return parameter_values(self)
+
+    def closed_loop(
+        self, seeker: str = "pt", frame: str = "t", *, coordinates: str = "full", symbolic: bool = False
+    ) -> System:
+        """The closed loop as a :class:`System`; see :func:`ptproof.problem.closed_loop`."""
+        from ptproof.problem.loops import closed_loop
+
+        return closed_loop(self, seeker, frame, coordinates=coordinates, symbolic=symbolic)
+
+
+def number_at(expression: sp.Expr, variables: tuple[sp.Symbol, ...], point: tuple[sp.Expr, ...], where: str) -> sp.Expr:
+    """The exact value of ``expression`` at ``point``, refused unless it is a finite real number."""
+    value = expression.subs(dict(zip(variables, point, strict=True)), simultaneous=True)
+    try:
+        return number(value, where)
+    except InputError:
+        raise InputError(f"{where}: the field has no finite real value there ({value})") from None
