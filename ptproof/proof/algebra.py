@@ -29,9 +29,7 @@ def prepare(expression: sp.Expr) -> sp.Expr:
     if expression.has(sp.tan, sp.cot, sp.sec, sp.csc):
         expression = expression.replace(sp.tan, lambda a: sp.sin(a) / sp.cos(a))
         expression = expression.replace(sp.cot, lambda a: sp.cos(a) / sp.sin(a))
-        expression = expression.replace(sp.sec, lambda a: 1 / sp.cos(a)).replace(
-            sp.csc, lambda a: 1 / sp.sin(a)
-        )
+        expression = expression.replace(sp.sec, lambda a: 1 / sp.cos(a)).replace(sp.csc, lambda a: 1 / sp.sin(a))
     expression = expression.replace(sp.sinh, lambda a: (sp.exp(a) - sp.exp(-a)) / 2)
     expression = expression.replace(sp.cosh, lambda a: (sp.exp(a) + sp.exp(-a)) / 2)
     expression = expression.replace(sp.tanh, lambda a: (sp.exp(a) - sp.exp(-a)) / (sp.exp(a) + sp.exp(-a)))
@@ -136,9 +134,7 @@ class Generators:
             return self._power(*pair)
         if isinstance(expression, sp.Pow) and expression.exp.is_Integer:
             return self.rational(expression.base) ** expression.exp
-        if isinstance(
-            expression, AppliedUndef | sp.Derivative | sp.log | sp.Function | sp.Integral | sp.Piecewise
-        ):
+        if isinstance(expression, AppliedUndef | sp.Derivative | sp.log | sp.Function | sp.Integral | sp.Piecewise):
             return self.symbol(expression, **({"real": True} if expression.is_real else {}))
         if expression in (sp.pi, sp.E) or expression.is_NumberSymbol:
             return self.symbol(expression, positive=True)

@@ -194,7 +194,10 @@ def instance(used: Claim, values: Mapping[Any, Any] | None = None) -> tuple[Impl
     if any(not isinstance(item, Relation) for item in used.assumptions):
         return ()
     hypotheses = tuple(
-        substitute_in(part, values) for item in used.assumptions if isinstance(item, Relation) for part in item.components()
+        substitute_in(part, values)
+        for item in used.assumptions
+        if isinstance(item, Relation)
+        for part in item.components()
     )
     return tuple(
         Implication(hypotheses, substitute_in(part, values), source=used.id) for part in relations_of(used.statement)

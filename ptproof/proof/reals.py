@@ -43,7 +43,11 @@ def reals(goal: Goal, *lemmas: Implication, seconds: float = SECONDS) -> Evidenc
 
 
 def follows(
-    conclusion: Relation, assumptions: Sequence[Relation], facts: Sequence[Implication] = (), *, seconds: float = SECONDS
+    conclusion: Relation,
+    assumptions: Sequence[Relation],
+    facts: Sequence[Implication] = (),
+    *,
+    seconds: float = SECONDS,
 ) -> tuple[bool, str]:
     """Whether ``conclusion`` follows over the reals: (True, how) or (False, what was tried)."""
     import z3
@@ -82,13 +86,16 @@ class _Problem:
             count = len(fact.hypotheses)
             self.facts.append(Implication(tuple(rest[:count]), rest[count], fact.source))
             rest = rest[count + 1 :]
-        self.choices = [(g, self.generators.choice(g)) for g in self.generators.meaning if self.generators.choice(g)]
+        found = ((symbol, self.generators.choice(symbol)) for symbol in self.generators.meaning)
+        self.choices = [(symbol, choice) for symbol, choice in found if choice is not None]
 
     def solver(self, z3: Any, tactic: str, milliseconds: int) -> Any:
         if tactic == "default":
             solver = z3.Solver()
         else:
-            solver = z3.Then("simplify", "purify-arith", "propagate-values", "solve-eqs", "tseitin-cnf", tactic).solver()
+            solver = z3.Then(
+                "simplify", "purify-arith", "propagate-values", "solve-eqs", "tseitin-cnf", tactic
+            ).solver()
         solver.set("timeout", max(milliseconds, 1))
         variables: dict[sp.Symbol, Any] = {}
 
@@ -159,5 +166,8 @@ def _known(symbol: sp.Symbol, variable: Any, meaning: sp.Expr | None, z3: Any) -
     if meaning is not None and meaning.is_NumberSymbol:
         # An enclosure from SymPy's rational bounds of the constant; wide enough to be safe.
         low, high = meaning.approximation_interval(sp.Rational)
-        facts += [variable > z3.RealVal(str(Fraction(low.p, low.q))), variable < z3.RealVal(str(Fraction(high.p, high.q)))]
+        facts += [
+            variable > z3.RealVal(str(Fraction(low.p, low.q))),
+            variable < z3.RealVal(str(Fraction(high.p, high.q))),
+        ]
     return facts

@@ -145,7 +145,7 @@ def candidates(goal: Goal) -> Iterator[dict[Any, Any]]:
     A symbol that an assumption sets equal to an expression gets its value from there. The order is fixed.
     """
     everything = [goal.statement, *goal.assumptions]
-    given = {}
+    given: dict[sp.Symbol, sp.Expr] = {}
     for relation in goal.relations:
         if relation.sign == "=" and isinstance(relation.left, sp.Symbol):
             given.setdefault(relation.left, relation.right)

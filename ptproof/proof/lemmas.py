@@ -1,0 +1,55 @@
+"""Facts of real analysis that a proof may use, each an implication that holds for all real values.
+
+A lemma is named in the proof with the terms that it is used for; z3 has to establish its hypotheses itself.
+"""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from ptproof.proof.statement import Implication, ge, gt, le, lt
+
+
+def power_monotone(lower: sp.Expr, upper: sp.Expr, exponent: sp.Expr) -> Implication:
+    """0 ≤ a ≤ b and p ≥ 0 give a^p ≤ b^p: s ↦ s^p does not decrease on [0, ∞)."""
+    hypotheses = (le(0, lower), le(lower, upper), ge(exponent, 0))
+    return Implication(hypotheses, le(lower**exponent, upper**exponent), "monotone power")
+
+
+def power_strict(lower: sp.Expr, upper: sp.Expr, exponent: sp.Expr) -> Implication:
+    """0 < a < b and p > 0 give a^p < b^p."""
+    hypotheses = (lt(0, lower), lt(lower, upper), gt(exponent, 0))
+    return Implication(hypotheses, lt(lower**exponent, upper**exponent), "monotone power")
+
+
+def power_positive(base: sp.Expr, exponent: sp.Expr) -> Implication:
+    """b > 0 gives b^p > 0."""
+    return Implication((gt(base, 0),), gt(base**exponent, 0), "positive power")
+
+
+def superadditive(smaller: sp.Expr, rest: sp.Expr, exponent: sp.Expr) -> Implication:
+    """a, b ≥ 0 and p ≥ 1 give a^p + b^p ≤ (a + b)^p: with s = a/(a + b), s^p + (1 − s)^p ≤ s + (1 − s) = 1."""
+    hypotheses = (ge(smaller, 0), ge(rest, 0), ge(exponent, 1))
+    conclusion = le(smaller**exponent + rest**exponent, (smaller + rest) ** exponent)
+    return Implication(hypotheses, conclusion, "superadditive power")
+
+
+def exp_monotone(lower: sp.Expr, upper: sp.Expr) -> Implication:
+    """a ≤ b gives e^a ≤ e^b."""
+    return Implication((le(lower, upper),), le(sp.exp(lower), sp.exp(upper)), "monotone exponential")
+
+
+def cosine_parabola(argument: sp.Expr) -> Implication:
+    """1 − u²/2 ≤ cos u: both sides and their slopes agree at 0, and −1 ≤ −cos u compares the second derivatives."""
+    return Implication((), ge(sp.cos(argument), 1 - argument**2 / 2), "cosine parabola")
+
+
+def cosine_quartic(argument: sp.Expr) -> Implication:
+    """cos u ≤ 1 − u²/2 + u⁴/24: integrate the cosine parabola twice from 0."""
+    upper = 1 - argument**2 / 2 + argument**4 / 24
+    return Implication((), le(sp.cos(argument), upper), "cosine quartic")
+
+
+def sine_line(argument: sp.Expr) -> Implication:
+    """u ≥ 0 gives sin u ≤ u."""
+    return Implication((ge(argument, 0),), le(sp.sin(argument), argument), "sine below its tangent")

@@ -1,0 +1,196 @@
+"""Reading a folder or file of derivations: its modules, its claims and definitions, in the order of the text."""
+
+from __future__ import annotations
+
+import hashlib
+import importlib.machinery
+import importlib.util
+import sys
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from types import ModuleType
+from typing import TypeVar
+
+from ptproof.errors import InputError
+from ptproof.proof.claim import Claim, Definition
+
+Item = TypeVar("Item", Claim, Definition)
+
+
+@dataclass(frozen=True)
+class Derivation:
+    """The claims and definitions of one or more folders, sections in the order of their files.
+
+    Raises
+    ------
+    InputError
+        If two claims or definitions share an id.
+    """
+
+    claims: tuple[Claim, ...]
+    definitions: tuple[Definition, ...]
+    paths: tuple[str, ...]
+
+    def __post_init__(self) -> None:
+        seen: dict[str, str] = {}
+        everything: list[Claim | Definition] = [*self.claims, *self.definitions]
+        for item in everything:
+            if item.id in seen:
+                raise InputError(f"the id {item.id!r} stands twice: {seen[item.id]!r} and {item.title!r}")
+            seen[item.id] = item.title
+
+    def select(self, text: str) -> tuple[Claim, ...]:
+        """The claims whose id, title, section or labels contain ``text``, and all that they use."""
+        if not text:
+            return self.claims
+        wanted: set[str] = set()
+
+        def take(item: Claim) -> None:
+            if item.id not in wanted:
+                wanted.add(item.id)
+                for used in item.uses:
+                    take(used)
+
+        for item in self.claims:
+            if any(text.lower() in word.lower() for word in (item.id, item.title, item.section, *item.labels)):
+                take(item)
+        return tuple(item for item in self.claims if item.id in wanted)
+
+
+def shipped() -> Path:
+    """The folder of the derivations that ship with the package, or that stand beside it in a checkout."""
+    here = Path(__file__).resolve().parents[1]
+    for folder in (here / "_derivations", here.parent / "derivations"):
+        if folder.is_dir():
+            return folder
+    raise InputError("the derivations that ship with ptproof are missing; name a folder of derivations")
+
+
+def load(paths: Sequence[str | Path] = ()) -> Derivation:
+    """Import every module below ``paths`` (the shipped derivations where left out) and collect what they hold.
+
+    A folder that holds Python files is one derivation and is imported as a package, so its modules may say
+    ``from .notation import …``. A folder of such folders holds several.
+
+    Raises
+    ------
+    InputError
+        If a path does not exist, holds no claim, or a module cannot be imported: with file, line and reason.
+    """
+    chosen = [Path(path) for path in paths] or [shipped()]
+    claims: dict[str, Claim] = {}
+    definitions: dict[str, Definition] = {}
+    modules: list[ModuleType] = []
+    for path in chosen:
+        if not path.exists():
+            raise InputError(f"{path}: no such file or folder")
+        modules += list(_modules(path.resolve()))
+    for module in modules:
+        for value in vars(module).values():
+            for item in value if isinstance(value, list | tuple) else (value,):
+                if isinstance(item, Claim):
+                    _add(claims, item)
+                elif isinstance(item, Definition):
+                    _add(definitions, item)
+    if not claims:
+        raise InputError(f"{', '.join(map(str, chosen))}: no claims found")
+    missing = {used.id: used for item in claims.values() for used in _ancestors(item) if used.id not in claims}
+    ordered = (*claims.values(), *missing.values())
+    return Derivation(ordered, tuple(definitions.values()), tuple(map(str, chosen)))
+
+
+def _add(found: dict[str, Item], item: Item) -> None:
+    """Keep an item once, however many modules import it; another one under the same id is an error."""
+    if found.setdefault(item.id, item) is not item:
+        raise InputError(f"the id {item.id!r} stands twice: {found[item.id].title!r} and {item.title!r}")
+
+
+def _ancestors(item: Claim) -> Iterable[Claim]:
+    for used in item.uses:
+        yield used
+        yield from _ancestors(used)
+
+
+def _modules(path: Path) -> Iterable[ModuleType]:
+    if path.is_file():
+        if path.suffix != ".py":
+            raise InputError(f"{path}: not a Python file of derivations")
+        if (path.parent / "__init__.py").exists():
+            package = _package(path.parent)
+            yield _import(f"{package}.{path.stem}", path)
+        else:
+            yield _import(_name(path), path)
+        return
+    files = sorted(
+        file for file in path.glob("*.py") if file.name != "__init__.py" and not file.name.startswith("test_")
+    )
+    if files:
+        package = _package(path)
+        for file in files:
+            yield _import(f"{package}.{file.stem}", file)
+        return
+    folders = sorted(folder for folder in path.iterdir() if folder.is_dir() and any(folder.glob("*.py")))
+    if not folders:
+        raise InputError(f"{path}: no Python files of derivations")
+    for folder in folders:
+        yield from _modules(folder)
+
+
+def _name(path: Path) -> str:
+    # The path is part of the name, so that two folders of the same name are two packages.
+    return f"ptproof_derivation_{path.stem}_{hashlib.sha256(str(path).encode()).hexdigest()[:8]}"
+
+
+def _package(folder: Path) -> str:
+    name = _name(folder)
+    if name not in sys.modules:
+        init = folder / "__init__.py"
+        spec = importlib.util.spec_from_file_location(
+            name, init if init.exists() else None, submodule_search_locations=[str(folder)]
+        )
+        if spec is None:
+            spec = importlib.machinery.ModuleSpec(name, None, is_package=True)
+            spec.submodule_search_locations = [str(folder)]
+        module = importlib.util.module_from_spec(spec)
+        sys.modules[name] = module
+        if spec.loader is not None and init.exists():
+            _execute(spec, module, init)
+    return name
+
+
+def _import(name: str, file: Path) -> ModuleType:
+    if name in sys.modules:
+        return sys.modules[name]
+    spec = importlib.util.spec_from_file_location(name, file)
+    if spec is None or spec.loader is None:
+        raise InputError(f"{file}: cannot be imported")
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module
+    _execute(spec, module, file)
+    return module
+
+
+def _execute(spec: importlib.machinery.ModuleSpec, module: ModuleType, file: Path) -> None:
+    assert spec.loader is not None
+    try:
+        spec.loader.exec_module(module)
+    except InputError as error:
+        sys.modules.pop(spec.name, None)
+        raise InputError(f"{file}: {error}") from error
+    except (Exception, SystemExit) as error:
+        sys.modules.pop(spec.name, None)
+        raise InputError(f"{_where(error, file)}: {type(error).__name__}: {error}") from error
+
+
+def _where(error: BaseException, file: Path) -> str:
+    """The place in the derivation at which the import failed: the last line that is the user's own."""
+    if isinstance(error, SyntaxError) and error.filename:
+        return f"{error.filename}, line {error.lineno}"
+    place, trace = str(file), error.__traceback__
+    while trace is not None:
+        name = trace.tb_frame.f_code.co_filename
+        if Path(name).parent == file.parent:
+            place = f"{name}, line {trace.tb_lineno}"
+        trace = trace.tb_next
+    return place
