@@ -1,0 +1,1 @@
+"""Practical prescribed-time seeking of a repulsive source (Todorovski and Krstic), section by section."""
