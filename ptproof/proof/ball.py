@@ -57,11 +57,16 @@ class _Balls:
     def integer_power(self, base: Any, exponent: int) -> Any:
         if exponent < 0:
             return _finite(1 / self.integer_power(base, -exponent), "a division by something that may be zero")
-        if exponent % 2 == 0 and exponent > 0 and not (base > 0 or base < 0):
-            # The library's own power is not defined on balls that contain zero, and a product forgets the sign.
-            top = _binary_power(base.abs_upper(), exponent)
-            return _finite(interval(0, top), "a power").nonnegative_part() if top > 0 else arb(0)
-        return _binary_power(base, exponent)
+        if exponent < 2:
+            return base if exponent == 1 else arb(1)
+        if base.rel_accuracy_bits() > 20:
+            return _binary_power(base, exponent)
+        # The library's own power is not defined on balls that contain zero, and a product forgets the sign:
+        # go by the ends, between which the power is monotone.
+        if exponent % 2 or base > 0 or base < 0:
+            return interval(_binary_power(base.lower(), exponent), _binary_power(base.upper(), exponent))
+        top = _finite(_binary_power(base.abs_upper(), exponent), "a power")
+        return interval(0, top).nonnegative_part() if top > 0 else arb(0)
 
     def root(self, base: Any, numerator: int, denominator: int, nonnegative: bool) -> Any:
         if not (nonnegative or base >= 0):
@@ -111,6 +116,9 @@ class _Balls:
         for value in values[1:]:
             total = total.union(value)
         return total
+
+    def either(self, values: Sequence[Any]) -> Any:
+        return self.hull(values)
 
     def order(self, value: Any) -> int | None:
         if value > 0:

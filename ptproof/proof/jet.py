@@ -30,8 +30,7 @@ class Jet:
     def __add__(self, other: Any) -> Jet:
         if isinstance(other, Jet):
             slopes = tuple(
-                b if a is None else a if b is None else a + b
-                for a, b in zip(self.slopes, other.slopes, strict=True)
+                b if a is None else a if b is None else a + b for a, b in zip(self.slopes, other.slopes, strict=True)
             )
             return Jet(self.value + other.value, slopes)
         return Jet(self.value + other, self.slopes)
@@ -132,6 +131,8 @@ class _Jets:
         return arb(known)
 
     def maximum(self, left: Any, right: Any) -> Any:
+        if not isinstance(left, Jet) and not isinstance(right, Jet):
+            return BALLS.maximum(left, right)
         known = self.order(left - right)
         if known is not None:
             return left if known >= 0 else right
@@ -168,7 +169,7 @@ class _Jets:
         )
         return Jet(BALLS.hull([_value(value) for value in values]), slopes)
 
-    def piecewise(self, values: Sequence[Any]) -> Any:
+    def either(self, values: Sequence[Any]) -> Any:
         raise Undefined("a Piecewise that may jump")
 
     def order(self, value: Any) -> int | None:
@@ -209,17 +210,21 @@ def middle(side: Side) -> arb:
     return ((side[0] + side[1]) / 2).mid()
 
 
-def upper_bound(
-    function: Callable[[Sequence[Any], Any], Any], box: Sequence[Side], weights: Sequence[float] | None = None
-) -> Bound:
+def upper_bound(function: Callable[[Sequence[Any], Any], Any], box: Sequence[Side]) -> Bound:
     """Bound ``function(coordinates, arithmetic)`` from above on ``box`` by the mean value form.
 
     Raises :class:`Undefined` where the function or a derivative has no finite enclosure on the box.
     """
     balls = [interval(low, high) for low, high in box]
-    jet = function(variables(balls), JETS)
+    try:
+        jet = function(variables(balls), JETS)
+    except Undefined:
+        jet = None
     if not isinstance(jet, Jet):
-        return Bound(jet.upper(), tuple(middle(side) for side in box), None)
+        # Not differentiable here, or constant: what remains is the range of the function on the balls.
+        natural = (function(balls, BALLS) if jet is None else jet).upper()
+        widest = max(range(len(box)), key=lambda index: float(balls[index].rad()), default=None)
+        return Bound(_finite(natural), tuple(map(middle, box)), None if jet is not None else widest)
     point: list[arb] = []
     spread = arb(0)
     split, largest = None, -1.0
@@ -241,6 +246,10 @@ def upper_bound(
     natural = jet.value.upper()
     if not upper.is_finite() or natural < upper:
         upper = natural
-    if not upper.is_finite():
+    return Bound(_finite(upper), tuple(point), split)
+
+
+def _finite(ball: arb) -> arb:
+    if not ball.is_finite():
         raise Undefined("no finite value there")
-    return Bound(upper, tuple(point), split)
+    return ball

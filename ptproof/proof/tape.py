@@ -56,8 +56,8 @@ class Arithmetic(Protocol):
     def angle(self, y: Any, x: Any) -> Any:
         """The angle of the point (x, y), in (-π, π]."""
 
-    def hull(self, values: Sequence[Any]) -> Any:
-        """A number that contains all of ``values``; may raise :class:`Undefined`."""
+    def either(self, values: Sequence[Any]) -> Any:
+        """One of ``values``, which are branches of a Piecewise; may raise :class:`Undefined`."""
 
     def order(self, value: Any) -> int | None:
         """The sign of ``value`` where it is certain (0 only for exactly zero), else None."""
@@ -203,7 +203,7 @@ def _piecewise(branches: Sequence[tuple[Tape, Condition]], values: Sequence[Any]
         candidates.append(tape)
         if holds:
             found = [tape.run(values, arithmetic)[0] for tape in candidates]
-            return found[0] if len(found) == 1 else arithmetic.hull(found)
+            return found[0] if len(found) == 1 else arithmetic.either(found)
     raise Undefined("a Piecewise whose conditions may all fail here")
 
 
