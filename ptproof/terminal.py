@@ -45,17 +45,17 @@ def verification_table(verification: Verification) -> None:
     for section, results in groupby(verification.results, key=lambda result: result.claim.section):
         table = Table(title=section or "Claims", title_justify="left", title_style="bold", box=None, pad_edge=False)
         table.add_column("verdict", no_wrap=True)
-        table.add_column("claim", ratio=2)
+        table.add_column("claim", ratio=3)
         table.add_column("id", ratio=2, style="dim", overflow="fold")
-        table.add_column("by", style="dim")
         for result in results:
             word = str(result.verdict)
             shown = Text(word, style=COLOURS[word])
             if word == "proved" and not result.fully_proved:
-                shown.append(" (modulo citations or open claims)", style="dim")
+                shown.append("*")
+            title = Text(result.claim.title)
             if not result.as_expected:
-                shown.append(f"  expected {result.claim.expected}", style="bold red")
-            table.add_row(shown, result.claim.title, result.claim.id, result.evidence[0].engine)
+                title.append(f"  (expected {result.claim.expected})", style="bold red")
+            table.add_row(shown, title, result.claim.id)
         console.print(table)
         console.print()
     for result in verification.results:
@@ -68,6 +68,8 @@ def verification_table(verification: Verification) -> None:
                 console.print(Text(f"? {result.claim.id}: {item.detail}", style="yellow"))
     summary = verification.summary()
     words = ", ".join(f"{summary[word]} {word}" for word in COLOURS if summary[word])
+    if summary["proved"] > summary["fully_proved"]:
+        console.print("* modulo citations or open claims that it uses")
     console.print(
         f"{summary['total']} claims in {verification.seconds:.1f} s: {words}; "
         f"{summary['fully_proved']} fully proved, {summary['unexpected']} not as expected"

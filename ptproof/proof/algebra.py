@@ -33,6 +33,11 @@ def prepare(expression: sp.Expr) -> sp.Expr:
     expression = expression.replace(sp.sinh, lambda a: (sp.exp(a) - sp.exp(-a)) / 2)
     expression = expression.replace(sp.cosh, lambda a: (sp.exp(a) + sp.exp(-a)) / 2)
     expression = expression.replace(sp.tanh, lambda a: (sp.exp(a) - sp.exp(-a)) / (sp.exp(a) + sp.exp(-a)))
+    # One function at two equal arguments has to become one generator.
+    expression = expression.replace(
+        lambda node: isinstance(node, AppliedUndef),
+        lambda node: node.func(*(sp.factor(sp.cancel(sp.together(argument))) for argument in node.args)),
+    )
     return expression.replace(
         lambda node: isinstance(node, sp.sin | sp.cos), lambda node: _angle(node.func, node.args[0])
     )

@@ -9,6 +9,7 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
+from types import FrameType
 from typing import Any, TypeAlias
 
 import sympy as sp
@@ -152,11 +153,13 @@ def claim(
     corrects: Claim | None = None,
     place: str = "",
 ) -> Callable[[Proof], Claim]:
-    """Make the decorated proof a :class:`Claim`; its docstring is the prose of the report."""
+    """Make the decorated proof a :class:`Claim`; its docstring is the prose of the report.
+
+    The section is the ``SECTION`` of the module in which this is called.
+    """
+    section = _section_of_caller(inspect.currentframe())
 
     def make(prove: Proof) -> Claim:
-        module = inspect.getmodule(prove)
-        section = getattr(module, "SECTION", "") if module is not None else ""
         return Claim(
             id, title, states, prove, tuple(given), tuple(uses), tuple(labels), Verdict(expected),
             inspect.cleandoc(prove.__doc__ or ""), section, corrects, place,
@@ -165,14 +168,16 @@ def claim(
     return make
 
 
+def _section_of_caller(frame: FrameType | None) -> str:
+    caller = frame.f_back if frame is not None else None
+    return str(caller.f_globals.get("SECTION", "")) if caller is not None else ""
+
+
 def definition(
     id: str, title: str, states: Statement, *, labels: Iterable[str], prose: str = "", section: str = ""
 ) -> Definition:
     """A displayed definition; ``section`` is taken from the module that calls, where left out."""
-    if not section:
-        frame = inspect.currentframe()
-        caller = frame.f_back if frame is not None else None
-        section = str(caller.f_globals.get("SECTION", "")) if caller is not None else ""
+    section = section or _section_of_caller(inspect.currentframe())
     return Definition(id, title, tuple(labels), states, inspect.cleandoc(prose), section)
 
 
@@ -221,6 +226,7 @@ def cited(reference: str) -> Proof:
     def prove(goal: Goal) -> Evidence:
         return Evidence("citation", Verdict.CITED, reference)
 
+    prove.__doc__ = f"Taken from the literature: {reference}."
     return prove
 
 

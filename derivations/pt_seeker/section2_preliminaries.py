@@ -1,0 +1,410 @@
+"""Section 2: the averaging theorem's setting, and control laws by a change of time."""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from ptproof.averaging import average
+from ptproof.clock import contract, dilate
+from ptproof.proof.claim import Goal, cited, claim, definition
+from ptproof.proof.exact import exact
+from ptproof.proof.integrals import integrals
+from ptproof.proof.limits import limits
+from ptproof.proof.reals import reals
+from ptproof.proof.statement import Prose, eq, every, ge, gt, le, lt
+from ptproof.proof.verdict import Evidence
+from ptproof.system import DitherSystem, System, lie_bracket
+
+from .chain import clock
+from .notation import T, k, mu, nu, omega, t, t0, tau, tau_fast, x1, x2, z
+
+SECTION = "2 Preliminaries"
+
+# --- 2.1 Singularly perturbed Lie bracket averaging, for two slow states, one fast state and two dithers ------------
+
+position = (x1, x2)
+phase = sp.Symbol("phi", real=True)
+slow = mu * tau_fast  # the paper's τ̄
+b = [tuple(sp.Function(f"b{i}{j}", real=True)(slow, x1, x2, z) for j in (1, 2)) for i in (0, 1, 2)]
+u = [sp.Function(f"u{i}", real=True)(slow, omega * slow) for i in (1, 2)]
+g = sp.Function("g", real=True)(x1, x2, z)
+l = sp.Function("l", real=True)(x1, x2)  # noqa: E741 - the paper's letter
+y = sp.Symbol("y_tilde", real=True)
+
+
+def _slow_rate(root: sp.Expr, steady: sp.Expr = z) -> sp.ImmutableDenseMatrix:
+    """μ b₀ + μ √(root) Σ bᵢ uᵢ at z = steady."""
+    rate = mu * sp.Matrix(b[0]) + mu * sp.sqrt(root) * (sp.Matrix(b[1]) * u[0] + sp.Matrix(b[2]) * u[1])
+    return sp.ImmutableDenseMatrix(rate.subs(z, steady))
+
+
+general_system = definition(
+    "2.1/general-system",
+    "Slow and fast states with dithers",
+    every(
+        eq(sp.Matrix([sp.Symbol("dx1"), sp.Symbol("dx2")]), _slow_rate(omega)),
+        eq(sp.Symbol("dz"), g),
+    ),
+    labels=["eq:general_nominal_system"],
+    prose="The class of systems that the theorem speaks of, written here for n = 2, m = 1 and N = 2; the rates are "
+    "those in the fast time, and the slow time is μ times it.",
+)
+
+
+def _general() -> System:
+    return System(tau_fast, (x1, x2, z), (*_slow_rate(omega), g), name="general system")
+
+
+@claim(
+    "2.1/boundary-layer",
+    "The boundary layer model",
+    eq(
+        g.subs(z, y + l),
+        _general().derivative_along(z - l).subs(z, y + l).subs(mu, 0),
+    ),
+    labels=["eq:boundary_layer_model"],
+)
+def boundary_layer(goal: Goal) -> Evidence:
+    """The deviation ỹ = z − l(x) is differentiated along the general system, z is replaced by ỹ + l(x), and μ is
+    set to 0: the terms with the slow rates vanish, and g(x, ỹ + l(x)) stays."""
+    return exact(goal)
+
+
+w = sp.Symbol("w", positive=True)
+_reduced = _slow_rate(omega, l)
+
+
+@claim(
+    "2.1/reduced-model-printed",
+    "The reduced model, as printed",
+    eq(_slow_rate(w, l), _reduced),
+    labels=["eq:reduced_model"],
+    expected="refuted",
+)
+def reduced_model_printed(goal: Goal) -> Evidence:
+    """The printed right-hand side carries √w, with a letter that is introduced nowhere, where substituting z = l(x)
+    in the slow rates gives √ω. Read as a letter of its own, the equation is false as soon as w differs from ω."""
+    return exact(goal)
+
+
+@claim(
+    "2.1/reduced-model",
+    "The reduced model",
+    eq(_general().vector[:2, 0].subs(z, l), _slow_rate(omega, l)),
+    labels=["eq:reduced_model"],
+    corrects=reduced_model_printed,
+)
+def reduced_model(goal: Goal) -> Evidence:
+    """On the quasi-steady state z = l(x) the slow rates of the general system are the reduced model, with √ω."""
+    return exact(goal)
+
+
+_fields = tuple(tuple(sp.Function(f"b{i}{j}", real=True)(tau, x1, x2) for j in (1, 2)) for i in (0, 1, 2))
+_dithers = (sp.cos(phase), sp.sin(phase))
+_general_average = average(DitherSystem(tau, phase, omega, position, _fields[0], _fields[1:], _dithers))
+_s, _theta = sp.symbols("s vartheta", real=True)
+
+
+def iterated_integral(outer: sp.Expr, inner: sp.Expr, period: sp.Expr = 2 * sp.pi) -> sp.Expr:
+    """v_ji = (1/T_f) ∫₀^{T_f} u_j(θ) ∫₀^θ u_i(s) ds dθ, unevaluated, for dithers given in the phase."""
+    inside = sp.Integral(inner.subs(phase, _s), (_s, 0, _theta))
+    return sp.Integral(outer.subs(phase, _theta) * inside, (_theta, 0, period)) / period
+
+
+@claim(
+    "2.1/lie-bracket-system",
+    "The Lie bracket system of arbitrary fields under cosine and sine",
+    eq(
+        sp.Matrix(_fields[0]) + sp.Matrix(lie_bracket(_fields[1], _fields[2], position)) / 2,
+        _general_average.vector,
+    ),
+    labels=["eq:Lie_Bracket_System"],
+)
+def lie_bracket_system(goal: Goal) -> Evidence:
+    """The averaging engine applied to two arbitrary smooth fields gives b₀ + [b₁, b₂] v₂₁, the printed sum for N = 2
+    with v₂₁ = 1/2. The period is written T in the paper's formula for v_ji, the letter of the prescribed time; it is
+    read as the period T_f of Assumption 1, and the sum as one over all pairs i < j."""
+    return exact(goal)
+
+
+@claim(
+    "2.1/iterated-integrals",
+    "v_ji of the dithers cos and sin",
+    every(
+        eq(iterated_integral(sp.sin(phase), sp.cos(phase)), sp.Rational(1, 2)),
+        eq(iterated_integral(sp.cos(phase), sp.sin(phase)), -sp.Rational(1, 2)),
+        eq(iterated_integral(sp.cos(phase), sp.cos(phase)), 0),
+        eq(iterated_integral(sp.sin(phase), sp.sin(phase)), 0),
+    ),
+    place="Section 2.1",
+)
+def iterated_integrals(goal: Goal) -> Evidence:
+    """v₂₁ = 1/2 is the constant that multiplies the bracket; v₁₂ = −v₂₁ and v_ii = 0 because the means vanish."""
+    return integrals(goal)
+
+
+_alpha = [sp.Function(f"alpha{i}", real=True)(sp.Symbol("s", nonnegative=True)) for i in (1, 2, 3)]
+_Vy = sp.Function("V", real=True)(y)
+
+blm_requirements = definition(
+    "2.1/boundary-layer-requirements",
+    "What is asked of the boundary layer",
+    every(
+        le(sp.Function("alpha1")(sp.Abs(y)), _Vy),
+        le(_Vy, sp.Function("alpha2")(sp.Abs(y))),
+        le(sp.Derivative(_Vy, y) * g.subs(z, y + l), -sp.Function("alpha3")(sp.Abs(y))),
+    ),
+    labels=["eq:blm_req_1", "eq:blm_req_2"],
+    prose="Two class-K∞ bounds and a class-K rate of decrease; they are shown for the seeker's boundary layer in Step 5.",
+)
+
+averaging_theorem = claim(
+    "2.1/averaging-theorem",
+    "Theorem 1: singularly perturbed Lie bracket averaging",
+    Prose(
+        "If Assumption 1 holds, a compact set is globally uniformly asymptotically stable for the Lie bracket system, "
+        "and the boundary layer has a Lyapunov function as required, then the set is singularly semi-globally "
+        "practically uniformly asymptotically stable for the general system"
+    ),
+    expected="cited",
+    place="Theorem 1",
+)(cited("Dürr, Krstić, Scheinker, Ebenbauer: singularly perturbed Lie bracket approximation; the paper's Theorem 1"))
+
+# --- 2.2 Control laws by a change of time -----------------------------------------------------------------------------
+
+x = sp.Symbol("x", real=True)
+x0 = sp.Symbol("x0", real=True)
+control = sp.Function("u", real=True)(t)
+stretch = 1 + (tau - t0) / T
+
+nominal = definition(
+    "2.2/nominal",
+    "The scalar example",
+    eq(sp.Symbol("dx"), control),
+    labels=["eq:nominal_example_t"],
+    prose="A single integrator; its input is to be chosen.",
+)
+nominal_system = System(t, (x,), (control,), name="scalar example")
+
+nu_definition = definition(
+    "2.2/nu", "The blow-down function ν", eq(sp.Function("nu")(t - t0), 1 - (t - t0) / T), labels=["eq:nu"],
+    prose="Its properties are claims: value 1 at the start, value 0 at the end, decreasing, and affine.",
+)  # fmt: skip
+elapsed = sp.Symbol("s", real=True)
+
+
+@claim(
+    "2.2/nu-properties",
+    "ν(0) = 1, ν(T) = 0",
+    every(eq(nu(sp.S.Zero), 1), eq(nu(T), 0), eq(sp.diff(nu(elapsed), elapsed, 2), 0)),
+    labels=["eq:nu"],
+)
+def nu_properties(goal: Goal) -> Evidence:
+    """Both end values, and a second derivative that vanishes: ν is affine."""
+    return exact(goal)
+
+
+@claim("2.2/nu-decreases", "ν decreases", lt(sp.diff(nu(elapsed), elapsed), 0), labels=["eq:nu"])
+def nu_decreases(goal: Goal) -> Evidence:
+    """The slope is −1/T."""
+    return reals(goal)
+
+
+@claim(
+    "2.2/nu-positive", "0 < ν ≤ 1 before the prescribed time", every(gt(nu(t - t0), 0), le(nu(t - t0), 1)),
+    given=[ge(t, t0), lt(t, t0 + T)], labels=["eq:nu"],
+)  # fmt: skip
+def nu_positive(goal: Goal) -> Evidence:
+    """On I_t = [t₀, t₀ + T) the function stays in (0, 1], so 1/ν² is at least 1 and finite."""
+    return reals(goal)
+
+
+@claim(
+    "2.2/time-map", "The time dilation is the clock's map", eq(t0 + (t - t0) / nu(t - t0), clock.to_tau),
+    labels=["eq:tau_to_t"],
+)  # fmt: skip
+def time_map(goal: Goal) -> Evidence:
+    """The printed map, beside the clock that every later step uses."""
+    return exact(goal)
+
+
+@claim(
+    "2.2/time-map-limit", "τ tends to infinity as t tends to t₀ + T",
+    eq(sp.Limit(t0 + (t - t0) / nu(t - t0), t, t0 + T, "-"), sp.oo), place="Section 2.2", uses=[time_map],
+)  # fmt: skip
+def time_map_limit(goal: Goal) -> Evidence:
+    """The numerator tends to T > 0 and ν falls to 0 from above."""
+    return limits(goal)
+
+
+@claim("2.2/dilation-rate", "dt/dτ", eq(1 / (1 + (tau - t0) / T) ** 2, sp.diff(clock.to_t, tau)), labels=["eq:dt_dtau"])
+def dilation_rate(goal: Goal) -> Evidence:
+    """The printed rate against the derivative of the clock's inverse."""
+    return exact(goal)
+
+
+@claim(
+    "2.2/dilated-example", "The scalar example in dilated time",
+    eq(control.subs(t, clock.to_t) / (1 + (tau - t0) / T) ** 2, dilate(nominal_system, clock).rhs[0]),
+    labels=["eq:nominal_example_tau"], uses=[dilation_rate],
+)  # fmt: skip
+def dilated_example(goal: Goal) -> Evidence:
+    """A signal keeps its letter in both time scales: u(τ) is the input at the instant t that belongs to τ."""
+    return exact(goal)
+
+
+law_tau = definition(
+    "2.2/law-tau", "The control law in dilated time", eq(sp.Function("u")(tau), -(stretch**2) * k * x),
+    labels=["eq:u_tau"], prose="Chosen so that the factor of the dilated equation cancels.",
+)  # fmt: skip
+feedback_system = System(t, (x,), (-k * x / nu(t - t0) ** 2,), name="scalar example under feedback")
+
+
+@claim(
+    "2.2/example", "The example under feedback is linear and time-invariant in τ",
+    eq(-k * x, dilate(nominal_system, clock).with_values({control: -((1 / nu(t - t0)) ** 2) * k * x}).rhs[0]),
+    labels=["eq:example"], uses=[dilated_example],
+)  # fmt: skip
+def example(goal: Goal) -> Evidence:
+    """The law is put into the dilated example; what stays is −kx."""
+    return exact(goal)
+
+
+@claim(
+    "2.2/law-tau-cancels", "The printed law cancels the factor", eq(-k * x, -(stretch**2) * k * x / stretch**2),
+    labels=["eq:u_tau", "eq:example"],
+)  # fmt: skip
+def law_tau_cancels(goal: Goal) -> Evidence:
+    """The law as printed in τ, times the printed rate."""
+    return exact(goal)
+
+
+_solution_tau = x0 * sp.exp(-k * (tau - t0))
+_solution_t = x0 * sp.exp(-k * (t - t0) / nu(t - t0))
+
+
+@claim(
+    "2.2/example-solution", "The solution in dilated time",
+    every(eq(sp.diff(_solution_tau, tau), -k * _solution_tau), eq(_solution_tau.subs(tau, t0), x0)),
+    labels=["eq:example_solution"], uses=[example],
+)  # fmt: skip
+def example_solution(goal: Goal) -> Evidence:
+    """It satisfies the equation and the initial condition."""
+    return exact(goal)
+
+
+@claim(
+    "2.2/example-limit", "x(τ) tends to 0", eq(sp.Limit(_solution_tau, tau, sp.oo, "-"), 0), place="Section 2.2",
+    uses=[example_solution],
+)  # fmt: skip
+def example_limit(goal: Goal) -> Evidence:
+    """The exponent tends to −∞ because k > 0."""
+    return limits(goal)
+
+
+@claim(
+    "2.2/inverse-map", "The time contraction undoes the time dilation",
+    every(
+        eq(t0 + (tau - t0) / (1 + (tau - t0) / T), clock.to_t),
+        eq((t0 + (tau - t0) / (1 + (tau - t0) / T)).subs(tau, t0 + (t - t0) / nu(t - t0)), t),
+        eq((t0 + (t - t0) / nu(t - t0)).subs(t, t0 + (tau - t0) / (1 + (tau - t0) / T)), tau),
+    ),
+    labels=["eq:t_to_tau"],
+)  # fmt: skip
+def inverse_map(goal: Goal) -> Evidence:
+    """The two printed maps are composed both ways."""
+    return exact(goal)
+
+
+@claim(
+    "2.2/inverse-map-limit", "t tends to t₀ + T as τ tends to infinity",
+    every(
+        eq(sp.Limit(t0 + (tau - t0) / (1 + (tau - t0) / T), tau, sp.oo, "-"), t0 + T),
+        eq(sp.Limit(t0 + (1 - t0 / tau) / (1 / T + (1 - t0 / T) / tau), tau, sp.oo, "-"), t0 + T),
+    ),
+    place="Section 2.2", uses=[inverse_map],
+)  # fmt: skip
+def inverse_map_limit(goal: Goal) -> Evidence:
+    """Both forms that the text writes."""
+    return limits(goal)
+
+
+@claim(
+    "2.2/inverse-map-forms", "The two forms of the contraction in the limit agree",
+    eq((1 - t0 / tau) / (1 / T + (1 - t0 / T) / tau), (tau - t0) / (1 + (tau - t0) / T)), place="Section 2.2",
+)  # fmt: skip
+def inverse_map_forms(goal: Goal) -> Evidence:
+    """Numerator and denominator are divided by τ."""
+    return exact(goal)
+
+
+@claim("2.2/contraction-rate", "dτ/dt", eq(1 / nu(t - t0) ** 2, sp.diff(clock.to_tau, t)), labels=["eq:dtau_dt"])
+def contraction_rate(goal: Goal) -> Evidence:
+    """The printed rate against the derivative of the clock's map."""
+    return exact(goal)
+
+
+_example_tau = System(tau, (x,), (-k * x,), name="example")
+
+
+@claim(
+    "2.2/contracted-example", "The example in the original time",
+    eq(-k * x / nu(t - t0) ** 2, contract(_example_tau, clock).rhs[0]),
+    labels=["eq:pt_example"], uses=[contraction_rate, example],
+)  # fmt: skip
+def contracted_example(goal: Goal) -> Evidence:
+    """The linear system is contracted with the clock."""
+    return exact(goal)
+
+
+@claim(
+    "2.2/law-t", "The control law in the original time",
+    eq(-k * x / nu(t - t0) ** 2, (-(stretch**2) * k * x).subs(tau, clock.to_tau)),
+    labels=["eq:u_t"], uses=[contracted_example],
+)  # fmt: skip
+def law_t(goal: Goal) -> Evidence:
+    """The law that was chosen in τ, at the τ that belongs to t."""
+    return exact(goal)
+
+
+@claim(
+    "2.2/pt-solution", "The solution in the original time",
+    every(
+        eq(sp.diff(_solution_t, t), -k * _solution_t / nu(t - t0) ** 2),
+        eq(_solution_t.subs(t, t0), x0),
+        eq(_solution_t, _solution_tau.subs(tau, clock.to_tau)),
+    ),
+    labels=["eq:pt_example_solution"], uses=[contracted_example, example_solution],
+)  # fmt: skip
+def pt_solution(goal: Goal) -> Evidence:
+    """It solves the contracted equation, starts at x₀, and is the same signal as the solution in τ."""
+    return exact(goal)
+
+
+@claim(
+    "2.2/pt-limit", "x(t) tends to 0 as t tends to t₀ + T", eq(sp.Limit(_solution_t, t, t0 + T, "-"), 0),
+    place="Section 2.2", uses=[pt_solution],
+)  # fmt: skip
+def pt_limit(goal: Goal) -> Evidence:
+    """The exponent −k(t − t₀)/ν tends to −∞."""
+    return limits(goal)
+
+
+@claim(
+    "2.2/round-trip", "Dilation and contraction undo each other",
+    every(
+        eq(contract(dilate(feedback_system, clock), clock).vector, feedback_system.vector),
+        eq(dilate(contract(_example_tau, clock), clock).vector, _example_tau.vector),
+    ),
+    place="Section 2.2", uses=[inverse_map, dilation_rate, contraction_rate],
+)  # fmt: skip
+def round_trip(goal: Goal) -> Evidence:
+    """Both orders, on the scalar example; the closed loop follows in Section 4."""
+    return exact(goal)
+
+
+example_guas = claim(
+    "2.2/example-guas", "The linear example is globally uniformly asymptotically stable",
+    Prose("x = 0 of dx/dτ = −kx is globally uniformly asymptotically stable for k > 0"),
+    expected="cited", place="Section 2.2", uses=[example_solution, example_limit],
+)(cited("the definition of global uniform asymptotic stability with β(s, τ) = s exp(−kτ); Khalil, Definition 4.4"))  # fmt: skip
