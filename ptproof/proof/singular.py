@@ -34,6 +34,7 @@ def find_singularity(
     found exactly. A derivative of order up to ``order`` that differs from the left and from the right, a pole, or
     a value that is not real near such a point is a witness; all comparisons are certain.
     """
+    names = {str(applied): str(_concrete(applied)) for applied in sorted(_plain(expression), key=str)}
     expression = _concrete(expression).replace(sp.tan, lambda angle: sp.sin(angle) / sp.cos(angle))
     for suspect in suspects:
         for argument in _arguments(_concrete(suspect)):
@@ -44,10 +45,18 @@ def find_singularity(
                     if not all(_certain(substitute_in(relation, point)) for relation in domain):
                         continue
                     line = expression.subs(values, simultaneous=True)
-                    found = _examine(line, variable, root, order, point)
+                    found = _examine(line, variable, order, point, domain, names)
                     if found is not None:
                         return found
     return None
+
+
+def _plain(expression: sp.Basic) -> set[AppliedUndef]:
+    return {
+        applied
+        for applied in expression.atoms(AppliedUndef)
+        if all(isinstance(argument, sp.Symbol) for argument in applied.args)
+    }
 
 
 def _concrete(expression: sp.Basic) -> sp.Basic:
@@ -147,27 +156,44 @@ def _sign(value: sp.Expr) -> int | None:
 
 
 def _examine(
-    line: sp.Expr, variable: sp.Symbol, root: sp.Expr, order: int, point: dict[sp.Symbol, sp.Expr]
+    line: sp.Expr,
+    variable: sp.Symbol,
+    order: int,
+    point: dict[sp.Symbol, sp.Expr],
+    domain: Sequence[Relation],
+    names: dict[str, str],
 ) -> Found | None:
+    root = point[variable]
     where = ", ".join(f"{symbol} = {value}" for symbol, value in point.items())
-    names = {str(symbol): str(value) for symbol, value in point.items()}
+    names = {**names, **{str(symbol): str(value) for symbol, value in point.items()}}
     left, right = (_one_sided(line, variable, root, side) for side in (-1, 1))
     if left is None or right is None:
         return None
-    for side, branch in (("left", left), ("right", right)):
-        if (near := _not_real(branch, variable, root, -1 if side == "left" else 1)) is not None:
-            values = {**names, str(variable): str(near)}
-            return f"no real value near {where}, on the {side}", Witness(values, str(branch.subs(variable, near)), "")
+    for side, branch in ((-1, left), (1, right)):
+        for near in _not_real(branch, variable, root, side):
+            if all(_certain(substitute_in(relation, {**point, variable: near})) for relation in domain):
+                there = {**names, str(variable): str(near)}
+                return f"no real value at {variable} = {near}", Witness(there, str(branch.subs(variable, near)), "real")
         if _is_pole(branch, variable, root):
-            return f"unbounded near {where}", Witness(names, f"{branch}", "a finite value")
+            return f"unbounded near {where}", Witness(names, str(branch), "a finite value")
+    if not all(_certain(_strict(substitute_in(relation, point))) for relation in domain):
+        return None  # on the boundary there is only one side
+    value, limit = line.subs(variable, root), left.subs(variable, root)
+    if value.is_finite and limit.is_finite and _sign(value - limit) in (-1, 1):
+        return f"the value jumps at {where}", Witness(names, str(limit), str(value))
     for count in range(order + 1):
-        values = [sp.diff(branch, variable, count).subs(variable, root) for branch in (left, right)]
-        if any(value.has(sp.nan, sp.zoo, sp.oo, sp.AccumBounds) for value in values):
+        before, after = (sp.diff(branch, variable, count).subs(variable, root) for branch in (left, right))
+        if any(value.has(sp.nan, sp.zoo, sp.oo, sp.AccumBounds) for value in (before, after)):
             return None
-        if _sign(values[0] - values[1]) in (-1, 1):
+        if _sign(before - after) in (-1, 1):
             what = "the value" if count == 0 else f"derivative {count} in {variable}"
-            return f"{what} jumps at {where}", Witness(names, str(values[0]), str(values[1]))
+            return f"{what} jumps at {where}", Witness(names, str(before), str(after))
     return None
+
+
+def _strict(relation: Relation) -> Relation:
+    relation = relation.standard()
+    return Relation(relation.left, "<" if relation.sign == "<=" else relation.sign, relation.right)
 
 
 def _one_sided(line: sp.Expr, variable: sp.Symbol, root: sp.Expr, side: int) -> sp.Expr | None:
@@ -232,8 +258,8 @@ def _beside(node: sp.Basic, variable: sp.Symbol, root: sp.Expr, side: int) -> sp
     return sp.Integer(known_sign) if isinstance(node, sp.sign) else sp.Rational(1 + known_sign, 2)
 
 
-def _not_real(branch: sp.Expr, variable: sp.Symbol, root: sp.Expr, side: int) -> sp.Expr | None:
-    """A point close to ``root`` at which the branch has certainly no real value."""
+def _not_real(branch: sp.Expr, variable: sp.Symbol, root: sp.Expr, side: int) -> Iterator[sp.Expr]:
+    """Points close to ``root`` at which the branch has certainly no real value."""
     for node in branch.atoms(sp.Pow, sp.log):
         if isinstance(node, sp.Pow) and (node.exp.is_integer or not node.exp.is_Rational):
             continue
@@ -242,8 +268,7 @@ def _not_real(branch: sp.Expr, variable: sp.Symbol, root: sp.Expr, side: int) ->
         for distance in (sp.Rational(1, 8), sp.Rational(1, 1024)):
             near = root + side * distance
             if _sign(node.args[0].subs(variable, near)) == -1:
-                return near
-    return None
+                yield near
 
 
 def _is_pole(branch: sp.Expr, variable: sp.Symbol, root: sp.Expr) -> bool:

@@ -157,7 +157,8 @@ def _needs(node: sp.Basic, variables: frozenset[sp.Symbol], order: int, orders: 
             yield _Need(node, None)
     for argument in node.args:
         yield from _needs(argument, variables, order, orders)
-    yield from _own_needs(node)
+    if order > 0 or not isinstance(node, sp.Abs | sp.Max | sp.Min):
+        yield from _own_needs(node)
 
 
 def _own_needs(node: sp.Basic) -> Iterator[_Need]:
