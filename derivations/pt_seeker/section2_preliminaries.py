@@ -155,7 +155,7 @@ blm_requirements = definition(
         le(sp.Derivative(_Vy, y) * g.subs(z, y + l), -sp.Function("alpha3")(sp.Abs(y))),
     ),
     labels=["eq:blm_req_1", "eq:blm_req_2"],
-    prose="Two class-K∞ bounds and a class-K rate of decrease; they are shown for the seeker's boundary layer in Step 5.",
+    prose="Two class-K∞ bounds and a class-K rate of decrease; Step 5 shows them for the seeker's boundary layer.",
 )
 
 averaging_theorem = claim(
@@ -407,4 +407,4 @@ example_guas = claim(
     "2.2/example-guas", "The linear example is globally uniformly asymptotically stable",
     Prose("x = 0 of dx/dτ = −kx is globally uniformly asymptotically stable for k > 0"),
     expected="cited", place="Section 2.2", uses=[example_solution, example_limit],
-)(cited("the definition of global uniform asymptotic stability with β(s, τ) = s exp(−kτ); Khalil, Definition 4.4"))  # fmt: skip
+)(cited("Khalil, Nonlinear Systems, Definition 4.4, with β(s, τ) = s exp(−kτ)"))  # fmt: skip

@@ -161,6 +161,8 @@ def _known(symbol: sp.Symbol, variable: Any, meaning: sp.Expr | None, z3: Any) -
         facts.append(variable <= 0)
     elif symbol.is_nonzero:
         facts.append(variable != 0)
+    if isinstance(meaning, sp.Pow) and meaning.exp.is_Rational and not meaning.exp.is_Integer:
+        facts.append(variable >= 0)  # a root is real only of what is not negative, and is then not negative
     if isinstance(meaning, sp.sin | sp.cos):
         facts += [variable <= 1, variable >= -1]
     if meaning is not None and meaning.is_NumberSymbol:
