@@ -1,0 +1,57 @@
+"""``ptproof coverage``."""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING
+
+import click
+
+if TYPE_CHECKING:
+    from ptproof.report.coverage import Coverage
+
+
+@click.command()
+@click.argument("paper", metavar="PAPER.tex")
+@click.argument("paths", nargs=-1, metavar="[PATH]...")
+@click.option("--json", "as_json", is_flag=True, help="Print JSON on standard output.")
+def coverage(paper: str, paths: tuple[str, ...], as_json: bool) -> int:
+    """Show which equations of PAPER.tex the claims below each PATH cover (the shipped derivation where left out).
+
+    Exit status 1 if a label of an equation is not covered, or a claim names a label that the paper does not have.
+    """
+    from ptproof.errors import InputError
+    from ptproof.proof.load import load
+    from ptproof.report.coverage import coverage as match
+    from ptproof.report.labels import equation_labels, read_paper
+
+    labels = equation_labels(read_paper(paper))
+    if not labels:
+        raise InputError(rf"{paper}: no \label stands in an equation; name the LaTeX source of the paper")
+    derivation = load(paths)
+    found = match(labels, [*derivation.claims, *derivation.definitions])
+    for label, ids in found.stale:
+        click.echo(f"ptproof: {paper} has no equation labelled {label}, which is named by {', '.join(ids)}", err=True)
+    if as_json:
+        click.echo(json.dumps(found.to_json(), indent=2, ensure_ascii=False))
+    else:
+        _show(found)
+    return 0 if found.complete else 1
+
+
+def _show(found: Coverage) -> None:
+    from rich.console import Console
+    from rich.table import Table
+    from rich.text import Text
+
+    console = Console()
+    table = Table(box=None, pad_edge=False)
+    table.add_column("equation", overflow="fold")
+    table.add_column("covered by", overflow="fold", style="dim")
+    for label, ids in found.covered:
+        table.add_row(Text(label, style="green"), Text(", ".join(ids)))
+    for label in found.missing:
+        table.add_row(Text(label, style="bold red"), Text("nothing", style="red"))
+    console.print(table)
+    total = len(found.covered) + len(found.missing)
+    console.print(f"{len(found.covered)} of {total} labelled equations are covered, {len(found.missing)} missing")
