@@ -2,6 +2,7 @@
 
 from ptproof.problem.loops import FRAMES, SEEKERS, closed_loop, parameters
 from ptproof.problem.model import Initial, Problem, Saturation, Tuning
+from ptproof.problem.models import averaged_system, reduced_model
 from ptproof.problem.reading import EXAMPLES, example, load
 
 __all__ = [
@@ -12,8 +13,10 @@ __all__ = [
     "Problem",
     "Saturation",
     "Tuning",
+    "averaged_system",
     "closed_loop",
     "example",
     "load",
     "parameters",
+    "reduced_model",
 ]

@@ -16,7 +16,7 @@ import sympy as sp
 from ptproof.clock import Clock, change_variable, prescribed_time_clock, solve_state
 from ptproof.errors import InputError
 from ptproof.problem.clipped import ClippedClock
-from ptproof.problem.model import TIME, Initial, Problem
+from ptproof.problem.model import TIME, Problem, Saturation
 from ptproof.seekers import Letters, asymptotic_seeker, prescribed_time_gain, saturated_seeker
 from ptproof.system import System
 
@@ -24,7 +24,7 @@ SEEKERS = ("pt", "asymptotic", "saturated", "saturated-constant")
 FRAMES = ("t", "tau")
 COORDINATES = ("full", "reduced")
 TAU = sp.Symbol("tau", real=True)
-_GAIN = sp.Symbol("K", positive=True)
+GAIN = sp.Symbol("K", positive=True)
 
 
 class parameters:
@@ -71,7 +71,7 @@ def loop_letters(problem: Problem) -> Letters:
 
 def clock_of(problem: Problem, seeker: str = "pt") -> Clock | ClippedClock | None:
     """The symbolic clock whose rate is the seeker's gain; None where the gain is constant and τ = t is used."""
-    _check("seeker", seeker, SEEKERS)
+    check_word("seeker", seeker, SEEKERS)
     if seeker in ("asymptotic", "saturated-constant"):
         return None
     return _clock(problem.tuning.nu_min is not None)
@@ -117,23 +117,28 @@ def closed_loop(
     InputError
         For a word that is not one of these, a field that is not planar, or a saturated seeker without its data.
     """
-    _check("seeker", seeker, SEEKERS)
-    _check("frame", frame, FRAMES)
-    _check("coordinates", coordinates, COORDINATES)
-    system = _closed_loop(replace(problem, name="", initial=_origin(problem)), seeker, frame, coordinates)
+    check_word("seeker", seeker, SEEKERS)
+    check_word("frame", frame, FRAMES)
+    check_word("coordinates", coordinates, COORDINATES)
+    system = _closed_loop(without_start(problem), seeker, frame, coordinates)
     if not symbolic:
         system = system.with_values(parameter_values(problem))
     return replace(system, name=f"{seeker} seeker of {problem.name} in {frame}")
 
 
-def _check(what: str, word: str, allowed: tuple[str, ...]) -> None:
+def check_word(what: str, word: str, allowed: tuple[str, ...]) -> None:
     if word not in allowed:
         raise InputError(f"{what}: {word!r} is not one of {', '.join(allowed)}")
 
 
-def _origin(problem: Problem) -> Initial:
-    # The initial state is not part of the system; leaving it out lets problems that differ in it share one.
-    return replace(problem.initial, x=problem.source, theta=sp.S.Zero, z=None, u2=sp.S.Zero)
+def without_start(problem: Problem) -> Problem:
+    """The problem without what its systems don't contain, so that problems that differ in it share one."""
+    origin = replace(problem.initial, x=problem.source, theta=sp.S.Zero, z=None, u2=sp.S.Zero)
+    tuning = replace(problem.tuning, k=sp.S.One, omega=sp.S.One, mu=sp.S.One, T=sp.S.One, t0=sp.S.Zero)
+    if tuning.nu_min is not None:
+        tuning = replace(tuning, nu_min=sp.S.Half)
+    saturation = None if problem.saturation is None else Saturation(sp.S.One, sp.S.One, sp.S.One)
+    return replace(problem, name="", initial=origin, tuning=tuning, saturation=saturation)
 
 
 @lru_cache(maxsize=256)
@@ -148,47 +153,53 @@ def _closed_loop(problem: Problem, seeker: str, frame: str, coordinates: str) ->
             )
         system = saturated_seeker(
             problem.field, k=symbols.k, omega=symbols.omega, mu=symbols.mu, epsilon=symbols.epsilon,
-            level=symbols.level, gain=_GAIN, time=TIME, drift=problem.drift, states=letters,
+            level=symbols.level, gain=GAIN, time=TIME, drift=problem.drift, states=letters,
         )  # fmt: skip
     else:
         system = asymptotic_seeker(
             problem.field, problem.drift, k=symbols.k, omega=symbols.omega, mu=symbols.mu, time=TIME,
-            gain=_GAIN, states=letters,
+            gain=GAIN, states=letters,
         )  # fmt: skip
-    if coordinates == "reduced":
-        system = _reduced(system, letters)
+        if coordinates == "reduced":
+            system = reduced_loop(problem)
     return in_frame(system, clock_of(problem, seeker), gain_of(problem, seeker), frame)
 
 
-def _reduced(system: System, letters: Letters) -> System:
-    """Exchange θ for p = θ + kz, and p for its solution p₀ + ω(τ − t₀) in the dilated time."""
-    symbols, p = parameters, sp.Symbol("p", real=True)
+@lru_cache(maxsize=64)
+def reduced_loop(problem: Problem) -> System:
+    """The loop in (x₁, x₂, z), in t with the symbol K, and TAU in the place of the dilated time.
+
+    θ is exchanged for p = θ + kz, and p for its solution p₀ + ω(τ − t₀).
+    """
+    letters, symbols, p = loop_letters(problem), parameters, sp.Symbol("p", real=True)
+    full = asymptotic_seeker(
+        problem.field, problem.drift, k=symbols.k, omega=symbols.omega, mu=symbols.mu, time=TIME, gain=GAIN,
+        states=letters,
+    )  # fmt: skip
     rotated = change_variable(
-        system, letters.heading, p, letters.heading + symbols.k * letters.filter, p - symbols.k * letters.filter
+        full, letters.heading, p, letters.heading + symbols.k * letters.filter, p - symbols.k * letters.filter
     )
     # dτ/dt = K, so that the equation dp/dt = Kω loses the gain in τ, where its solution is checked.
-    dilated = replace(rotated, time=TAU, rhs=tuple(sp.expand(entry / _GAIN) for entry in rotated.rhs), parameters=None)
+    dilated = System(TAU, rotated.state, tuple(sp.expand(entry / GAIN) for entry in rotated.rhs))
     phase = symbols.p0 + symbols.omega * (TAU - symbols.t0)
     solve_state(dilated, p, phase)
     keep = [index for index, variable in enumerate(rotated.state) if variable != p]
-    return System(
-        TIME, tuple(rotated.state[i] for i in keep), tuple(rotated.rhs[i].subs(p, phase) for i in keep),
-        name=system.name,
-    )  # fmt: skip
+    rhs = tuple(rotated.rhs[i].subs(p, phase) for i in keep)
+    return System(TIME, tuple(rotated.state[i] for i in keep), rhs, name=full.name)
 
 
 def in_frame(system: System, clock: Clock | ClippedClock | None, gain: sp.Expr, frame: str) -> System:
     """A system in t with the symbol K for its gain, and TAU for the dilated time, written in ``frame`` alone."""
     if frame == "t":
         to_tau = TIME if clock is None else clock.to_tau
-        rhs = tuple(entry.subs(TAU, to_tau).subs(_GAIN, gain) for entry in system.rhs)
+        rhs = tuple(entry.subs(TAU, to_tau).subs(GAIN, gain) for entry in system.rhs)
         return System(TIME, system.state, rhs, name=system.name)
     if clock is None:
-        rhs = tuple(entry.subs(_GAIN, gain).subs(TIME, TAU) for entry in system.rhs)
+        rhs = tuple(entry.subs(GAIN, gain).subs(TIME, TAU) for entry in system.rhs)
     else:
         rhs = tuple(
-            sp.Add(*(term / _GAIN for term in sp.Add.make_args(entry)))
-            .subs(_GAIN, 1 / clock.rate_back)
+            sp.Add(*(term / GAIN for term in sp.Add.make_args(entry)))
+            .subs(GAIN, 1 / clock.rate_back)
             .subs(TIME, clock.to_t)
             for entry in system.rhs
         )

@@ -187,6 +187,18 @@ class Problem:
 
         return closed_loop(self, seeker, frame, coordinates=coordinates, symbolic=symbolic)
 
+    def reduced_model(self, seeker: str = "pt", frame: str = "t", *, symbolic: bool = False) -> System:
+        """The closed loop with the filter at its quasi-steady state; see :func:`ptproof.problem.reduced_model`."""
+        from ptproof.problem.models import reduced_model
+
+        return reduced_model(self, seeker, frame, symbolic=symbolic)
+
+    def averaged(self, seeker: str = "pt", frame: str = "t", *, symbolic: bool = False) -> System:
+        """Its Lie bracket average as a :class:`System`; see :func:`ptproof.problem.averaged_system`."""
+        from ptproof.problem.models import averaged_system
+
+        return averaged_system(self, seeker, frame, symbolic=symbolic)
+
 
 def number_at(expression: sp.Expr, variables: tuple[sp.Symbol, ...], point: tuple[sp.Expr, ...], where: str) -> sp.Expr:
     """The exact value of ``expression`` at ``point``, refused unless it is a finite real number."""
