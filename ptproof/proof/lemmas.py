@@ -53,3 +53,13 @@ def cosine_quartic(argument: sp.Expr) -> Implication:
 def sine_line(argument: sp.Expr) -> Implication:
     """u ≥ 0 gives sin u ≤ u."""
     return Implication((ge(argument, 0),), le(sp.sin(argument), argument), "sine below its tangent")
+
+
+def sine_cubic(argument: sp.Expr) -> Implication:
+    """u ≥ 0 gives sin u ≥ u − u³/6: integrate the cosine parabola from 0."""
+    return Implication((ge(argument, 0),), ge(sp.sin(argument), argument - argument**3 / 6), "sine cubic")
+
+
+def sine_square(argument: sp.Expr) -> Implication:
+    """sin² u ≤ u²: the slope of the sine is at most 1 in absolute value, and sin 0 = 0."""
+    return Implication((), le(sp.sin(argument) ** 2, argument**2), "sine below its argument")

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from fractions import Fraction
 from typing import Any
 
 import sympy as sp
@@ -166,10 +165,13 @@ def _known(symbol: sp.Symbol, variable: Any, meaning: sp.Expr | None, z3: Any) -
     if isinstance(meaning, sp.sin | sp.cos):
         facts += [variable <= 1, variable >= -1]
     if meaning is not None and meaning.is_NumberSymbol:
-        # An enclosure from SymPy's rational bounds of the constant; wide enough to be safe.
-        low, high = meaning.approximation_interval(sp.Rational)
-        facts += [
-            variable > z3.RealVal(str(Fraction(low.p, low.q))),
-            variable < z3.RealVal(str(Fraction(high.p, high.q))),
-        ]
+        from ptproof.proof.ball import enclose
+
+        ball = enclose(meaning, {}, bits=64)
+        facts += [variable >= _fraction(ball.lower(), z3), variable <= _fraction(ball.upper(), z3)]
     return facts
+
+
+def _fraction(end: Any, z3: Any) -> Any:
+    exact = end.fmpq()
+    return z3.RealVal(f"{exact.p}/{exact.q}")
