@@ -8,10 +8,12 @@ from collections import defaultdict
 import sympy as sp
 from sympy.simplify.fu import TR10i
 
-from ptproof.averaging.enclosure import check_coefficients
+from ptproof.averaging.enclosure import check_coefficients, sample
 from ptproof.averaging.quasipolynomial import exact_sign
-from ptproof.averaging.refusal import AveragingRefused
+from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided
 from ptproof.averaging.signal import Signal, read_signal
+from ptproof.proof.algebra import NotAlgebraic, is_zero
+from ptproof.proof.ball import separated
 from ptproof.system import DitherSystem
 
 Coefficients = dict[tuple[int, int], sp.Expr]
@@ -33,23 +35,30 @@ def signals(system: DitherSystem) -> tuple[Signal, ...]:
     for i, dither in enumerate(system.dithers, start=1):
         where = f"dither {i}"
         signal = read_signal(dither, system.phase, system.period, where)
-        if not vanishes(signal.mean):
-            raise AveragingRefused(
-                "D",
-                where,
-                f"{dither} has the mean {signal.mean} over a period, not 0; with the factor sqrt({system.omega}) "
-                "the average would grow without bound; subtract the mean",
-            )
+        mean_is_zero(signal.mean, where, system)
         result.append(signal)
     return tuple(result)
 
 
-def vanishes(value: sp.Expr) -> bool:
-    """Whether an expression free of the phase is identically zero."""
-    value = sp.expand(value)
-    if value == 0 or value.is_Rational:
-        return bool(value == 0)
-    return bool(sp.simplify(value) == 0)
+def mean_is_zero(mean: sp.Expr, where: str, system: DitherSystem) -> None:
+    """Return if ``mean`` is identically zero, else raise :class:`AveragingRefused` or, unsure, `...Undecided`."""
+    mean = sp.expand(mean)
+    if mean == 0:
+        return
+    try:
+        if is_zero(mean):
+            return
+    except NotAlgebraic:
+        pass
+    values = sample(mean.free_symbols)
+    if separated(mean, sp.S.Zero, values) is None:
+        raise AveragingUndecided(f"{where}: whether its mean {mean} vanishes is not known")
+    raise AveragingRefused(
+        "D",
+        where,
+        f"it has the mean {mean} over a period, not 0; with the factor sqrt({system.omega}) the average would "
+        "grow without bound; subtract the mean",
+    )
 
 
 def v_matrix(system: DitherSystem, *, check: bool = True) -> Coefficients:

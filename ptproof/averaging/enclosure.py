@@ -17,7 +17,8 @@ from typing import Any
 import sympy as sp
 
 from ptproof.averaging import switching
-from ptproof.averaging.ball import compile_ball, enclose
+from ptproof.averaging.ball import compile_entire
+from ptproof.proof.ball import enclose, precision
 from ptproof.system import DitherSystem
 
 _BITS = 96
@@ -35,23 +36,25 @@ def check_coefficients(
 
     ``hints`` are points where panels should end; wrong or missing ones cost time, not rigour.
     """
-    from flint import ctx
-
-    with ctx.workprec(_BITS):
+    with precision(_BITS):
         symbols = sample(set().union(*(dither.free_symbols for dither in system.dithers)) - {system.phase})
         enclosures = enclose_coefficients(system, symbols, hints)
         for (j, i), exact in values.items():
             ball = enclosures[j - 1, i - 1]
-            if not ball.overlaps(enclose(exact, symbols, _BITS)):
+            if not ball.overlaps(enclose(exact, symbols, bits=_BITS)):
                 raise ArithmeticError(f"v_{j},{i} = {exact} lies outside its enclosure {ball}; please report this")
 
 
 def sample(symbols: set[sp.Symbol]) -> dict[sp.Symbol, Any]:
-    """Exact positive values for symbols, as balls: the same ones each time."""
+    """Exact values for symbols, as balls, that respect their assumptions: the same ones each time."""
     from flint import arb, fmpq
 
     ordered = sorted(symbols, key=lambda symbol: symbol.name)
-    return {symbol: arb(fmpq(7 * place + 5, 3 * place + 8)) for place, symbol in enumerate(ordered)}
+    values = {}
+    for place, symbol in enumerate(ordered):
+        size = fmpq(place + 1) if symbol.is_integer else fmpq(7 * place + 5, 3 * place + 8)
+        values[symbol] = arb(-size if symbol.is_negative or symbol.is_nonpositive else size)
+    return values
 
 
 @dataclass(frozen=True)
@@ -89,19 +92,19 @@ def enclose_coefficients(system: DitherSystem, symbols: Mapping[sp.Symbol, Any],
         total += inner + integrals * before.transpose()
         total += arb_mat(count, count, [arb(0, 1) * (2 * half * half * entry) for entry in bound.entries()])
         before += integrals
-    return total * (1 / enclose(system.period, {}, _BITS))
+    return total * (1 / enclose(system.period, bits=_BITS))
 
 
 def _panels(system: DitherSystem, hints: Sequence[sp.Expr], readers: list[_Reader]) -> list[tuple[Any, Any]]:
     """Consecutive panels on each of which every dither is well interpolated, or that are slivers."""
     from flint import arb
 
-    end = enclose(system.period, {}, _BITS)
-    gap = enclose(_SLIVER, {}, _BITS)
-    inner = sorted({float(enclose(hint, {}, _BITS).mid()): hint for hint in hints}.items())
+    end = enclose(system.period, bits=_BITS)
+    gap = enclose(_SLIVER, bits=_BITS)
+    inner = sorted({float(enclose(hint, bits=_BITS).mid()): hint for hint in hints}.items())
     cuts = [arb(0)]
     for _, hint in inner:
-        point = enclose(hint, {}, _BITS)
+        point = enclose(hint, bits=_BITS)
         cuts += [cut for cut in ((point - gap).mid(), (point + gap).mid()) if cut > cuts[-1] and cut < end]
     if any(reader.switches for reader in readers):
         cuts += [cut for cut in [(end - gap).mid()] if cut > cuts[-1]]
@@ -127,7 +130,7 @@ class _Reader:
     def __init__(self, system: DitherSystem, dither: sp.Expr, symbols: Mapping[sp.Symbol, Any]) -> None:
         self.phase, self.symbols, self.dither = system.phase, dict(symbols), dither
         self.switches = switching.has_switch(dither, system.phase)
-        self.compiled = functools.cache(lambda expression: compile_ball(expression, entire=True))
+        self.compiled = functools.cache(lambda expression: compile_entire(expression, _BITS))
 
     def smooth(self, middle: Any, half: Any) -> Any:
         """The analytic function that the dither is on the panel, or None."""
@@ -141,7 +144,7 @@ class _Reader:
 
     def fits(self, middle: Any, half: Any) -> bool:
         function = self.smooth(middle, half)
-        return function is not None and bool(self.error(function, middle, half) < enclose(_TARGET, {}, _BITS))
+        return function is not None and bool(self.error(function, middle, half) < enclose(_TARGET, bits=_BITS))
 
     def error(self, function: Any, middle: Any, half: Any) -> Any:
         """A bound for the error of the interpolant of degree ``_DEGREE`` on the panel."""
@@ -158,53 +161,24 @@ class _Reader:
         ball = arb(middle.mid(), _radius(middle, half))
         function = self.smooth(middle, half)
         if function is None:
-            size = _size(self.dither, self.phase, ball, self.symbols)
+            size = self.largest(ball)
             return _Panel(None, size, size)
         values = [arb(function({**self.symbols, self.phase: middle + half * node})) for node in nodes]
         size = arb(function({**self.symbols, self.phase: ball})).abs_upper()
         return _Panel(values, self.error(function, middle, half), size)
 
+    def largest(self, ball: Any) -> Any:
+        """An upper bound of the dither's size on ``ball``, over all branches that may apply."""
+        from flint import arb
+
+        waves = self.dither.atoms(sp.asin, sp.acos, sp.atan, sp.Heaviside)
+        bounded = {node: sp.Dummy("wave", real=True) for node in waves}
+        values = {**self.symbols, **{symbol: arb(0, 4) for symbol in bounded.values()}, self.phase: ball}
+        return enclose(self.dither.xreplace(bounded), values, bits=_BITS).abs_upper()
+
 
 def _radius(middle: Any, half: Any) -> Any:
     return (half.abs_upper() + middle.rad()).abs_upper()
-
-
-def _size(dither: sp.Expr, phase: sp.Symbol, ball: Any, symbols: Mapping[sp.Symbol, Any]) -> Any:
-    """An upper bound of |dither| on a sliver: the largest over all branches."""
-    from flint import arb
-
-    def bound(node: sp.Expr) -> Any:
-        if not switching.has_switch(node, phase):
-            return arb(enclose(node, {**symbols, phase: ball}, _BITS)).abs_upper()
-        if isinstance(node, sp.Piecewise):
-            return functools.reduce(_larger, [bound(value) for value, _ in node.args])
-        if isinstance(node, sp.Max | sp.Min):
-            return functools.reduce(_larger, [bound(arg) for arg in node.args])
-        if isinstance(node, sp.Abs):
-            return bound(node.args[0])
-        if isinstance(node, sp.sign | sp.Heaviside):
-            return arb(1)
-        if isinstance(node, sp.Mod):
-            return bound(node.args[1])
-        if isinstance(node, sp.floor):
-            return bound(node.args[0]) + 1
-        if isinstance(node, sp.asin | sp.acos | sp.atan):
-            return arb(4)
-        if isinstance(node, sp.sin | sp.cos):
-            return arb(1)
-        if node.is_Add:
-            return functools.reduce(lambda a, b: a + b, [bound(arg) for arg in node.args])
-        if node.is_Mul:
-            return functools.reduce(lambda a, b: a * b, [bound(arg) for arg in node.args])
-        if node.is_Pow and node.exp.is_Integer and node.exp > 0:
-            return bound(node.base) ** int(node.exp)
-        raise ArithmeticError(f"no bound for {node} near a switching point")
-
-    return bound(dither)
-
-
-def _larger(a: Any, b: Any) -> Any:
-    return (a + b + abs(a - b)) / 2
 
 
 @functools.cache

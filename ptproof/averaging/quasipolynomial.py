@@ -13,6 +13,8 @@ from typing import Any
 import sympy as sp
 
 from ptproof.averaging.refusal import AveragingUndecided
+from ptproof.proof.algebra import NotAlgebraic, is_zero
+from ptproof.proof.ball import Undefined, separated
 
 _HIGHEST_POWER = 64
 Key = tuple[int, sp.Expr]
@@ -153,17 +155,15 @@ def exact_sign(number: sp.Expr) -> int:
     """−1, 0 or 1 for an exact real number; raises :class:`AveragingUndecided` where it can't be told."""
     if number.is_Rational:
         return int(sp.sign(number))
-    from ptproof.averaging.ball import enclose
-
-    for bits in (64, 256):
-        ball = enclose(number, {}, bits)
-        if ball > 0:
-            return 1
-        if ball < 0:
-            return -1
-    if sp.simplify(number) == 0:
-        return 0
-    raise AveragingUndecided(f"the sign of {number} can't be told")
+    try:
+        sign = separated(number, sp.S.Zero)
+        if sign is None and is_zero(number):
+            return 0
+    except (Undefined, NotAlgebraic):
+        sign = None
+    if sign is None:
+        raise AveragingUndecided(f"the sign of {number} can't be told")
+    return sign
 
 
 def _short(value: sp.Expr) -> sp.Expr:

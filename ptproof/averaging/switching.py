@@ -13,9 +13,9 @@ from collections.abc import Callable, Iterator
 import sympy as sp
 from sympy.core.relational import Relational
 
-from ptproof.averaging.ball import enclose
 from ptproof.averaging.quasipolynomial import exact_sign, linear_part, read
 from ptproof.averaging.refusal import AveragingUndecided
+from ptproof.proof.ball import enclose
 
 _SIMPLE = (sp.Piecewise, sp.Abs, sp.sign, sp.Max, sp.Min, sp.Mod, sp.floor, sp.Heaviside)
 _WAVES = {(sp.asin, sp.sin), (sp.acos, sp.cos), (sp.atan, sp.tan)}
@@ -242,11 +242,11 @@ def decide_on_ball(variable: sp.Symbol, ball: object, values: dict[sp.Symbol, ob
     everything = {**values, variable: ball}
 
     def sign_of(side: sp.Expr) -> int | None:
-        enclosure = enclose(side, everything)
+        enclosure = enclose(side, everything, bits=96)
         return 1 if enclosure > 0 else -1 if enclosure < 0 else None
 
     def floor_of(level: sp.Expr) -> int | None:
-        enclosure = enclose(level, everything).floor()
+        enclosure = enclose(level, everything, bits=96).floor()
         number = enclosure.unique_fmpz()
         return None if number is None else int(number)
 
