@@ -66,8 +66,8 @@ def check_witness(goal: Goal, values: Mapping[Any, Any]) -> tuple[Witness | None
     """The witness if these exact values satisfy every assumption and break a relation, else the reason."""
     values = {key: sp.sympify(value) for key, value in values.items()}
     for key, value in values.items():
-        if isinstance(key, sp.Symbol) and not admissible(key, value):
-            return None, f"{value} is not what {key} may be"
+        if not (admissible(key, value) if isinstance(key, sp.Symbol) else _admissible_function(key, value)):
+            return None, f"{value} is not known to be what {key} may be"
     for assumption in goal.assumptions:
         if not _holds(assumption, values):
             return None, f"the assumption {assumption} is not shown to hold there"
@@ -78,6 +78,12 @@ def check_witness(goal: Goal, values: Mapping[Any, Any]) -> tuple[Witness | None
         if _sign_is(there.negation()):
             return Witness({str(key): str(value) for key, value in values.items()}, *_sides(there)), ""
     return None, "the statement is not shown to fail there"
+
+
+def _admissible_function(applied: AppliedUndef, value: sp.Expr) -> bool:
+    """Whether an expression has, for all real arguments, the signs that the undefined function was declared with."""
+    declared = ("real", "positive", "nonnegative", "negative", "nonpositive", "nonzero", "integer")
+    return all(getattr(value, f"is_{word}") for word in declared if getattr(applied, f"is_{word}"))
 
 
 def _evaluated(relation: Relation) -> Relation | None:
@@ -96,11 +102,14 @@ def _holds(assumption: Assumption, values: Mapping[Any, Any]) -> bool:
         case Relation():
             parts = [_evaluated(substitute_in(part, values)) for part in assumption.components()]
             return all(part is not None and _sign_is(part) for part in parts)
-        case ForAll(relation=relation, domain=domain):
+        case ForAll(variables=variables, relation=relation, domain=domain):
             from ptproof.proof.reals import follows
 
-            there = substitute_in(relation, values).map(lambda side: side.doit())
-            where = [substitute_in(part, values) for part in domain]
+            # A bound variable may carry the name of a free one: its value at the witness is not meant here.
+            values = {key: value for key, value in values.items() if key not in variables}
+            free = {key: value for key, value in values.items() if key not in assumption.variables}
+            there = substitute_in(relation, free).map(lambda side: side.doit())
+            where = [substitute_in(part, free) for part in domain]
             return follows(there, where, seconds=2.0)[0]
     return False
 
@@ -194,10 +203,13 @@ def _value(symbol: sp.Symbol, generator: random.Random, attempt: int) -> sp.Expr
 
 def _polynomial(applied: AppliedUndef, generator: random.Random, attempt: int) -> sp.Expr:
     arguments = list(applied.args)
+    if applied.is_positive or applied.is_nonnegative:
+        offset = sp.Integer(generator.randint(1, 3))
+        return offset + generator.choice((0, 1, 1, 2)) * generator.choice(arguments) ** 2
     if attempt < 80:  # the plainest functions first: a witness is for people
         slope = generator.choice((0, 1, 1, 2, -1))
         return sp.Integer(generator.randint(1, 3)) + slope * generator.choice(arguments)
-    total: sp.Expr = sp.Integer(generator.randint(-2, 2) if not applied.is_positive else generator.randint(1, 3))
+    total: sp.Expr = sp.Integer(generator.randint(-2, 2))
     for argument in arguments:
         total += generator.randint(-3, 3) * argument + generator.choice((-1, 0, 1)) * argument**2
     for left, right in itertools.combinations(arguments, 2):
