@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from itertools import groupby
 from typing import TYPE_CHECKING
 
 from rich.console import Console
@@ -13,7 +12,7 @@ from rich.table import Table
 from rich.text import Text
 
 if TYPE_CHECKING:
-    from ptproof.proof.claim import Claim
+    from ptproof.proof.claim import Claim, Result
     from ptproof.proof.run import Verification
     from ptproof.proof.verdict import Evidence
 
@@ -42,7 +41,10 @@ def claim_progress(total: int) -> Iterator[Callable[[Claim, Evidence], None]]:
 def verification_table(verification: Verification) -> None:
     """The claims with their verdicts, grouped by section, then the witnesses of what is false."""
     console = Console(soft_wrap=False)
-    for section, results in groupby(verification.results, key=lambda result: result.claim.section):
+    sections: dict[str, list[Result]] = {}
+    for result in verification.results:
+        sections.setdefault(result.claim.section, []).append(result)
+    for section, results in sections.items():
         table = Table(title=section or "Claims", title_justify="left", title_style="bold", box=None, pad_edge=False)
         table.add_column("verdict", no_wrap=True)
         table.add_column("claim", ratio=3)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ptproof.proof.claim import Goal, claim, definition
+from ptproof.proof.claim import Goal, claim, definition, instance
 from ptproof.proof.lemmas import power_positive
 from ptproof.proof.reals import reals
 from ptproof.proof.statement import eq, every, gt, le, lt
@@ -89,11 +89,8 @@ def quadratic_form(goal: Goal) -> Evidence:
 @claim(
     "3/spectral-norm", "‖E g‖² ≤ ‖E‖² ‖g‖²",
     le(sum(entry**2 for entry in E * sp.Matrix([g1, g2])), spectral_norm_squared * (g1**2 + g2**2)),
-    given=[
-        le(m11 * g1**2 + 2 * m12 * g1 * g2 + m22 * g2**2, spectral_norm_squared * (g1**2 + g2**2)),
-    ],
     uses=[quadratic_form], place="Step 4, case ii",
 )  # fmt: skip
 def spectral_norm(goal: Goal) -> Evidence:
-    """‖Eg‖² is the form of EᵀE; the assumption is the quadratic form's bound at the entries of EᵀE."""
-    return reals(goal)
+    """‖Eg‖² is the form of EᵀE, so the bound for quadratic forms is used at the entries of EᵀE."""
+    return reals(goal, *instance(quadratic_form, {_a: m11, _b: m12, _c: m22}))

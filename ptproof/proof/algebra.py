@@ -75,7 +75,7 @@ class Generators:
 
     def read(self, expressions: Iterable[sp.Expr]) -> list[sp.Expr]:
         """Prepare the expressions and note each base with all exponents that it carries."""
-        prepared = [_split_powers(prepare(expression)) for expression in expressions]
+        prepared = [_split_powers(self._mask(prepare(expression))) for expression in expressions]
         for expression in prepared:
             for node in sp.preorder_traversal(expression):
                 pair = _symbolic_power(node)
@@ -84,6 +84,11 @@ class Generators:
         for base, exponents in self._powers.items():
             self._choose_roots(base, exponents)
         return prepared
+
+    def _mask(self, expression: sp.Expr) -> sp.Expr:
+        """Put symbols for values and derivatives of undefined functions, before anything can rewrite their insides."""
+        nodes = sorted(expression.atoms(AppliedUndef, sp.Derivative, sp.Subs), key=sp.default_sort_key)
+        return expression.xreplace({node: self.symbol(node, **_known_of(node)) for node in nodes})
 
     def _choose_roots(self, base: sp.Expr, exponents: Sequence[sp.Expr]) -> None:
         """Find exponents e_j such that every exponent of this base is an integer combination of them."""
@@ -139,7 +144,7 @@ class Generators:
             return self._power(*pair)
         if isinstance(expression, sp.Pow) and expression.exp.is_Integer:
             return self.rational(expression.base) ** expression.exp
-        if isinstance(expression, AppliedUndef | sp.Derivative | sp.log | sp.Function | sp.Integral | sp.Piecewise):
+        if isinstance(expression, sp.Function | sp.Integral | sp.Piecewise):
             return self.symbol(expression, **({"real": True} if expression.is_real else {}))
         if expression in (sp.pi, sp.E) or expression.is_NumberSymbol:
             return self.symbol(expression, positive=True)
@@ -160,6 +165,16 @@ class Generators:
         entry = (generator, generator**degree - value)
         if entry not in self.relations:
             self.relations.append(entry)
+
+
+def _known_of(node: sp.Expr) -> dict[str, bool]:
+    """What an undefined function's value was declared to be; a derivative of a real function is real."""
+    if isinstance(node, AppliedUndef):
+        for word in ("positive", "nonnegative", "negative", "nonpositive", "nonzero", "real"):
+            if getattr(node, f"is_{word}"):
+                return {word: True, **({"real": True} if word == "nonzero" and node.is_real else {})}
+        return {}
+    return {"real": True} if node.args[0].is_real else {}
 
 
 def _symbolic_power(node: sp.Expr) -> tuple[sp.Expr, sp.Expr] | None:

@@ -1,0 +1,447 @@
+"""Section 5, Theorem 2, Steps 1 to 3: change of variables, singular perturbation, Lie bracket averaging."""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from ptproof.averaging import average
+from ptproof.clock import solve_state
+from ptproof.proof.claim import Goal, cited, claim, definition
+from ptproof.proof.exact import exact
+from ptproof.proof.existence import defeats_every_choice
+from ptproof.proof.integrals import integrals
+from ptproof.proof.limits import limits
+from ptproof.proof.reals import reals
+from ptproof.proof.regularity import smooth
+from ptproof.proof.statement import Exists, Prose, Smooth, eq, every, ge, le
+from ptproof.proof.verdict import Evidence
+from ptproof.system import lie_bracket
+
+from . import chain
+from .notation import (
+    F,
+    T,
+    drift_at,
+    f,
+    k,
+    mu,
+    nu,
+    omega,
+    p,
+    position,
+    t,
+    t0,
+    tau,
+    tau_fast,
+    theta,
+    x1,
+    x2,
+    y_tilde,
+    z,
+)  # fmt: skip
+from .section2_preliminaries import iterated_integral, iterated_integrals, lie_bracket_system, phase, reduced_model
+from .section4_design import closed_loop_in_t, closed_loop_in_tau, closed_t_printed
+
+SECTION = "5.1 Theorem, Steps 1 to 3: the averaged system"
+
+# --- The feedback law of the theorem ----------------------------------------------------------------------------------
+
+K = 1 / nu(t - t0) ** 2
+u1_printed = K * sp.sqrt(omega)
+u2_printed = K * (omega - k / mu * (F - z))
+z_rate_printed = K / mu * (F - z)
+
+law = definition(
+    "5/law", "The prescribed-time feedback law",
+    every(eq(sp.Symbol("u1"), u1_printed), eq(sp.Symbol("u2"), u2_printed), eq(sp.Symbol("dz"), z_rate_printed)),
+    labels=["eq:pt_controlla", "eq:u1", "eq:u2", "eq:z"], prose="All three rates carry the gain 1/ν².",
+)  # fmt: skip
+
+
+@claim(
+    "5/law-closes-the-loop", "The unicycle under this law is the closed loop",
+    eq(
+        closed_t_printed,
+        sp.Matrix([f[0] + u1_printed * sp.cos(theta), f[1] + u1_printed * sp.sin(theta), u2_printed, z_rate_printed]),
+    ),
+    labels=["eq:pt_controlla", "eq:u1", "eq:u2", "eq:z"], uses=[closed_loop_in_t],
+)  # fmt: skip
+def law_closes_the_loop(goal: Goal) -> Evidence:
+    """The printed law in the printed unicycle, against the printed closed loop of Section 4."""
+    return exact(goal)
+
+
+@claim(
+    "5/forward-velocity-grows", "u₁ tends to infinity as t tends to t₀ + T",
+    eq(sp.Limit(u1_printed, t, t0 + T, "-"), sp.oo), labels=["eq:u1"],
+)  # fmt: skip
+def forward_velocity_grows(goal: Goal) -> Evidence:
+    """Without clipping the gain has no bound; Section 6.4 answers this."""
+    return limits(goal)
+
+
+# --- Step 1 ------------------------------------------------------------------------------------------------------------
+
+stretch = 1 + (tau - t0) / T
+f_tau = drift_at(chain.clock.to_t)
+p0 = sp.Symbol("p0", real=True)
+
+
+@claim(
+    "5/step1-p-rate", "p = θ + kz turns at the constant rate ω",
+    eq(omega, chain.closed_loop_tau.derivative_along(theta + k * z)), place="Step 1", uses=[closed_loop_in_tau],
+)  # fmt: skip
+def p_rate(goal: Goal) -> Evidence:
+    """The filter's rate, times k, is what the feedback takes from the heading."""
+    return exact(goal)
+
+
+@claim(
+    "5/step1-p-solution", "p(τ) = ωτ + p₀ solves its equation",
+    eq(sp.diff(omega * tau + p0, tau), chain.with_p.rhs[chain.with_p.state.index(p)]),
+    place="Step 1", uses=[p_rate],
+)  # fmt: skip
+def p_solution(goal: Goal) -> Evidence:
+    """Here p₀ is the value that p would have at τ = 0, so it is θ(t₀) + kz(t₀) − ωt₀."""
+    return exact(goal)
+
+
+@claim(
+    "5/step1-reduced-coordinates", "The closed loop after the change of variables",
+    eq(
+        sp.Matrix([
+            f_tau[0] / stretch**2 + sp.sqrt(omega) * sp.cos(omega * tau - k * z),
+            f_tau[1] / stretch**2 + sp.sqrt(omega) * sp.sin(omega * tau - k * z),
+            (F - z) / mu,
+        ]),
+        chain.reduced_coordinates.vector,
+    ),
+    labels=["eq:tau_pt_system"], uses=[p_solution, closed_loop_in_tau],
+)  # fmt: skip
+def reduced_coordinates(goal: Goal) -> Evidence:
+    """θ = p − kz is substituted, and p by its solution with p₀ = 0."""
+    return exact(goal)
+
+
+_with_phase = chain.split_dithers(
+    chain.split(solve_state(chain.with_p, p, omega * tau + p0), [z], mu).reduced_model(), omega
+)
+
+
+@claim(
+    "5/step1-initial-phase", "The averaged system does not depend on p₀",
+    eq(average(_with_phase).vector, chain.averaged_tau.vector), place="Step 1", uses=[p_solution],
+)  # fmt: skip
+def initial_phase(goal: Goal) -> Evidence:
+    """Setting p₀ = 0 loses nothing: with p₀ kept as a symbol, the average comes out the same."""
+    return exact(goal)
+
+
+# --- Step 2 ------------------------------------------------------------------------------------------------------------
+
+slow = mu * tau_fast
+f_fast = drift_at(chain.clock.to_t.subs(tau, slow))
+stretch_fast = 1 + (slow - t0) / T
+
+
+@claim(
+    "5/step2-fast-time", "The closed loop in the fast time",
+    eq(
+        sp.Matrix([
+            mu * f_fast[0] / stretch_fast**2 + mu * sp.sqrt(omega) * sp.cos(omega * slow - k * z),
+            mu * f_fast[1] / stretch_fast**2 + mu * sp.sqrt(omega) * sp.sin(omega * slow - k * z),
+            F - z,
+        ]),
+        chain.fast_time.vector,
+    ),
+    labels=["eq:tau_pt_system_eps", "eq:to_be_reduced_model"], uses=[reduced_coordinates],
+)  # fmt: skip
+def fast_time(goal: Goal) -> Evidence:
+    """τ = μτ̃; the drift is again taken at the instant that belongs to the fast time."""
+    return exact(goal)
+
+
+@claim(
+    "5/step2-quasi-steady-state", "l(x) = F(x) makes the fast rate vanish, and nothing else does",
+    every(eq(F, chain.slow_fast.quasi_steady_state[0]), eq(z, F)), given=[eq(0, chain.slow_fast.fast_rate[0])],
+    place="Step 2", uses=[fast_time],
+)  # fmt: skip
+def quasi_steady_state(goal: Goal) -> Evidence:
+    """The assumption says that the fast rate is 0 at z; then z = F(x). The pipeline's solution is F(x) as well."""
+    return reals(goal)
+
+
+@claim(
+    "5/step2-boundary-layer", "The boundary layer", eq(-y_tilde, chain.boundary_layer.rhs[0]), labels=["eq:blm_real"],
+    uses=[quasi_steady_state],
+)  # fmt: skip
+def boundary_layer(goal: Goal) -> Evidence:
+    """g(x, ỹ + l(x)) = −ỹ: linear, and the same for every x."""
+    return exact(goal)
+
+
+_dither = omega * slow - k * F
+
+
+@claim(
+    "5/step2-reduced-model", "The reduced model",
+    eq(
+        sp.Matrix([
+            mu * f_fast[0] / stretch_fast**2 + mu * sp.sqrt(omega) * sp.cos(_dither),
+            mu * f_fast[1] / stretch_fast**2 + mu * sp.sqrt(omega) * sp.sin(_dither),
+        ]),
+        chain.reduced_model_fast.vector,
+    ),
+    labels=["eq:reduced_model_tau"], uses=[quasi_steady_state, fast_time, reduced_model],
+)  # fmt: skip
+def reduced_model_seeker(goal: Goal) -> Evidence:
+    """z is replaced by F(x) in the slow rates."""
+    return exact(goal)
+
+
+# --- Step 3 ------------------------------------------------------------------------------------------------------------
+
+alpha, beta = sp.symbols("alpha beta", real=True)
+
+
+@claim(
+    "5/step3-trigonometry", "The addition theorems",
+    every(
+        eq(sp.cos(alpha + beta), sp.cos(alpha) * sp.cos(beta) - sp.sin(alpha) * sp.sin(beta)),
+        eq(sp.sin(alpha + beta), sp.sin(alpha) * sp.cos(beta) + sp.cos(alpha) * sp.sin(beta)),
+    ),
+    place="Step 3",
+)  # fmt: skip
+def trigonometry(goal: Goal) -> Evidence:
+    """As quoted, used with β = −kF(x)."""
+    return exact(goal)
+
+
+b1_printed = (sp.cos(k * F), -sp.sin(k * F))
+b2_printed = (sp.sin(k * F), sp.cos(k * F))
+fields = (*b1_printed, *b2_printed)
+
+
+@claim(
+    "5/step3-dithers", "The reduced model by its dithers",
+    eq(
+        sp.Matrix([mu * f_fast[i] / stretch_fast**2 for i in (0, 1)])
+        + mu * sp.sqrt(omega) * sp.Matrix(b1_printed) * sp.cos(omega * slow)
+        + mu * sp.sqrt(omega) * sp.Matrix(b2_printed) * sp.sin(omega * slow),
+        chain.reduced_model_fast.vector,
+    ),
+    labels=["eq:reduced_model_tau_2"], uses=[trigonometry, reduced_model_seeker],
+)  # fmt: skip
+def dithers(goal: Goal) -> Evidence:
+    """The printed fields and dithers, put together again, are the reduced model."""
+    return exact(goal)
+
+
+@claim(
+    "5/step3-split", "The printed fields are those that the pipeline splits off",
+    every(
+        *(eq(sp.Matrix(printed), sp.Matrix(derived)) for printed, derived in
+          zip((b1_printed, b2_printed), chain.dithered.fields, strict=True)),
+        *(eq(printed, derived) for printed, derived in
+          zip((sp.cos(chain.dithered.phase), sp.sin(chain.dithered.phase)), chain.dithered.dithers, strict=True)),
+    ),
+    labels=["eq:reduced_model_tau_2"], uses=[dithers],
+)  # fmt: skip
+def fields_split(goal: Goal) -> Evidence:
+    """The coefficients of cos ωτ and sin ωτ in the reduced model."""
+    return exact(goal)
+
+
+# b₀ is the drift of the dithered system, from the pipeline; the term is what stands over the brace.
+b0 = [entry.subs(tau, slow) for entry in chain.dithered.drift]
+drift_term = [mu * f_fast[i] / stretch_fast**2 for i in (0, 1)]
+
+
+@claim(
+    "5/step3-drift-brace-printed", "The drift term is b₀/μ, as the brace under it says",
+    eq(sp.Matrix(drift_term), sp.Matrix(b0) / mu), labels=["eq:reduced_model_tau_2"], expected="refuted",
+)  # fmt: skip
+def drift_brace_printed(goal: Goal) -> Evidence:
+    """In the general system the drift enters as μb₀. The brace divides by μ where it should multiply; at μ = 1, where
+    the Lie bracket system is written, the difference does not show."""
+    return exact(goal)
+
+
+@claim(
+    "5/step3-drift-brace", "The drift term is μb₀, with b₀ = f/(1 + (τ − t₀)/T)²",
+    every(
+        eq(sp.Matrix(drift_term), mu * sp.Matrix(b0)),
+        eq(sp.Matrix([f_tau[i] / stretch**2 for i in (0, 1)]), sp.Matrix(chain.dithered.drift)),
+    ),
+    labels=["eq:reduced_model_tau_2"], corrects=drift_brace_printed,
+)  # fmt: skip
+def drift_brace(goal: Goal) -> Evidence:
+    """Comparing with the general form, b₀ carries no μ."""
+    return exact(goal)
+
+
+@claim(
+    "5/step3-bracket", "[b₁, b₂] = k∇F",
+    eq(k * chain.gradient_F, sp.Matrix(lie_bracket(b1_printed, b2_printed, position))),
+    place="Step 3", uses=[dithers],
+)  # fmt: skip
+def bracket(goal: Goal) -> Evidence:
+    """The two fields are a rotation of the plane by the angle −kF, which the bracket turns into the gradient."""
+    return exact(goal)
+
+
+@claim(
+    "5/step3-coefficient", "v₂₁ = 1/2 for the seeker's dithers",
+    eq(iterated_integral(sp.sin(phase), sp.cos(phase)), sp.Rational(1, 2)), place="Step 3", uses=[iterated_integrals],
+)  # fmt: skip
+def coefficient(goal: Goal) -> Evidence:
+    """u₁ = cos and u₂ = sin, with the period 2π in the phase."""
+    return integrals(goal)
+
+
+averaged_printed = sp.Matrix([f_tau[i] / stretch**2 + k / 2 * chain.gradient_F[i] for i in (0, 1)])
+
+
+@claim(
+    "5/step3-lie-bracket-system", "The averaged system", eq(averaged_printed, chain.averaged_tau.vector),
+    labels=["eq:lie_bracket_system_real"], uses=[dithers, fields_split, bracket, coefficient, lie_bracket_system],
+)  # fmt: skip
+def averaged_system(goal: Goal) -> Evidence:
+    """The end of the pipeline from the closed loop in t: drift over the square of the stretch, plus half of k∇F."""
+    return exact(goal)
+
+
+@claim(
+    "5/step3-by-hand", "The averaged system from the printed fields, bracket and coefficient",
+    eq(
+        averaged_printed,
+        sp.Matrix([f_tau[i] / stretch**2 for i in (0, 1)])
+        + sp.Matrix(lie_bracket(b1_printed, b2_printed, position)) * sp.Rational(1, 2),
+    ),
+    labels=["eq:lie_bracket_system_real"], uses=[bracket, coefficient],
+)  # fmt: skip
+def averaged_by_hand(goal: Goal) -> Evidence:
+    """The same without the averaging engine: b₀ + [b₁, b₂] v₂₁."""
+    return exact(goal)
+
+
+# --- Assumption 1 for the seeker --------------------------------------------------------------------------------------
+
+
+@claim(
+    "5/assumption-a-fields", "Assumption 1A: the dithered fields are twice continuously differentiable",
+    Smooth(fields, position, 2, ((F, 2),)), place="Assumption 1A", uses=[fields_split],
+)  # fmt: skip
+def assumption_a(goal: Goal) -> Evidence:
+    """Compositions of F, which Assumption 2 takes in C², with sine and cosine."""
+    return smooth(goal)
+
+
+drift_norm = sp.Symbol("f_norm", nonnegative=True)
+
+
+@claim(
+    "5/assumption-b-fields", "Assumption 1B: the dithered fields are bounded, with derivatives bounded by k‖∇F‖",
+    every(
+        *(le(entry**2, 1) for entry in fields),
+        *(le(sp.diff(entry, v) ** 2, k**2 * sp.diff(F, v) ** 2) for entry in fields for v in position),
+        *(eq(sp.diff(entry, tau), 0) for entry in fields),
+    ),
+    place="Assumption 1B", uses=[fields_split],
+)  # fmt: skip
+def assumption_b_fields(goal: Goal) -> Evidence:
+    """On a compact set ∇F is bounded because it is continuous; the fields don't depend on time. The bracket k∇F has the
+    continuous derivative k times the Hessian of F."""
+    return reals(goal)
+
+
+A = sp.Symbol("A", positive=True)
+
+
+@claim(
+    "5/assumption-b-drift-printed", "Assumption 1B asks for a bound of b₀ at every real τ",
+    Exists((A,), (le(1 / stretch**2, A),), over=(tau,)), place="Assumption 1B", expected="refuted",
+)  # fmt: skip
+def assumption_b_drift_printed(goal: Goal) -> Evidence:
+    """b₀ = f/(1 + (τ − t₀)/T)² has a pole at τ = t₀ − T, so with a drift the assumption fails as it is written, for all
+    τ in ℝ. The theorem is applied on τ ≥ t₀ only, where it holds."""
+    return defeats_every_choice(goal, {tau: t0 - T + T / (A + 1)})
+
+
+@claim(
+    "5/assumption-b-drift", "Assumption 1B on I_τ: the drift term is at most the drift",
+    every(le(drift_norm / stretch**2, drift_norm), ge(drift_norm / stretch**2, 0)), given=[ge(tau, t0)],
+    place="Assumption 1B", corrects=assumption_b_drift_printed,
+)  # fmt: skip
+def assumption_b_drift(goal: Goal) -> Evidence:
+    """From the initial time on the factor is at most 1."""
+    return reals(goal)
+
+
+tau_1, tau_2 = sp.symbols("tau_1 tau_2", real=True)
+
+
+@claim(
+    "5/assumption-c", "Assumption 1C: the dithers are bounded by 1 and don't depend on the slow time",
+    every(
+        le(sp.cos(phase) ** 2, 1), le(sp.sin(phase) ** 2, 1),
+        eq(sp.diff(sp.cos(phase), tau), 0), eq(sp.diff(sp.sin(phase), tau), 0),
+    ),
+    place="Assumption 1C",
+)  # fmt: skip
+def assumption_c(goal: Goal) -> Evidence:
+    """So every positive Lipschitz constant in the slow time will do."""
+    return reals(goal)
+
+
+_s = sp.Symbol("s", real=True)
+
+
+@claim(
+    "5/assumption-d-period", "Assumption 1D: the dithers have the period 2π",
+    every(eq(sp.cos(phase + 2 * sp.pi), sp.cos(phase)), eq(sp.sin(phase + 2 * sp.pi), sp.sin(phase))),
+    place="Assumption 1D",
+)  # fmt: skip
+def assumption_d_period(goal: Goal) -> Evidence:
+    """T_f = 2π in the phase ωτ."""
+    return exact(goal)
+
+
+@claim(
+    "5/assumption-d-mean", "Assumption 1D: the dithers have zero mean",
+    every(eq(sp.Integral(sp.cos(_s), (_s, 0, 2 * sp.pi)), 0), eq(sp.Integral(sp.sin(_s), (_s, 0, 2 * sp.pi)), 0)),
+    place="Assumption 1D",
+)  # fmt: skip
+def assumption_d_mean(goal: Goal) -> Evidence:
+    """Over one period."""
+    return integrals(goal)
+
+
+@claim(
+    "5/assumption-e", "Assumption 1E: the fast rate is continuously differentiable, so locally Lipschitz",
+    Smooth((F - z,), (x1, x2, z), 1, ((F, 2),)), place="Assumption 1E", uses=[fast_time],
+)  # fmt: skip
+def assumption_e(goal: Goal) -> Evidence:
+    """g(x, z) = F(x) − z with F in C²."""
+    return smooth(goal)
+
+
+@claim(
+    "5/assumption-f", "Assumption 1F: the quasi-steady state is twice continuously differentiable",
+    Smooth((F,), position, 2, ((F, 2),)), place="Assumption 1F", uses=[quasi_steady_state],
+)  # fmt: skip
+def assumption_f(goal: Goal) -> Evidence:
+    """l = F; that it is the only one is a claim of Step 2."""
+    return smooth(goal)
+
+
+assumption_1 = (
+    assumption_a, assumption_b_fields, assumption_b_drift, assumption_c, assumption_d_period, assumption_d_mean,
+    assumption_e, assumption_f, quasi_steady_state,
+)  # fmt: skip
+
+qualitative = claim(
+    "5/step3-mu-one", "Setting μ = 1 in the Lie bracket system does not change its stability",
+    Prose("μ only scales the time of the reduced model, so its stability may be studied at μ = 1"),
+    expected="cited", place="Step 3", uses=[averaged_system],
+)(cited("Dürr, Krstić, Scheinker, Ebenbauer: singularly perturbed Lie bracket approximation"))  # fmt: skip

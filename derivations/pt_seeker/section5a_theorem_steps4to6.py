@@ -1,0 +1,371 @@
+"""Section 5, Theorem 2, Steps 4 to 6: the Lyapunov chain, the averaging theorem, and back to the original time."""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from ptproof.proof.claim import Goal, cited, claim, definition, instance
+from ptproof.proof.comparisons import comparison
+from ptproof.proof.exact import exact
+from ptproof.proof.integrals import integrals
+from ptproof.proof.lemmas import exp_monotone, power_monotone, power_positive
+from ptproof.proof.limits import limits
+from ptproof.proof.reals import reals
+from ptproof.proof.statement import ForAll, Prose, eq, every, ge, le, lt
+from ptproof.proof.verdict import Evidence
+
+from . import chain
+from .notation import (
+    R0,
+    V0,
+    E_norm,
+    F,
+    F_source,
+    G,
+    R,
+    T,
+    V,
+    a1,
+    a2,
+    b1,
+    b2,
+    c,
+    f_norm,
+    k,
+    kappa,
+    q,
+    t0,
+    tau,
+    x1,
+    x2,
+    y_tilde,
+)  # fmt: skip
+from .section2_preliminaries import averaging_theorem, contraction_rate
+from .section2_preliminaries import boundary_layer as general_boundary_layer
+from .section3_problem import spectral_norm
+from .section4_design import closed_loop_in_t
+from .section5a_theorem import assumption_1, averaged_system, boundary_layer, f_tau, qualitative, stretch
+
+SECTION = "5.2 Theorem, Steps 4 to 6: stability"
+ONE = sp.S.One
+
+# --- Step 4: the derivative of V ----------------------------------------------------------------------------------------
+
+V_of_x = -(F - F_source)
+F_1, F_2 = sp.diff(F, x1), sp.diff(F, x2)
+gradient_norm = sp.sqrt(F_1**2 + F_2**2)
+drift_norm = sp.sqrt(f_tau[0] ** 2 + f_tau[1] ** 2)
+V_rate = chain.averaged_tau.derivative_along(V_of_x)
+
+lyapunov_function = definition(
+    "5/step4-lyapunov-function", "V = F(x*) − F(x̄)", eq(sp.Function("V")(x1, x2), V_of_x),
+    labels=["eq:Lyapunov_function"], prose="How much the field at the averaged vehicle is below its maximum.",
+)  # fmt: skip
+
+
+@claim(
+    "5/step4-derivative", "dV/dτ along the averaged system",
+    eq(-(F_1 * f_tau[0] + F_2 * f_tau[1]) / stretch**2 - k / 2 * gradient_norm**2, V_rate),
+    labels=["eq:Lyapunov_derivative"], uses=[averaged_system],
+)  # fmt: skip
+def derivative(goal: Goal) -> Evidence:
+    """The averaged system from the pipeline, multiplied by the gradient of V."""
+    return exact(goal)
+
+
+@claim(
+    "5/step4-cauchy-schwarz", "The drift against the gradient",
+    le(-(F_1 * f_tau[0] + F_2 * f_tau[1]), drift_norm * gradient_norm), place="Step 4",
+)  # fmt: skip
+def cauchy_schwarz(goal: Goal) -> Evidence:
+    """Written out in two dimensions."""
+    return reals(goal)
+
+
+@claim(
+    "5/step4-derivative-bound", "dV/dτ is at most what the norms give",
+    le(V_rate, drift_norm * gradient_norm / stretch**2 - k / 2 * gradient_norm**2),
+    given=[ge(tau, t0)], labels=["eq:Lyapunov_derivative_inequality"], uses=[derivative, cauchy_schwarz],
+)  # fmt: skip
+def derivative_bound(goal: Goal) -> Evidence:
+    """The scalar product is replaced by the product of the norms; the factor 1/(1 + (τ − t₀)/T)² is positive."""
+    return reals(goal)
+
+
+# From here on one symbol stands for each norm and for V at one instant. R is the distance ‖x̄ − x*‖.
+F_value = sp.Symbol("F_x", real=True)
+
+
+@claim(
+    "5/step4-v-bounds", "V between even powers of the distance",
+    every(le(a2 * R ** (2 * kappa), V), le(V, a1 * R ** (2 * kappa))),
+    given=[
+        eq(V, -(F_value - F_source)),
+        le(F_source - a1 * R ** (2 * kappa), F_value), le(F_value, F_source - a2 * R ** (2 * kappa)),
+    ],
+    labels=["eq:ass2"],
+)  # fmt: skip
+def v_bounds(goal: Goal) -> Evidence:
+    """Assumption 2, with F(x̄) moved to the other side."""
+    return reals(goal)
+
+
+between = (le(a2 * R ** (2 * kappa), V), le(V, a1 * R ** (2 * kappa)))
+gradient_between = (le(b1 * R ** (2 * kappa - 1), G), le(G, b2 * R ** (2 * kappa - 1)))
+
+
+@claim(
+    "5/step4-gradient-bounds", "‖∇F‖ between powers of V",
+    every(le(c(1) * V ** q(), G), le(G, c(2) * V ** q())),
+    given=[*between, *gradient_between], labels=["eq:ass4"], uses=[v_bounds],
+)  # fmt: skip
+def gradient_bounds(goal: Goal) -> Evidence:
+    """The distance is eliminated: V/a₁ ≤ ‖x̄ − x*‖^(2κ) ≤ V/a₂, raised to the power q, is a bound for
+    ‖x̄ − x*‖^(2κ − 1)."""
+    distance = R ** (2 * kappa)
+    return reals(goal, power_monotone(V / a1, distance, q()), power_monotone(distance, V / a2, q()))
+
+
+@claim(
+    "5/step4-exponent-range", "1/2 ≤ q_κ < 1", every(le(sp.Rational(1, 2), q()), lt(q(), 1)), place="Step 4",
+)  # fmt: skip
+def exponent_range(goal: Goal) -> Evidence:
+    """For every integer κ ≥ 1; equality at κ = 1."""
+    return reals(goal)
+
+
+V_dot = sp.Symbol("V_dot", real=True)
+derivative_given = le(V_dot, f_norm * G / stretch**2 - k / 2 * G**2)
+after = ge(tau, t0)
+
+
+@claim(
+    "5/step4-norms-as-symbols", "The bound of dV/dτ with one symbol for each norm",
+    le(V_rate, f_norm * G / stretch**2 - k / 2 * G**2),
+    given=[after, eq(f_norm, drift_norm), eq(G, gradient_norm)], place="Step 4", uses=[derivative_bound],
+)  # fmt: skip
+def norms_as_symbols(goal: Goal) -> Evidence:
+    """So that what follows may speak of ‖f‖ and ‖∇F‖ only."""
+    return reals(goal)
+
+
+def v_inequality(order: sp.Expr) -> sp.Expr:
+    """The right-hand side of eq:lyapunov_derivative_inequality_2 as printed, for a given κ."""
+    return c(2, order) / stretch**2 * f_norm * V ** q(order) - k * c(1, order) ** 2 / 2 * V ** (2 * q(order))
+
+
+@claim(
+    "5/step4-v-inequality", "A differential inequality for V alone",
+    le(V_dot, v_inequality(kappa)), given=[after, derivative_given, *between, *gradient_between],
+    labels=["eq:lyapunov_derivative_inequality_2"], uses=[gradient_bounds, norms_as_symbols],
+)  # fmt: skip
+def v_differential_inequality(goal: Goal) -> Evidence:
+    """The gradient's norm is bounded above where it multiplies the drift, and below where it is squared."""
+    return reals(goal, power_positive(V, q()))
+
+
+# --- Case i: no drift ---------------------------------------------------------------------------------------------------
+
+
+@claim(
+    "5/step4-driftless", "Without drift V decreases",
+    le(V_dot, -k * c(1) ** 2 / 2 * V ** (2 * q())),
+    given=[after, derivative_given, eq(f_norm, 0), *between, *gradient_between],
+    labels=["eq:lyapunov_derivative_inequality_kappa_2"], uses=[v_differential_inequality],
+)  # fmt: skip
+def driftless(goal: Goal) -> Evidence:
+    """‖f‖ = 0 in the inequality for V."""
+    return reals(goal)
+
+
+@claim(
+    "5/step4-driftless-definite", "Without drift the rate of V is negative away from the source",
+    lt(-k * c(1) ** 2 / 2 * V ** (2 * q()), 0), place="Step 4, case i", uses=[driftless],
+)  # fmt: skip
+def driftless_definite(goal: Goal) -> Evidence:
+    """k c₁² > 0 and V > 0."""
+    return reals(goal)
+
+
+V_t = sp.Function("V", nonnegative=True)
+s = sp.Symbol("s", real=True)
+
+
+def on_interval(rate: sp.Expr) -> ForAll:
+    """dV/ds ≤ rate on [t₀, τ]."""
+    return ForAll((s,), le(sp.Derivative(V_t(s), s), rate), (ge(s, t0), le(s, tau)))
+
+
+driftless_rate = -k * c(1) ** 2 / 2
+sigma = 2 * q() - 1
+
+
+@claim(
+    "5/step4-driftless-bound", "Without drift V has an explicit class-KL bound for κ ≥ 2",
+    le(V_t(tau), V_t(t0) * (1 - sigma * V_t(t0) ** sigma * driftless_rate * (tau - t0)) ** (-1 / sigma)),
+    given=[on_interval(driftless_rate * V_t(s) ** (2 * q())), after, ge(kappa, 2)], place="Step 4, case i",
+    uses=[driftless],
+)  # fmt: skip
+def driftless_bound(goal: Goal) -> Evidence:
+    """The comparison equation is of Bernoulli's type. It says more than asymptotic stability: the rate at which V
+    decreases, uniform in the initial time. κ = 1 is the exponential case of the next part with E = 0."""
+    base = 1 - sigma * V_t(t0) ** sigma * driftless_rate * (s - t0)
+    return comparison(goal, V_t(t0) * base ** (-1 / sigma), denominators=[base])
+
+
+lyapunov_theorem = claim(
+    "5/step4-lyapunov-theorem", "Without drift the source is globally uniformly asymptotically stable for the average",
+    Prose("A radially unbounded V with class-K∞ bounds and a negative definite rate makes x* globally uniformly "
+          "asymptotically stable for the averaged system in τ"),
+    expected="cited", place="Step 4, case i", uses=[v_bounds, driftless, driftless_definite],
+)(cited("Khalil, Nonlinear Systems, Theorem 4.9"))  # fmt: skip
+
+# --- Case ii: gradient drift, κ = 1 -------------------------------------------------------------------------------------
+
+B1, B2 = c(1, ONE), c(2, ONE)
+between_1 = tuple(relation.map(lambda e: e.subs(kappa, 1)) for relation in (*between, *gradient_between))
+case_two = le(V_dot, B2**2 * E_norm * V / stretch**2 - k * B1**2 / 2 * V)
+
+
+@claim(
+    "5/step4-gradient-drift", "With gradient drift and κ = 1 the inequality is linear in V", case_two,
+    given=[after, derivative_given, le(f_norm, E_norm * G), *between_1],
+    labels=["eq:lyapunov_derivative_inequality_kappa_1"], uses=[spectral_norm],
+)  # fmt: skip
+def gradient_drift(goal: Goal) -> Evidence:
+    """2q₁ = 1, and ‖E∇F‖ ≤ ‖E‖‖∇F‖ is bounded by c₂‖E‖ times the root of V."""
+    return reals(goal, *instance(v_differential_inequality, {kappa: ONE}), *instance(gradient_bounds, {kappa: ONE}))
+
+
+drift_rate = B2**2 * E_norm
+decay_rate = k * B1**2 / 2
+elapsed = tau - t0
+
+
+@claim(
+    "5/step4-integral-of-the-drift", "The drift's factor has the integral ‖l₁‖₁ = c₂²‖E‖T",
+    eq(sp.Integral(drift_rate / (1 + x1 / T) ** 2, (x1, 0, sp.oo)), drift_rate * T), place="Step 4, case ii",
+)  # fmt: skip
+def drift_integral(goal: Goal) -> Evidence:
+    """In the variable τ − t₀; this is why the growth by the drift is bounded however strong the drift is."""
+    return integrals(goal)
+
+
+exponent = drift_rate * (s - t0) / (1 + (s - t0) / T) - decay_rate * (s - t0)
+
+
+@claim(
+    "5/step4-exponential-bound", "V decreases exponentially in τ up to a factor",
+    le(V_t(tau), V_t(t0) * sp.exp(drift_rate * T) * sp.exp(-decay_rate * elapsed)),
+    given=[on_interval(drift_rate / (1 + (s - t0) / T) ** 2 * V_t(s) - decay_rate * V_t(s)), after],
+    labels=["eq:Lyapunov_inequality_upper_bound"], uses=[gradient_drift, drift_integral],
+)  # fmt: skip
+def exponential_bound(goal: Goal) -> Evidence:
+    """The linear comparison equation is solved and its solution checked; the integral of the drift's factor up to τ is
+    then replaced by its limit."""
+    bounded = exp_monotone(exponent.subs(s, tau), drift_rate * T - decay_rate * elapsed)
+    return comparison(goal, V_t(t0) * sp.exp(exponent), denominators=[1 + (s - t0) / T], lemmas=[bounded])
+
+
+growth, decay = sp.exp(drift_rate * T), sp.exp(-decay_rate * elapsed)
+distance_bound = sp.sqrt(a1 / a2) * R0 * sp.exp(drift_rate / 2 * T) * sp.exp(-decay_rate / 2 * elapsed)
+
+
+@claim(
+    "5/step4-distance-bound", "The distance decreases exponentially in τ up to a factor", le(R, distance_bound),
+    given=[le(a2 * R**2, V), le(V0, a1 * R0**2), le(V, V0 * growth * decay)],
+    labels=["eq:x_bar_upper_bound"], uses=[exponential_bound, v_bounds],
+)  # fmt: skip
+def distance_bound_tau(goal: Goal) -> Evidence:
+    """V is bounded by the squared distance from below at τ and from above at t₀; then the root is taken. The printed
+    exponents are written with b and a: half of c₂²‖E‖T, and a quarter of k c₁²."""
+    return reals(goal)
+
+
+@claim(
+    "5/step4-distance-bound-printed-form", "The printed exponents are those",
+    every(
+        eq(drift_rate / 2 * T, c(2, ONE) ** 2 / 2 * E_norm * T),
+        eq(decay_rate / 2 * elapsed, k * c(1, ONE) ** 2 / 4 * (tau - t0)),
+    ),
+    labels=["eq:x_bar_upper_bound"],
+)  # fmt: skip
+def distance_bound_form(goal: Goal) -> Evidence:
+    """A quarter, because the root halves the rate k c₁²/2."""
+    return exact(goal)
+
+
+@claim(
+    "5/step4-distance-limit", "The bound tends to 0", eq(sp.Limit(distance_bound, tau, sp.oo, "-"), 0),
+    place="Step 4, case ii", uses=[distance_bound_tau],
+)  # fmt: skip
+def distance_limit(goal: Goal) -> Evidence:
+    """However large the drift is."""
+    return limits(goal)
+
+
+start = sp.Symbol("tau_0", real=True)
+
+
+@claim(
+    "5/step4-uniform", "The bound is uniform in the time at which the averaged system is started",
+    le(
+        drift_rate * ((tau - t0) / (1 + (tau - t0) / T) - (start - t0) / (1 + (start - t0) / T)),
+        drift_rate * T,
+    ),
+    given=[ge(start, t0), ge(tau, start)], place="Step 4, case ii", uses=[exponential_bound],
+)  # fmt: skip
+def uniform(goal: Goal) -> Evidence:
+    """The averaged system depends on τ, so uniformity needs a word: from any later start the drift contributes at most
+    the same factor."""
+    return reals(goal)
+
+
+guas = claim(
+    "5/step4-guas", "With gradient drift and κ = 1 the source is globally uniformly asymptotically stable",
+    Prose("x* is globally uniformly asymptotically stable for the averaged system in τ, by the explicit class-KL bound"),
+    expected="cited", place="Step 4, case ii", uses=[distance_bound_tau, distance_limit, uniform],
+)(cited("Khalil, Nonlinear Systems, Lemma 4.5: a class-KL bound that is uniform in the initial time"))  # fmt: skip
+
+# --- Steps 5 and 6 ------------------------------------------------------------------------------------------------------
+
+V_layer = y_tilde**2 / 2
+
+
+@claim(
+    "5/step5-layer-rate", "The boundary layer's Lyapunov function",
+    eq(-(y_tilde**2), chain.boundary_layer.derivative_along(V_layer)),
+    labels=["eq:blm_req_2"], uses=[boundary_layer, general_boundary_layer],
+)  # fmt: skip
+def layer_rate(goal: Goal) -> Evidence:
+    """V(ỹ) = ỹ²/2 decreases at the rate ỹ², which is a class-K function of |ỹ|."""
+    return exact(goal)
+
+
+@claim(
+    "5/step5-layer-bounds", "It lies between class-K∞ functions, and so does its rate",
+    every(
+        le(sp.Abs(y_tilde) ** 2 / 2, V_layer), le(V_layer, sp.Abs(y_tilde) ** 2 / 2),
+        le(chain.boundary_layer.derivative_along(V_layer), -(sp.Abs(y_tilde) ** 2)),
+    ),
+    labels=["eq:blm_req_1", "eq:blm_req_2"], uses=[layer_rate],
+)  # fmt: skip
+def layer_bounds(goal: Goal) -> Evidence:
+    """α₁ = α₂ = s²/2 and α₃ = s²."""
+    return reals(goal)
+
+
+step_five = claim(
+    "5/step5-averaging-applies", "The source is sSPUAS for the closed loop in dilated time",
+    Prose("By Theorem 1 the source is singularly semi-globally practically uniformly asymptotically stable for the "
+          "closed loop in τ, in both cases of Theorem 2"),
+    expected="cited", place="Step 5",
+    uses=[averaging_theorem, *assumption_1, layer_bounds, lyapunov_theorem, guas, qualitative],
+)(cited("the paper's Theorem 1, whose hypotheses are the claims listed"))  # fmt: skip
+
+main_theorem = claim(
+    "5/main-theorem", "Theorem 2: prescribed-time seeking under vanishing drift",
+    Prose("The source is FxT-sSPUAS for the closed loop in t, without drift for every κ, and with drift E∇F for κ = 1"),
+    expected="cited", labels=["thm:main_theorem"], place="Theorem 2",
+    uses=[step_five, closed_loop_in_t, contraction_rate],
+)(cited("Step 5 and the time contraction, which is increasing and carries trajectories to trajectories"))  # fmt: skip
