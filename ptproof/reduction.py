@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import sympy as sp
+from sympy.solvers.solveset import NonlinearError
 
 from ptproof.errors import InputError
 from ptproof.proof.algebra import NotAlgebraic, is_zero
@@ -134,7 +135,7 @@ def solve_quasi_steady_state(
 def _is_affine_regular(rates: Sequence[sp.Expr], fast: Sequence[sp.Symbol]) -> bool:
     try:
         matrix, _ = sp.linear_eq_to_matrix(list(rates), list(fast))
-    except sp.solvers.solveset.NonlinearError:
+    except NonlinearError:
         return False
     determinant = sp.factor(matrix.det())
     return bool(determinant.is_nonzero)

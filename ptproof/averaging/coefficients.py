@@ -11,7 +11,7 @@ from sympy.simplify.fu import TR10i
 from ptproof.averaging.enclosure import check_coefficients, sample
 from ptproof.averaging.quasipolynomial import exact_sign
 from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided
-from ptproof.averaging.signal import Signal, read_signal
+from ptproof.averaging.signal import Signal, common_pieces, read_signal
 from ptproof.proof.algebra import NotAlgebraic, is_zero
 from ptproof.proof.ball import separated
 from ptproof.system import DitherSystem
@@ -125,18 +125,6 @@ def nested_mean(outer: Signal, inner: Signal) -> sp.Expr:
         primitive = (outer.pieces[p] * inner.antiderivatives[q]).antiderivative()
         total.append(primitive.at(end) - primitive.at(start))
     return sp.Add(*total) / outer.period
-
-
-def common_pieces(first: Signal, second: Signal) -> list[tuple[sp.Expr, sp.Expr, int, int]]:
-    """(from, to, piece of the first, piece of the second) on the common refinement of their points."""
-    result, p, q, start = [], 0, 0, sp.S.Zero
-    while p < len(first.pieces) and q < len(second.pieces):
-        left, right = first.points[p + 1], second.points[q + 1]
-        order = exact_sign(left - right)
-        end = left if order <= 0 else right
-        result.append((start, end, p, q))
-        start, p, q = end, p + (order <= 0), q + (order >= 0)
-    return result
 
 
 def tidy_constant(value: sp.Expr) -> sp.Expr:

@@ -38,6 +38,32 @@ class Signal:
         return tuple(result)
 
     @functools.cached_property
+    def primitive(self) -> Signal:
+        """The antiderivative of zero mean, of a signal of zero mean."""
+        rough = Signal(self.period, self.points, self.antiderivatives)
+        if self.is_trigonometric:  # each harmonic by itself has zero mean
+            return Signal(self.period, self.points, (self.pieces[0].antiderivative(),))
+        shift = QuasiPolynomial.constant(-rough.mean)
+        return Signal(self.period, self.points, tuple(piece + shift for piece in rough.pieces))
+
+    def __mul__(self, other: Signal) -> Signal:
+        points, pieces = [sp.S.Zero], []
+        for _, end, p, q in common_pieces(self, other):
+            points.append(end)
+            pieces.append(self.pieces[p] * other.pieces[q])
+        return Signal(self.period, tuple(points), tuple(pieces))
+
+    def expression(self, phase: sp.Symbol) -> sp.Expr:
+        """The signal for all phases, extended periodically."""
+        if self.is_trigonometric:
+            return self.pieces[0].expression(phase)
+        inside = sp.Mod(phase, self.period)
+        branches = [
+            (piece.expression(inside), inside < end) for end, piece in zip(self.points[1:], self.pieces, strict=True)
+        ]
+        return sp.Piecewise(*branches[:-1], (branches[-1][0], True))
+
+    @functools.cached_property
     def mean(self) -> sp.Expr:
         """The exact mean over one period."""
         if self.is_trigonometric:
@@ -66,6 +92,18 @@ def read_signal(dither: sp.Expr, phase: sp.Symbol, period: sp.Expr, where: str) 
         points.append(end)
         parts.append(read(expression, phase, where))
     return Signal(period, tuple(points), tuple(parts))
+
+
+def common_pieces(first: Signal, second: Signal) -> list[tuple[sp.Expr, sp.Expr, int, int]]:
+    """(from, to, piece of the first, piece of the second) on the common refinement of their points."""
+    result, p, q, start = [], 0, 0, sp.S.Zero
+    while p < len(first.pieces) and q < len(second.pieces):
+        left, right = first.points[p + 1], second.points[q + 1]
+        order = exact_sign(left - right)
+        end = left if order <= 0 else right
+        result.append((start, end, p, q))
+        start, p, q = end, p + (order <= 0), q + (order >= 0)
+    return result
 
 
 def turns(rate: sp.Expr, period: sp.Expr) -> sp.Expr:

@@ -1,0 +1,115 @@
+"""Stability of the boundary layer dỹ/dτ̃ = g(x, ỹ + l(x)), uniformly in the frozen x."""
+
+from __future__ import annotations
+
+import itertools
+import time
+from collections.abc import Sequence
+
+import sympy as sp
+
+from ptproof.averaging.fast import SAMPLES, masked_functions
+from ptproof.averaging.problem import FastStates
+from ptproof.averaging.quasipolynomial import exact_sign
+from ptproof.averaging.refusal import AveragingUndecided
+from ptproof.proof.reals import follows
+from ptproof.proof.statement import Relation
+from ptproof.proof.verdict import Evidence, Verdict, Witness
+
+ENGINE = "boundary layer"
+_SECONDS = 1.0
+_BUDGET = 6.0
+_RATES = (sp.S.One, sp.Rational(1, 2), sp.Rational(1, 10), sp.Rational(1, 100))
+
+
+def boundary_layer_stability(fast: FastStates, steady: Sequence[sp.Expr], domain: Sequence[Relation] = ()) -> Evidence:
+    """Whether a Lyapunov function as in eq:blm_req_1 and eq:blm_req_2 exists.
+
+    proved: g is affine in z with a constant matrix that satisfies the Routh-Hurwitz conditions (V is then a
+    quadratic form), or ỹᵀ g(x, ỹ + l(x)) ≤ −c |ỹ|^(2p) was shown for some c > 0 and p (V = |ỹ|²/2).
+    refuted: with exact values at which the linearisation has an eigenvalue with positive real part, or is affine
+    and not asymptotically stable. undecided otherwise.
+    """
+    start = time.perf_counter()
+    matrix = sp.Matrix(list(fast.rate)).jacobian(list(fast.state))
+    slow = {symbol for entry in matrix for symbol in entry.free_symbols if not symbol.is_positive}
+    constant = not slow and not any(entry.has(sp.Function) for entry in matrix)
+
+    def result(verdict: Verdict, detail: str, witness: Witness | None = None) -> Evidence:
+        return Evidence(ENGINE, verdict, detail, time.perf_counter() - start, witness)
+
+    if constant and _hurwitz(matrix):
+        return result(Verdict.PROVED, "linear with a constant matrix; the Routh-Hurwitz conditions hold")
+    if (detail := _lyapunov(fast, steady, domain)) is not None:
+        return result(Verdict.PROVED, detail)
+    found = _unstable(matrix, fast, steady, affine=constant)
+    if found is not None:
+        return result(Verdict.REFUTED, *found)
+    return result(Verdict.UNDECIDED, "no Lyapunov function was found, and no point at which it is unstable")
+
+
+def routh_column(matrix: sp.Matrix) -> list[sp.Expr]:
+    """The leading principal minors of the Hurwitz matrix of the characteristic polynomial, a_n = 1."""
+    coefficients = [sp.cancel(entry) for entry in matrix.charpoly(sp.Dummy("s")).all_coeffs()]
+    size = len(coefficients) - 1
+
+    def entry(row: int, column: int) -> sp.Expr:
+        index = 2 * (column + 1) - (row + 1)
+        return coefficients[index] if 0 <= index <= size else sp.S.Zero
+
+    hurwitz = sp.Matrix(size, size, entry)
+    return [sp.factor(hurwitz[:k, :k].det()) for k in range(1, size + 1)]
+
+
+def _hurwitz(matrix: sp.Matrix) -> bool:
+    return all(
+        bool(minor.is_positive) or follows(Relation(sp.S.Zero, "<", minor), (), seconds=_SECONDS)[0]
+        for minor in routh_column(matrix)
+    )
+
+
+def _lyapunov(fast: FastStates, steady: Sequence[sp.Expr], domain: Sequence[Relation]) -> str | None:
+    deviation = [sp.Symbol(f"y_{symbol.name}", real=True) for symbol in fast.state]
+    moved = {z: y + value for z, y, value in zip(fast.state, deviation, steady, strict=True)}
+    rates = [rate.subs(moved, simultaneous=True) for rate in fast.rate]
+    product, _ = masked_functions(sp.expand(sum(y * rate for y, rate in zip(deviation, rates, strict=True))))
+    squared = sum(y**2 for y in deviation)
+    scales = [sp.S.One, *sorted(product.free_symbols & _positive(product), key=str)]
+    end = time.perf_counter() + _BUDGET
+    for power in (1, 2, 3):
+        for scale, rate in itertools.product(scales, _RATES):
+            if time.perf_counter() > end:
+                return None
+            bound = Relation(product, "<=", -rate * scale * squared**power)
+            if follows(bound, domain, seconds=_SECONDS)[0]:
+                return f"V = |y|^2/2 decreases at least by {rate * scale}*|y|^{2 * power}, uniformly in the slow states"
+    return None
+
+
+def _positive(expression: sp.Expr) -> set[sp.Symbol]:
+    return {symbol for symbol in expression.free_symbols if symbol.is_positive}
+
+
+def _unstable(
+    matrix: sp.Matrix, fast: FastStates, steady: Sequence[sp.Expr], *, affine: bool
+) -> tuple[str, Witness] | None:
+    there = dict(zip(fast.state, steady, strict=True))
+    local = matrix.applyfunc(lambda entry: sp.expand(masked_functions(entry.subs(there, simultaneous=True))[0]))
+    symbols = sorted(local.free_symbols, key=lambda symbol: symbol.name)
+    samples = [[v for v in SAMPLES if not (symbol.is_positive and v <= 0)] for symbol in symbols]
+    for values in itertools.islice(itertools.product(*samples), 64):
+        point = dict(zip(symbols, values, strict=True))
+        numbers = local.subs(point)
+        try:
+            signs = [exact_sign(minor) for minor in routh_column(numbers)]
+        except AveragingUndecided:
+            continue
+        if all(sign > 0 for sign in signs):
+            continue
+        if not affine and 0 in signs:
+            continue  # a vanishing real part leaves a nonlinear boundary layer open
+        names = {str(symbol): str(value) for symbol, value in point.items()}
+        eigenvalues = ", ".join(str(value) for value in numbers.eigenvals()) if numbers.rows <= 2 else str(numbers)
+        detail = f"the boundary layer is not asymptotically stable: its linear part has the eigenvalues {eigenvalues}"
+        return detail, Witness(names, eigenvalues, "negative real parts")
+    return None

@@ -1,0 +1,157 @@
+"""Whether a function of slow time and states stays bounded in time, with all its derivatives."""
+
+from __future__ import annotations
+
+import time as clock
+from collections.abc import Iterable, Sequence
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from ptproof.proof.limits import limit_of
+from ptproof.proof.reals import follows
+from ptproof.proof.statement import Relation
+from ptproof.proof.verdict import Evidence, Verdict, Witness
+
+ENGINE = "bounded in time"
+_ENTIRE = (sp.exp, sp.sin, sp.cos, sp.sinh, sp.cosh, sp.tanh, sp.atan, sp.asinh, sp.erf)
+_SAMPLES = (sp.S.One, sp.Rational(1, 2), sp.Integer(-1), sp.S.Zero)
+_SECONDS = 2.0
+
+
+def bounded_in_time(
+    expression: sp.Expr,
+    time: sp.Symbol,
+    states: Sequence[sp.Symbol],
+    start: sp.Expr | None,
+    domain: Sequence[Relation] = (),
+    assumed: Iterable[AppliedUndef] = (),
+) -> Evidence:
+    """Whether ``expression`` and its derivatives are bounded in ``time`` on every compact set of states.
+
+    Parameters
+    ----------
+    expression
+        Smooth in time and states (that is examined elsewhere).
+    start
+        The times are ``start`` ≤ time < ∞; None stands for all real times.
+    domain
+        The same as relations, and what else restricts time and states.
+    assumed
+        Undefined functions that are bounded in time with their derivatives.
+
+    Returns
+    -------
+    Evidence
+        proved: the time enters through functions that are bounded with all their derivatives (sines and cosines
+        of affine arguments, rational functions that do not grow, decaying exponentials, …). refuted: with exact
+        states at which the limit as time → ∞ is infinite. undecided otherwise.
+    """
+    begin = clock.perf_counter()
+    tame = _Tame(time, frozenset(states), start, domain, {applied.func for applied in assumed})
+    if tame(expression):
+        detail = (
+            "continuous and free of time"
+            if time not in expression.free_symbols
+            else ("time enters through functions that are bounded with their derivatives")
+        )
+        return Evidence(ENGINE, Verdict.PROVED, detail, clock.perf_counter() - begin)
+    for value in _SAMPLES:
+        others = sorted(expression.free_symbols - {time}, key=lambda symbol: symbol.name)
+        values = {s: value if not (s.is_positive and value <= 0) else sp.S.One for s in others}
+        if expression.atoms(AppliedUndef):
+            break
+        limit = limit_of(expression.subs(values, simultaneous=True), time, sp.oo)
+        if limit in (sp.oo, -sp.oo):
+            names = {str(symbol): str(entry) for symbol, entry in values.items()}
+            witness = Witness({**names, str(time): "oo"}, str(limit), "a finite bound")
+            detail = f"{expression} tends to {limit} as {time} grows"
+            return Evidence(ENGINE, Verdict.REFUTED, detail, clock.perf_counter() - begin, witness)
+    functions = sorted({str(applied) for applied in expression.atoms(AppliedUndef) if time in applied.args})
+    detail = f"not known whether {expression} is bounded in {time}"
+    if functions:
+        detail = f"rests on {', '.join(functions)} being bounded in {time} with its derivatives"
+    return Evidence(ENGINE, Verdict.UNDECIDED, detail, clock.perf_counter() - begin)
+
+
+class _Tame:
+    """Decides by structure; True is a proof."""
+
+    def __init__(
+        self,
+        time: sp.Symbol,
+        states: frozenset[sp.Symbol],
+        start: sp.Expr | None,
+        domain: Sequence[Relation],
+        assumed: set[type],
+    ) -> None:
+        self.time, self.states, self.start = time, states, start
+        self.domain, self.assumed = tuple(domain), assumed
+
+    def __call__(self, node: sp.Expr) -> bool:
+        if self.time not in node.free_symbols:
+            return True
+        if not node.free_symbols & self.states and node.is_rational_function(self.time):
+            return self.rational(node)
+        if node.is_Add:
+            return all(self(argument) for argument in node.args)
+        if node.is_Mul:
+            scalar: list[sp.Expr] = []
+            rest: list[sp.Expr] = []
+            for factor in node.args:
+                own = not factor.free_symbols & self.states and factor.is_rational_function(self.time)
+                (scalar if own else rest).append(factor)
+            return self.rational(sp.Mul(*scalar)) and all(self(factor) for factor in rest)
+        if node.is_Pow:
+            return self.power(node)
+        if isinstance(node, sp.sin | sp.cos | sp.tanh | sp.atan) and self.affine(node.args[0]) is not None:
+            return True
+        if isinstance(node, sp.exp) and self.decays(node.args[0]):
+            return True
+        if isinstance(node, _ENTIRE):
+            return self(node.args[0])
+        if isinstance(node, AppliedUndef):
+            return node.func in self.assumed or (
+                all(self(argument) for argument in node.args) and self.time not in node.args
+            )
+        return False
+
+    def rational(self, node: sp.Expr) -> bool:
+        if self.time not in node.free_symbols:
+            return True
+        top, bottom = (sp.Poly(part, self.time) for part in sp.fraction(sp.cancel(sp.together(node))))
+        if top.degree() > bottom.degree():
+            return False
+        if not (bottom.LC().is_nonzero or bottom.LC().is_positive):
+            return False
+        return bottom.degree() == 0 or self.holds(Relation(bottom.as_expr(), "!=", sp.S.Zero))
+
+    def power(self, node: sp.Pow) -> bool:
+        if node.base is sp.E:
+            return self.decays(node.exp) or self(node.exp)
+        if self.time in node.exp.free_symbols or not self(node.base):
+            return False
+        if node.exp.is_integer and node.exp.is_nonnegative:
+            return True
+        # Bounded derivatives of 1/g, √g, log g need g away from 0.
+        return any(
+            self.holds(Relation(bound, "<=", sign * node.base))
+            for bound in (sp.S.One, sp.Rational(1, 10), sp.Rational(1, 1000))
+            for sign in ((1, -1) if node.exp.is_integer else (1,))
+        )
+
+    def affine(self, argument: sp.Expr) -> tuple[sp.Expr, sp.Expr] | None:
+        """(rate, rest) of rate·time + rest, with a rate that is constant."""
+        rate = sp.diff(argument, self.time)
+        if rate.free_symbols & (self.states | {self.time}) or rate.atoms(AppliedUndef):
+            return None
+        return rate, sp.expand(argument - rate * self.time)
+
+    def decays(self, argument: sp.Expr) -> bool:
+        if self.start is None or not argument.is_polynomial(self.time) or argument.atoms(AppliedUndef):
+            return False
+        polynomial = sp.Poly(argument, self.time)
+        return not polynomial.free_symbols_in_domain & self.states and bool(polynomial.LC().is_negative)
+
+    def holds(self, relation: Relation) -> bool:
+        return follows(relation, self.domain, seconds=_SECONDS)[0]

@@ -1,0 +1,142 @@
+"""The terms of order 1/√ω: how far the solution is from its average, and how far the average drifts."""
+
+from __future__ import annotations
+
+import functools
+import itertools
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import sympy as sp
+
+from ptproof.averaging.average import derive
+from ptproof.averaging.brackets import SparseField, sparse_bracket, tidy
+from ptproof.averaging.coefficients import signals, tidy_constant
+from ptproof.averaging.signal import Signal
+from ptproof.system import DitherSystem, System
+
+Vector = tuple[sp.Expr, ...]
+
+
+@dataclass(frozen=True)
+class Correction:
+    """x = x̄ + (1/√ω) Σ b_i(τ, x̄) U_i(τ, ωτ) + O(1/ω), with x̄ the solution of a corrected average.
+
+    With U_i the antiderivative of u_i of zero mean, and averages ⟨·⟩ over one period,
+
+        dx̄/dτ = b₀ + Σ_{i<j} [b_i, b_j] v_ji + (1/√ω) g,
+        g = −(1/3) Σ_{i<j} Σ_k (⟨u_j U_i U_k⟩ − ⟨u_i U_j U_k⟩) [[b_i, b_j], b_k].
+
+    Guaranteed on every finite interval of τ on which the average exists, uniformly for initial states in a compact
+    set, if the fields are C³, the drift is C², both in time and states, and the slow amplitudes of the dithers
+    are C²: |x(τ) − expressions(τ, x̄(τ))| ≤ C/ω, where x̄ starts in ``initial_state``. Without g, or without the
+    shift of the initial state, the error is O(1/√ω) in general, as for the plain average.
+
+    Attributes
+    ----------
+    system, average
+        The dither system and its Lie bracket system.
+    shift
+        Σ b_i U_i in terms of time, phase and states, n expressions.
+    drift
+        g, n expressions in time and states; zero for many dithers (cos θ and sin θ, square waves), not for all.
+    """
+
+    system: DitherSystem
+    average: System
+    shift: Vector
+    drift: Vector
+
+    @property
+    def drift_vanishes(self) -> bool:
+        """Whether g is identically zero, so that the plain average already serves as x̄."""
+        return all(entry == 0 for entry in self.drift)
+
+    @property
+    def corrected_average(self) -> System:
+        """The average with its drift of order 1/√ω; ω is one of its parameters."""
+        root = sp.sqrt(self.system.omega)
+        rhs = tuple(a + g / root for a, g in zip(self.average.rhs, self.drift, strict=True))
+        return System(self.system.time, self.system.state, rhs, name=f"corrected {self.average.name}")
+
+    @property
+    def expressions(self) -> Vector:
+        """x to first order, in terms of x̄ (written in the letters of the states), τ and ω."""
+        fast = {self.system.phase: self.system.omega * self.system.time}
+        root = sp.sqrt(self.system.omega)
+        return tuple(
+            symbol + entry.subs(fast) / root for symbol, entry in zip(self.system.state, self.shift, strict=True)
+        )
+
+    @property
+    def initial_state(self) -> Vector:
+        """x̄ at the initial time in terms of x there: x̄ = x − (1/√ω) Σ b_i(τ, x) U_i(τ, ωτ)."""
+        return tuple(2 * symbol - entry for symbol, entry in zip(self.system.state, self.expressions, strict=True))
+
+    def at(self, values: Mapping[Any, Any]) -> Vector:
+        """``initial_state`` with symbols replaced."""
+        return tuple(entry.subs(values, simultaneous=True) for entry in self.initial_state)
+
+    def _repr_latex_(self) -> str:
+        rows = [
+            rf"{sp.latex(symbol)} &= {sp.latex(entry)} + O(1/{sp.latex(self.system.omega)})"
+            for symbol, entry in zip(self.system.state, self.expressions, strict=True)
+        ]
+        return r"$\displaystyle \begin{aligned}" + r" \\ ".join(rows) + r"\end{aligned}$"
+
+
+def first_correction(system: DitherSystem) -> Correction:
+    """The near-identity term and the drift of the average, both of order 1/√ω, by exact algebra.
+
+    Raises as :func:`ptproof.averaging.average.average` does; what is guaranteed stands in :class:`Correction`.
+    """
+    derived = derive(system)
+    found = signals(system)
+    shift = [sp.S.Zero] * len(system.state)
+    for field, signal in zip(system.fields, found, strict=True):
+        primitive = tidy_constant(signal.primitive.expression(system.phase))
+        for row, entry in enumerate(field):
+            if entry != 0:
+                shift[row] += entry * primitive
+    return Correction(system, derived.system, tuple(shift), _drift(system, found))
+
+
+def _drift(system: DitherSystem, found: tuple[Signal, ...]) -> Vector:
+    fields = [SparseField(entries, system.state) for entries in system.fields]
+    mean = _triple_means(found)
+    rows: dict[int, list[sp.Expr]] = {}
+    for i, j in itertools.combinations(range(len(fields)), 2):
+        weights = {k: tidy_constant(sp.expand(mean(j, i, k) - mean(i, j, k))) for k in range(len(fields))}
+        weights = {k: weight for k, weight in weights.items() if weight != 0}
+        if not weights:
+            continue
+        inner = sparse_bracket(fields[i], fields[j])
+        for k, weight in weights.items():
+            for row, entry in sparse_bracket(inner, fields[k]).entries.items():
+                rows.setdefault(row, []).append(-weight * entry / 3)
+    return tuple(tidy(sp.Add(*rows[row])) if row in rows else sp.S.Zero for row in range(len(system.state)))
+
+
+def _triple_means(found: tuple[Signal, ...]) -> Any:
+    """⟨u_b U_a U_c⟩ as a function of (b, a, c), each product formed once."""
+    rates = [
+        frozenset(rate for _, rate in signal.pieces[0].terms) if signal.is_trigonometric else None for signal in found
+    ]
+
+    @functools.cache
+    def product(a: int, c: int) -> Signal:
+        return found[a].primitive * found[c].primitive
+
+    @functools.cache
+    def mean(b: int, a: int, c: int) -> sp.Expr:
+        if a > c:
+            return mean(b, c, a)
+        first, second, third = rates[a], rates[b], rates[c]
+        if first is not None and second is not None and third is not None:
+            sums = {sign * p + q for p in first for q in second for sign in (1, -1)}
+            if not any(total in third or -total in third for total in sums):
+                return sp.S.Zero
+        return (found[b] * product(a, c)).mean
+
+    return mean

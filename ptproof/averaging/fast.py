@@ -1,0 +1,189 @@
+"""The quasi-steady state of the fast states, and whether it is the only one."""
+
+from __future__ import annotations
+
+import itertools
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from ptproof import reduction
+from ptproof.averaging.problem import FastStates
+from ptproof.errors import InputError
+from ptproof.proof.algebra import NotAlgebraic, is_zero
+from ptproof.proof.reals import follows
+from ptproof.proof.statement import Relation
+from ptproof.proof.verdict import Evidence, Verdict, Witness
+
+ENGINE = "quasi-steady state"
+_SECONDS = 3.0
+SAMPLES = (sp.S.Zero, sp.S.One, sp.Rational(-3, 2), sp.Integer(3))
+
+
+@dataclass(frozen=True)
+class QuasiSteadyState:
+    """z = l(x), or None where none is known, and what is known about its being unique."""
+
+    values: tuple[sp.Expr, ...] | None
+    unique: Evidence
+
+
+def quasi_steady_state(fast: FastStates, domain: Sequence[Relation] = ()) -> QuasiSteadyState:
+    """Solve 0 = g(x, z) for z, or check the solution that the author gives (ass:singular_ass, F).
+
+    Affine rates are solved by linear algebra; others one after the other where each has one new fast state, by
+    the linear factors of the rate; the rest is left to SymPy's solver and checked. ``unique`` is proved where
+    every other factor was shown not to vanish or g to be strictly monotone in z, and refuted with exact values
+    at which g has no real zero or several.
+    """
+    start = time.perf_counter()
+
+    def result(
+        values: Sequence[sp.Expr] | None, verdict: Verdict, detail: str, witness: Witness | None = None
+    ) -> QuasiSteadyState:
+        evidence = Evidence(ENGINE, verdict, detail, time.perf_counter() - start, witness)
+        return QuasiSteadyState(None if values is None else tuple(values), evidence)
+
+    values = fast.quasi_steady_state
+    if values is not None and not _vanishes(fast, values):
+        return result(None, Verdict.REFUTED, f"{list(values)} does not make the fast rates vanish")
+    try:
+        affine, shown = reduction.solve_quasi_steady_state(fast.rate, fast.state) if _affine(fast) else (None, False)
+    except InputError:
+        affine, shown = None, False
+    if affine is not None and shown:
+        return result(values or affine, Verdict.PROVED, "the rates are affine in the fast states, and regular")
+    found, reason = _cascade(fast, domain)
+    if found is not None:
+        return result(values or found, Verdict.PROVED, reason)
+    if (counted := _count(fast)) is not None:
+        detail, witness = counted
+        return result(values, Verdict.REFUTED, detail, witness)
+    if values is None:
+        try:
+            values, _ = reduction.solve_quasi_steady_state(fast.rate, fast.state)
+        except (InputError, NotAlgebraic) as error:
+            return result(None, Verdict.UNDECIDED, str(error).removeprefix("system: "))
+    if _monotone(fast, domain):
+        return result(values, Verdict.PROVED, "the rates are strictly monotone in the fast states")
+    return result(values, Verdict.UNDECIDED, f"z = {list(values)} is one solution; {reason}")
+
+
+def _vanishes(fast: FastStates, values: Sequence[sp.Expr]) -> bool:
+    there = dict(zip(fast.state, values, strict=True))
+    try:
+        return all(is_zero(rate.subs(there, simultaneous=True)) for rate in fast.rate)
+    except NotAlgebraic:
+        return False
+
+
+def _affine(fast: FastStates) -> bool:
+    second = [sp.diff(rate, a, b) for rate in fast.rate for a in fast.state for b in fast.state]
+    return all(sp.expand(entry) == 0 for entry in second)
+
+
+def _cascade(fast: FastStates, domain: Sequence[Relation]) -> tuple[tuple[sp.Expr, ...] | None, str]:
+    """Solve one rate after the other, each for its only unknown fast state."""
+    known: dict[sp.Symbol, sp.Expr] = {}
+    rates = list(fast.rate)
+    while rates:
+        for rate in rates:
+            current = rate.subs(known, simultaneous=True)
+            unknown = set(fast.state) & current.free_symbols - known.keys()
+            if len(unknown) == 1:
+                break
+        else:
+            return None, "no other solution was excluded"
+        (symbol,) = unknown
+        value = _only_root(current, symbol, domain) or _monotone_root(fast, current, symbol, domain)
+        if value is None:
+            return None, f"that it is the only zero of {rate} was not shown"
+        known[symbol] = value
+        rates.remove(rate)
+    if set(known) != set(fast.state):
+        return None, "the rates leave a fast state open"
+    return tuple(known[symbol] for symbol in fast.state), (
+        "each rate, one after the other, has one zero in its fast state: a linear factor, or it is strictly monotone"
+    )
+
+
+def _monotone_root(fast: FastStates, rate: sp.Expr, symbol: sp.Symbol, domain: Sequence[Relation]) -> sp.Expr | None:
+    """The author's value (checked elsewhere to be a zero) if ``rate`` is strictly monotone in ``symbol``."""
+    if fast.quasi_steady_state is None:
+        return None
+    slope = sp.diff(rate, symbol)
+    for relation in (Relation(slope, "<", sp.S.Zero), Relation(sp.S.Zero, "<", slope)):
+        if follows(relation, domain, seconds=_SECONDS)[0]:
+            return fast.quasi_steady_state[fast.state.index(symbol)]
+    return None
+
+
+def _only_root(rate: sp.Expr, symbol: sp.Symbol, domain: Sequence[Relation]) -> sp.Expr | None:
+    masked, back = masked_functions(rate)
+    roots, others = [], []
+    for factor, _ in sp.factor_list(sp.fraction(sp.together(masked))[0])[1]:
+        if symbol not in factor.free_symbols:
+            others.append(factor)
+        elif factor.is_polynomial(symbol) and sp.degree(factor, symbol) == 1:
+            slope, rest = sp.Poly(factor, symbol).all_coeffs()
+            roots.append(sp.cancel(-rest / slope))
+            others.append(slope)
+        else:
+            others.append(factor)
+    if len(roots) != 1:
+        return None
+    for other in others:
+        if other.is_nonzero or follows(Relation(other, "!=", sp.S.Zero), domain, seconds=_SECONDS)[0]:
+            continue
+        return None
+    return roots[0].xreplace(back)
+
+
+def masked_functions(expression: sp.Expr) -> tuple[sp.Expr, dict[sp.Symbol, sp.Expr]]:
+    """Undefined functions as real symbols, which they may be at any one point, and the way back."""
+    found = sorted(expression.atoms(AppliedUndef), key=str)
+    table = {node: sp.Symbol(f"_{i}_{node.func}", real=True) for i, node in enumerate(found)}
+    return expression.xreplace(table), {symbol: node for node, symbol in table.items()}
+
+
+def _count(fast: FastStates) -> tuple[str, Witness] | None:
+    """Exact values of everything else at which a scalar polynomial rate has no real zero, or several."""
+    if len(fast.state) != 1:
+        return None
+    (symbol,), (rate,) = fast.state, fast.rate
+    masked, back = masked_functions(rate)
+    numerator = sp.fraction(sp.together(masked))[0]
+    if not numerator.is_polynomial(symbol):
+        return None
+    others = sorted(numerator.free_symbols - {symbol}, key=lambda entry: entry.name)
+    for values in itertools.islice(itertools.product(SAMPLES, repeat=len(others)), 64):
+        there = dict(zip(others, values, strict=True))
+        if any(entry.is_positive and value <= 0 for entry, value in there.items()):
+            continue
+        polynomial = numerator.subs(there)
+        if symbol not in polynomial.free_symbols:
+            continue
+        scalar = sp.Poly(polynomial, symbol)
+        if not (scalar.domain.is_QQ or scalar.domain.is_ZZ):
+            continue
+        roots = sorted(set(scalar.real_roots()), key=float)
+        if len(roots) != 1:
+            names = {str(back.get(entry, entry)): str(value) for entry, value in there.items()}
+            if len(roots) == 0:
+                return f"0 = {polynomial} has no real solution", Witness(names, str(polynomial), "0")
+            detail = f"0 = {polynomial} has {len(roots)} real solutions: {', '.join(map(str, roots))}"
+            return detail, Witness({**names, str(symbol): str(roots[0])}, str(roots[0]), str(roots[1]))
+    return None
+
+
+def _monotone(fast: FastStates, domain: Sequence[Relation]) -> bool:
+    """Whether the symmetric part of −∂g/∂z is positive definite everywhere, by its leading minors."""
+    matrix = -sp.Matrix(list(fast.rate)).jacobian(list(fast.state))
+    symmetric = (matrix + matrix.T) / 2
+    return all(
+        follows(Relation(sp.S.Zero, "<", symmetric[:size, :size].det()), domain, seconds=_SECONDS)[0]
+        for size in range(1, len(fast.state) + 1)
+    )

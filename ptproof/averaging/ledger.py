@@ -1,0 +1,285 @@
+"""The hypotheses of singularly perturbed Lie bracket averaging, each with its own verdict (ass:singular_ass)."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from ptproof.averaging.average import check_form
+from ptproof.averaging.boundary import boundary_layer_stability
+from ptproof.averaging.bounded import bounded_in_time
+from ptproof.averaging.coefficients import signals
+from ptproof.averaging.fast import QuasiSteadyState, quasi_steady_state
+from ptproof.averaging.problem import DitherProblem
+from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided
+from ptproof.proof.smoothness import smoothness
+from ptproof.proof.verdict import Evidence, Verdict
+
+LETTERS = ("A", "B", "C", "D", "E", "F", "boundary layer")
+MEANING = {
+    "form": "the equation has the form of the theorem",
+    "A": "drift and fields are twice continuously differentiable",
+    "B": "drift, fields and their brackets are bounded in time on compact sets, with derivatives",
+    "C": "the dithers are measurable, bounded, and Lipschitz in slow time",
+    "D": "the dithers have a common period and zero mean",
+    "E": "the fast rates are locally Lipschitz",
+    "F": "the quasi-steady state is unique and twice continuously differentiable",
+    "boundary layer": "the boundary layer is uniformly asymptotically stable",
+}
+_ORDER = {Verdict.REFUTED: 0, Verdict.UNDECIDED: 1, Verdict.PROVED: 2}
+
+
+@dataclass(frozen=True)
+class Ledger:
+    """Letter of the hypothesis → evidence; and the quasi-steady state where there are fast states."""
+
+    entries: Mapping[str, Evidence]
+    steady: tuple[sp.Expr, ...] | None
+
+    @property
+    def verdict(self) -> Verdict:
+        """The weakest verdict of all entries."""
+        return min((entry.verdict for entry in self.entries.values()), key=_ORDER.__getitem__)
+
+    def with_verdict(self, verdict: Verdict) -> tuple[str, ...]:
+        """The letters with this verdict."""
+        return tuple(letter for letter, entry in self.entries.items() if entry.verdict is verdict)
+
+    def to_json(self) -> dict[str, Any]:
+        return {
+            letter: {"verdict": str(entry.verdict), "detail": entry.detail} for letter, entry in self.entries.items()
+        }
+
+
+def examine(problem: DitherProblem) -> Ledger:
+    """Every hypothesis of the theorem for this system, on the times and the region asked about.
+
+    Undefined functions of ``problem.functions`` are taken as smooth (that is what their declaration says) and
+    the letters say so. An entry "refuted" means that the theorem does not cover the system, with the place and,
+    where there is one, a witness; "undecided" is a caveat of the result.
+    """
+    steady = None if problem.fast is None else quasi_steady_state(problem.fast, problem.domain)
+    entries = {
+        "form": _form(problem),
+        "A": _smooth_fields(problem),
+        "B": _bounded_fields(problem),
+        "C": _dithers(problem),
+        "D": _period_and_mean(problem),
+        "E": _lipschitz_rates(problem),
+        "F": _steady(problem, steady),
+        "boundary layer": _boundary_layer(problem, steady),
+    }
+    return Ledger(entries, None if steady is None else steady.values)
+
+
+def _timed(judge: Callable[[DitherProblem], Evidence]) -> Callable[[DitherProblem], Evidence]:
+    def timed(problem: DitherProblem) -> Evidence:
+        start = time.perf_counter()
+        evidence = judge(problem)
+        return replace(evidence, seconds=time.perf_counter() - start)
+
+    return timed
+
+
+@_timed
+def _form(problem: DitherProblem) -> Evidence:
+    try:
+        check_form(problem.system)
+    except AveragingRefused as refusal:
+        return Evidence("form", Verdict.REFUTED, str(refusal))
+    if problem.fast is not None:
+        own = {problem.system.time, problem.system.phase, problem.system.omega}
+        for i, rate in enumerate(problem.fast.rate, start=1):
+            if found := rate.free_symbols & own:
+                names = ", ".join(sorted(symbol.name for symbol in found))
+                detail = f"fast rate {i}: g(x, z) may depend on the states only, but it contains {names}"
+                return Evidence("form", Verdict.REFUTED, detail)
+    return Evidence("form", Verdict.PROVED, "drift + sqrt(omega) * sum of field * dither")
+
+
+def _states(problem: DitherProblem) -> tuple[sp.Symbol, ...]:
+    return (*problem.system.state, *(problem.fast.state if problem.fast else ()))
+
+
+def _places(problem: DitherProblem) -> Iterator[tuple[str, sp.Expr]]:
+    """Every entry of drift and fields that is not a constant, with what people call it; each expression once."""
+    seen: set[sp.Expr] = set()
+    groups = [("drift", problem.system.drift)]
+    groups += [(f"field {i}", entries) for i, entries in enumerate(problem.system.fields, start=1)]
+    moving = {problem.system.time, *_states(problem)}
+    for name, entries in groups:
+        for row, entry in enumerate(entries, start=1):
+            if entry.free_symbols & moving and entry not in seen:
+                seen.add(entry)
+                yield f"{name}, entry {row}", entry
+
+
+def _worst(found: Sequence[tuple[str, Evidence]], engine: str, fine: str) -> Evidence:
+    """The first refutation, else all that is undecided, else proved."""
+    for place, evidence in found:
+        if evidence.verdict is Verdict.REFUTED:
+            return replace(evidence, engine=engine, detail=f"{place}: {evidence.detail}")
+    left = [(place, evidence) for place, evidence in found if evidence.verdict is not Verdict.PROVED]
+    if left:
+        detail = "; ".join(f"{place}: {evidence.detail}" for place, evidence in left[:3])
+        more = f"; and {len(left) - 3} more" if len(left) > 3 else ""
+        return Evidence(engine, Verdict.UNDECIDED, detail + more)
+    return Evidence(engine, Verdict.PROVED, fine)
+
+
+def _assumed(problem: DitherProblem) -> dict[AppliedUndef, Any]:
+    return dict.fromkeys(problem.smooth_functions, sp.oo)
+
+
+def _where(problem: DitherProblem) -> str:
+    parts = []
+    if problem.system.time in {s for _, entry in _places(problem) for s in entry.free_symbols}:
+        parts.append("all times" if problem.start is None else f"{problem.system.time} >= {problem.start}")
+    parts += [f"{symbol} in [{low}, {high}]" for symbol, (low, high) in problem.region.items()]
+    text = f" for {', '.join(parts)}" if parts else " everywhere"
+    if problem.smooth_functions:
+        text += f", with {', '.join(map(str, problem.smooth_functions))} smooth as declared"
+    return text
+
+
+@_timed
+def _smooth_fields(problem: DitherProblem) -> Evidence:
+    variables = (problem.system.time, *_states(problem))
+    found = []
+    for place, entry in _places(problem):
+        evidence = smoothness(entry, variables, 2, _assumed(problem), problem.domain)
+        if evidence.witness and evidence.verdict is Verdict.REFUTED and "unbounded" in evidence.detail:
+            evidence = replace(evidence, detail=evidence.detail + _dilation_hint(problem, entry))
+        found.append((place, evidence))
+    return _worst(found, "smoothness", "twice continuously differentiable" + _where(problem))
+
+
+def _dilation_hint(problem: DitherProblem, entry: sp.Expr) -> str:
+    """What helps where a gain grows without bound at a finite time."""
+    time_ = problem.system.time
+    for power in entry.atoms(sp.Pow):
+        if (
+            power.exp.is_negative
+            and power.base.free_symbols
+            and power.base.free_symbols
+            <= {
+                time_,
+                *(symbol for symbol in power.base.free_symbols if symbol.is_positive),
+            }
+        ):
+            return f"; a gain that grows without bound in {time_}: dilate time first, then average"
+    return ""
+
+
+@_timed
+def _bounded_fields(problem: DitherProblem) -> Evidence:
+    found = [
+        (
+            place,
+            bounded_in_time(
+                entry, problem.system.time, _states(problem), problem.start, problem.domain, problem.bounded
+            ),
+        )
+        for place, entry in _places(problem)
+    ]
+    evidence = _worst(found, "bounded in time", "bounded on every compact set of states" + _where(problem))
+    if evidence.verdict is Verdict.REFUTED:
+        evidence = replace(evidence, detail=evidence.detail + "; dilating time first would help for a growing gain")
+    return evidence
+
+
+@_timed
+def _dithers(problem: DitherProblem) -> Evidence:
+    system = problem.system
+    found = []
+    for i, dither in enumerate(system.dithers, start=1):
+        if system.time in dither.free_symbols:
+            # The slow amplitude has to be bounded with its derivative: then it is Lipschitz.
+            own = (system.phase,)
+            smooth = smoothness(dither, (system.time,), 1, _assumed(problem), problem.domain)
+            bounded = bounded_in_time(dither, system.time, own, problem.start, problem.domain, problem.bounded)
+            found += [(f"dither {i}", smooth), (f"dither {i}", bounded)]
+    detail = "piecewise smooth and periodic in the phase"
+    if found:
+        detail += ", with slow amplitudes that are bounded with their derivatives"
+    return _worst(found, "dithers", detail)
+
+
+@_timed
+def _period_and_mean(problem: DitherProblem) -> Evidence:
+    try:
+        signals(problem.system)
+    except AveragingRefused as refusal:
+        return Evidence("exact integrals", Verdict.REFUTED, str(refusal))
+    except AveragingUndecided as unknown:
+        return Evidence("exact integrals", Verdict.UNDECIDED, str(unknown))
+    detail = f"each dither has the period {problem.system.period} and the exact mean 0"
+    return Evidence("exact integrals", Verdict.PROVED, detail)
+
+
+@_timed
+def _lipschitz_rates(problem: DitherProblem) -> Evidence:
+    if problem.fast is None:
+        return Evidence("smoothness", Verdict.PROVED, "there are no fast states")
+    found = [
+        (f"fast rate {i}", _lipschitz(rate, _states(problem), problem))
+        for i, rate in enumerate(problem.fast.rate, start=1)
+    ]
+    return _worst(found, "smoothness", "locally Lipschitz" + _where(problem))
+
+
+def _lipschitz(rate: sp.Expr, variables: Sequence[sp.Symbol], problem: DitherProblem) -> Evidence:
+    """Continuously differentiable functions, and Abs, Max and Min of such, are locally Lipschitz."""
+    kinks = [node for node in rate.atoms(sp.Abs, sp.Max, sp.Min) if node.free_symbols & set(variables)]
+    outer = rate
+    places = []
+    for node in sorted(kinks, key=lambda entry: -sp.count_ops(entry)):
+        if outer.has(node):
+            places.append(sp.Dummy("kink", real=True))
+            outer = outer.xreplace({node: places[-1]})
+    parts = [outer, *(argument for node in kinks for argument in node.args)]
+    domain = problem.domain
+    for part in parts:
+        free = (*variables, *places)
+        if part.atoms(sp.Abs, sp.Max, sp.Min) and part is not outer:
+            evidence = _lipschitz(part, variables, problem)
+        else:
+            evidence = smoothness(part, free, 1, _assumed(problem), domain)
+        if evidence.verdict is not Verdict.PROVED:
+            # Not differentiable is not yet not Lipschitz; a jump is.
+            jump = smoothness(rate, variables, 0, _assumed(problem), domain)
+            return (
+                jump if jump.verdict is Verdict.REFUTED else replace(evidence, verdict=Verdict.UNDECIDED, witness=None)
+            )
+    return Evidence("smoothness", Verdict.PROVED, "locally Lipschitz")
+
+
+def _steady(problem: DitherProblem, steady: QuasiSteadyState | None) -> Evidence:
+    if steady is None:
+        return Evidence("quasi-steady state", Verdict.PROVED, "there are no fast states")
+    if steady.values is None or steady.unique.verdict is Verdict.REFUTED:
+        return steady.unique
+    found = [("uniqueness", steady.unique)]
+    for i, value in enumerate(steady.values, start=1):
+        smooth = smoothness(value, problem.system.state, 2, _assumed(problem), problem.domain)
+        found.append((f"l_{i} = {value}", smooth))
+    values = ", ".join(f"{z} = {value}" for z, value in zip(_fast_state(problem), steady.values, strict=True))
+    detail = f"{values} is the only solution ({steady.unique.detail}) and twice continuously differentiable"
+    return replace(_worst(found, "quasi-steady state", detail), seconds=steady.unique.seconds)
+
+
+def _fast_state(problem: DitherProblem) -> tuple[sp.Symbol, ...]:
+    return () if problem.fast is None else problem.fast.state
+
+
+def _boundary_layer(problem: DitherProblem, steady: QuasiSteadyState | None) -> Evidence:
+    if problem.fast is None or steady is None:
+        return Evidence("boundary layer", Verdict.PROVED, "there are no fast states")
+    if steady.values is None:
+        return Evidence("boundary layer", Verdict.UNDECIDED, "no quasi-steady state is known")
+    return boundary_layer_stability(problem.fast, steady.values, problem.domain)

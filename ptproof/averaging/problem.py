@@ -1,0 +1,122 @@
+"""A dither system as it is asked about: with its fast states, the region of interest and the author's claim."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from ptproof.errors import InputError
+from ptproof.proof.statement import Relation
+from ptproof.system import DitherSystem, System
+
+TIME = sp.Symbol("tau", real=True)
+PHASE = sp.Symbol("theta", real=True)
+OMEGA = sp.Symbol("omega", positive=True)
+MU = sp.Symbol("mu", positive=True)
+
+
+@dataclass(frozen=True)
+class FastStates:
+    """μ dz/dτ = rate(x, z), with the quasi-steady state z = l(x) where the author gives it."""
+
+    state: tuple[sp.Symbol, ...]
+    rate: tuple[sp.Expr, ...]
+    quasi_steady_state: tuple[sp.Expr, ...] | None = None
+
+    def __post_init__(self) -> None:
+        if len(self.state) != len(self.rate):
+            raise InputError(f"{len(self.state)} fast states but {len(self.rate)} rates")
+        if self.quasi_steady_state is not None and len(self.quasi_steady_state) != len(self.state):
+            raise InputError(f"{len(self.state)} fast states but {len(self.quasi_steady_state)} quasi-steady states")
+
+
+@dataclass(frozen=True)
+class DitherProblem:
+    """What is averaged and what is asked about it.
+
+    Attributes
+    ----------
+    system
+        Slow states only; drift and fields may contain the fast states.
+    fast
+        The fast states, or None.
+    functions
+        The undefined functions as applied, each known to be smooth and otherwise arbitrary. None stands for
+        all that occur.
+    region
+        Closed intervals for slow or fast states: the compact set asked about. A state that is missing ranges
+        over every compact set.
+    start
+        The earliest slow time asked about; the times are ``start`` ≤ τ < ∞. None stands for all real times.
+    bounded
+        Undefined functions of the slow time that are assumed bounded in it, with their derivatives.
+    expected
+        The average that the author claims, n expressions, or None.
+    """
+
+    system: DitherSystem
+    fast: FastStates | None = None
+    functions: tuple[AppliedUndef, ...] | None = None
+    region: Mapping[sp.Symbol, tuple[sp.Expr, sp.Expr]] = field(default_factory=dict)
+    start: sp.Expr | None = sp.S.Zero
+    bounded: tuple[AppliedUndef, ...] = ()
+    expected: tuple[sp.Expr, ...] | None = None
+
+    def __post_init__(self) -> None:
+        known = {*self.system.state, *(self.fast.state if self.fast else ())}
+        if self.fast and set(self.fast.state) & set(self.system.state):
+            raise InputError(f"{self.system.name}: a state is slow and fast at once")
+        for symbol, (low, high) in self.region.items():
+            if symbol not in known:
+                raise InputError(f"{self.system.name}: the region speaks of {symbol}, which is not a state")
+            if (high - low).is_positive is not True:
+                raise InputError(f"{self.system.name}: the interval [{low}, {high}] of {symbol} is empty")
+        if self.expected is not None and len(self.expected) != len(self.system.state):
+            raise InputError(
+                f"{self.system.name}: {len(self.expected)} expected entries for {len(self.system.state)} states"
+            )
+
+    @property
+    def smooth_functions(self) -> tuple[AppliedUndef, ...]:
+        """The undefined functions that are taken as smooth."""
+        if self.functions is not None:
+            return self.functions
+        entries = [*self.system.drift, *itertools.chain.from_iterable(self.system.fields)]
+        entries += list(self.fast.rate) if self.fast else []
+        return tuple(sorted(set().union(*(entry.atoms(AppliedUndef) for entry in entries)), key=str))
+
+    @property
+    def domain(self) -> tuple[Relation, ...]:
+        """Times and region as relations."""
+        relations = [] if self.start is None else [Relation(self.start, "<=", self.system.time)]
+        for symbol, (low, high) in self.region.items():
+            relations += [Relation(low, "<=", symbol), Relation(symbol, "<=", high)]
+        return tuple(relations)
+
+    @property
+    def full_system(self) -> System:
+        """Slow and fast states together, with μ: the equation that is simulated."""
+        slow = self.system.to_system()
+        if self.fast is None:
+            return slow
+        rates = tuple(entry / MU for entry in self.fast.rate)
+        return System(slow.time, (*slow.state, *self.fast.state), (*slow.rhs, *rates), name=self.system.name)
+
+    def reduced(self, steady: tuple[sp.Expr, ...]) -> DitherSystem:
+        """The dither system with the fast states replaced by their quasi-steady state."""
+        if self.fast is None:
+            return self.system
+        values = dict(zip(self.fast.state, steady, strict=True))
+
+        def put(entry: sp.Expr) -> sp.Expr:
+            return entry.subs(values, simultaneous=True)
+
+        return replace(
+            self.system,
+            drift=tuple(map(put, self.system.drift)),
+            fields=tuple(tuple(map(put, entries)) for entries in self.system.fields),
+        )
