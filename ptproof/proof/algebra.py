@@ -106,7 +106,8 @@ class Generators:
             lcm = int(sp.ilcm(1, *(coefficient.q for coefficient in coefficients)))
             root = base ** (monomial / common / lcm)
             sign = "positive" if base.is_positive else "nonnegative" if base.is_nonnegative else None
-            known = {sign: True} if sign and (monomial / common).is_real else {}
+            # A quotient of real numbers is real wherever it is defined.
+            known = {sign: True} if sign and monomial.is_real and common.is_real else {}
             generator = self.symbol(root, **known)
             self._roots[base][monomial] = (generator, lcm)
 

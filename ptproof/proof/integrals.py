@@ -72,7 +72,7 @@ def definite(node: sp.Integral) -> sp.Expr | None:
         return None
     variable, low, high = node.limits[0]
     # Between ends at or above 0 the variable itself is, and SymPy may know that a denominator is positive.
-    above = bool(low.is_nonnegative) and bool(high.is_nonnegative)
+    above = bool(low.is_nonnegative) and bool(high is sp.oo or high.is_nonnegative)
     inside = sp.Dummy(variable.name, nonnegative=True) if above else sp.Dummy(variable.name, real=True)
     integrand = node.function.subs(variable, inside)
     antiderivative = sp.integrate(sp.expand(integrand), inside)
