@@ -8,7 +8,7 @@ from ptproof.drift import bounded_drift
 from ptproof.proof.claim import Goal, claim, instance
 from ptproof.proof.exact import exact
 from ptproof.proof.existence import defeats_every_choice
-from ptproof.proof.lemmas import cosine_parabola, cosine_quartic, power_monotone, sine_cubic, sine_square
+from ptproof.proof.lemmas import cosine_parabola, cosine_quartic, norm_below, power_monotone, sine_cubic, sine_square
 from ptproof.proof.reals import reals
 from ptproof.proof.regularity import smooth
 from ptproof.proof.statement import Exists, Relation, Smooth, eq, every, ge, gt, le, lt
@@ -156,7 +156,7 @@ def gradient_lower(goal: Goal) -> Evidence:
 
 @claim(
     "7.2/slope-along-axis-upper", "Along one axis the slope is at most a multiple of the distance",
-    le((sp.sin(x1) + 2 * x1**3) ** 2, steepest**2 * x1**2), given=[le(x1**2, radius**2)],
+    le(slope[0] ** 2, steepest**2 * x1**2), given=[le(x1**2, radius**2)],
     labels=["eq:nonvanish_drift_field_simulation"],
 )  # fmt: skip
 def slope_along_axis_upper(goal: Goal) -> Evidence:
@@ -171,7 +171,8 @@ def slope_along_axis_upper(goal: Goal) -> Evidence:
 )  # fmt: skip
 def gradient_upper(goal: Goal) -> Evidence:
     """With b₂ = 1 + 2ρ² on the disc of radius ρ, entry by entry."""
-    return reals(goal, *instance(slope_along_axis_upper, {x1: x2}))
+    other_axis = instance(slope_along_axis_upper, {x1: x2})
+    return reals(goal, *other_axis, norm_below(list(slope), steepest, position))
 
 
 @claim(

@@ -5,6 +5,8 @@ A lemma is named in the proof with the terms that it is used for; z3 has to esta
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import sympy as sp
 
 from ptproof.proof.statement import Implication, ge, gt, le, lt
@@ -63,3 +65,10 @@ def sine_cubic(argument: sp.Expr) -> Implication:
 def sine_square(argument: sp.Expr) -> Implication:
     """sin² u ≤ u²: the slope of the sine is at most 1 in absolute value, and sin 0 = 0."""
     return Implication((), le(sp.sin(argument) ** 2, argument**2), "sine below its argument")
+
+
+def norm_below(entries: Sequence[sp.Expr], factor: sp.Expr, others: Sequence[sp.Expr]) -> Implication:
+    """K ≥ 0 and |gᵢ| ≤ K |xᵢ| for every i, squared, give ‖g‖ ≤ K ‖x‖: add up and take the root."""
+    hypotheses = tuple(le(g**2, factor**2 * x**2) for g, x in zip(entries, others, strict=True))
+    norms = [sp.sqrt(sp.Add(*(entry**2 for entry in column))) for column in (entries, others)]
+    return Implication((ge(factor, 0), *hypotheses), le(norms[0], factor * norms[1]), "norm entry by entry")
