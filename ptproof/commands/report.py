@@ -1,0 +1,65 @@
+"""``ptproof report``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import click
+
+if TYPE_CHECKING:
+    from ptproof.proof.load import Derivation
+    from ptproof.report.content import Figure, Table
+
+
+@click.command()
+@click.argument("paths", nargs=-1, metavar="[PATH]...")
+@click.option("--out", default="reports", show_default=True, metavar="FOLDER", help="Where to write the report.")
+@click.option("--jobs", type=int, default=None, help="Worker processes (default: the number of processors).")
+@click.option("--timeout", type=float, default=60.0, show_default=True, help="Time limit of one claim, in seconds.")
+@click.option("--no-figures", is_flag=True, help="Leave out the simulations and their figures.")
+def report(paths: tuple[str, ...], out: str, jobs: int | None, timeout: float, no_figures: bool) -> int:
+    """Verify the claims below each PATH (the shipped derivation of the paper where left out) and write the report.
+
+    Writes index.html, report.md, graph.svg and figures/ into FOLDER. Exit status 1 if a claim did not come out as
+    its author recorded, or a figure could not be drawn; the report is written all the same.
+    """
+    from ptproof.proof.load import load
+    from ptproof.proof.run import verify as run
+    from ptproof.report.letters import notation_of, title_of
+    from ptproof.report.model import compose
+    from ptproof.report.pages import report_files
+    from ptproof.report.versions import versions
+    from ptproof.report.writing import check_place, write_report
+    from ptproof.terminal import COLOURS, claim_progress
+
+    place = check_place(out)
+    derivation = load(paths)
+    with claim_progress(len(derivation.claims)) as progress:
+        verification = run(derivation, jobs=jobs, timeout=timeout, progress=progress)
+    figures, tables, notes = ((), (), ()) if no_figures else _drawn(derivation)
+    content = compose(
+        verification, derivation, title=title_of(derivation.claims), notation=notation_of(derivation.claims),
+        versions=versions(), figures=figures, appendix=tables, notes=notes,
+    )  # fmt: skip
+    write_report(place, report_files(content))
+    summary = verification.summary()
+    words = ", ".join(f"{summary[word]} {word}" for word in COLOURS if summary[word])
+    click.echo(f"{summary['total']} claims: {words}; {summary['fully_proved']} fully proved")
+    for claim in content.unexpected:
+        click.echo(f"ptproof: {claim.ref.id}: expected {claim.expected}, came out {claim.status.word}", err=True)
+    for note in notes:
+        click.echo(f"ptproof: {note}", err=True)
+    click.echo(f"{place / 'index.html'}  the report, for a browser")
+    click.echo(f"{place / 'report.md'}  the same as Markdown")
+    return 0 if verification.as_expected and not notes else 1
+
+
+def _drawn(derivation: Derivation) -> tuple[tuple[Figure, ...], tuple[Table, ...], tuple[str, ...]]:
+    """The figures and tables of the derivation; one that fails is named in the report instead of ending it."""
+    from ptproof.report.figures import figures_of, tables_of
+
+    try:
+        click.echo("drawing the figures", err=True)
+        return figures_of(derivation.claims), tables_of(derivation.claims), ()
+    except Exception as error:
+        return (), (), (f"The figures could not be drawn: {type(error).__name__}: {error}",)

@@ -1,0 +1,212 @@
+"""Formulas: a statement as lines of LaTeX in the paper's letters, and LaTeX as MathML."""
+
+from __future__ import annotations
+
+import html
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+from xml.etree import ElementTree
+
+import sympy as sp
+
+from ptproof.proof.statement import (
+    All,
+    Assumption,
+    Exists,
+    ForAll,
+    Prose,
+    Relation,
+    Smooth,
+    Statement,
+    free_symbols,
+    undefined_functions,
+)
+
+Names = Mapping[Any, str]
+_SIGN = {"=": "=", "<=": r"\le", "<": "<", ">=": r"\ge", ">": ">", "!=": r"\ne"}
+_ROOM = 84.0  # characters in a line of the page
+_FUNCTIONS = frozenset(
+    ["sin", "cos", "tan", "log", "ln", "exp", "sinh", "cosh", "tanh", "atan", "asin", "acos", "arctan", "lim", "sign"]
+)
+
+
+@dataclass(frozen=True)
+class Line:
+    """One line of a displayed formula, as LaTeX; the continuation of a broken line is indented."""
+
+    latex: str
+    indented: bool = False
+
+
+def latex(expression: Any, names: Names) -> str:
+    """SymPy's LaTeX with the glyphs of the notation."""
+    return str(sp.latex(expression, symbol_names=dict(names), ln_notation=True))
+
+
+def statement_lines(statement: Statement | Assumption, names: Names) -> tuple[Line, ...]:
+    """The statement line by line; a long relation is broken before its sign and between the terms of a sum."""
+    match statement:
+        case Relation():
+            return _relation_lines(statement, names)
+        case All(parts):
+            return tuple(line for part in parts for line in _relation_lines(part, names))
+        case Exists(variables=variables, body=body, over=over):
+            head = rf"\exists\, {_list(variables, names)}" + (rf"\ \ \forall\, {_list(over, names)}" if over else "")
+            inside = (line for part in body for line in _relation_lines(part, names))
+            return (Line(head + ":"), *(Line(line.latex, True) for line in inside))
+        case Smooth(expressions=expressions, variables=variables, order=order):
+            column = expressions[0] if len(expressions) == 1 else sp.ImmutableDenseMatrix(list(expressions))
+            belongs = rf"{latex(column, names)} \in C^{{{order}}}"
+            return (Line(belongs + rf"\quad \text{{in}}\ {_list(variables, names)}"),)
+        case ForAll(variables=variables, relation=relation, domain=domain):
+            lines = _relation_lines(relation, names)
+            where = r",\ ".join(line.latex for part in domain for line in _relation_lines(part, names))
+            tail = rf"\forall\, {_list(variables, names)}" + (rf":\ {where}" if domain else "")
+            if sum(width(line.latex) for line in lines) + width(tail) < _ROOM and len(lines) == 1:
+                return (Line(rf"{lines[0].latex} \quad {tail}"),)
+            return (*lines, Line(tail, True))
+        case Prose():
+            return ()
+    raise TypeError(f"not a statement: {statement!r}")
+
+
+def domain_of(
+    statements: Sequence[Statement | Assumption], bound: Iterable[sp.Symbol], names: Names
+) -> tuple[str, ...]:
+    """What the symbols and functions of the statements stand for, as LaTeX: ``k, T > 0`` and the like."""
+    groups: dict[str, list[str]] = {}
+    symbols = free_symbols(statements) - set(bound)
+    order = {symbol: place for place, symbol in enumerate(names)}
+    for symbol in sorted(symbols, key=lambda item: (order.get(item, len(order)), item.name)):
+        groups.setdefault(_kind(symbol), []).append(latex(symbol, names))
+    found = [", ".join(letters) + kind for kind, letters in groups.items()]
+    functions = {sp.Symbol(applied.func.__name__) for applied in undefined_functions(statements)}
+    if functions:
+        listed = _list(sorted(functions, key=lambda symbol: symbol.name), names)
+        found.append(rf"{listed}\ \text{{arbitrary function{'s' if len(functions) > 1 else ''}}}")
+    return tuple(found)
+
+
+def _kind(symbol: sp.Symbol) -> str:
+    if symbol.is_integer:
+        return r" \in " + (
+            r"\mathbb{N}" if symbol.is_positive else r"\mathbb{N}_0" if symbol.is_nonnegative else r"\mathbb{Z}"
+        )
+    if symbol.is_positive:
+        return " > 0"
+    if symbol.is_nonnegative:
+        return r" \ge 0"
+    if symbol.is_negative:
+        return " < 0"
+    return r" \in \mathbb{R}" if symbol.is_real else r" \in \mathbb{C}"
+
+
+def _list(symbols: Iterable[sp.Symbol], names: Names) -> str:
+    return ", ".join(latex(symbol, names) for symbol in symbols)
+
+
+def _relation_lines(relation: Relation, names: Names) -> tuple[Line, ...]:
+    left, right = latex(relation.left, names), latex(relation.right, names)
+    sign = _SIGN[relation.sign]
+    if width(left) + width(right) < _ROOM:
+        return (Line(f"{left} {sign} {right}"),)
+    first, *rest = _broken(relation.left, left, names)
+    second, *more = _broken(relation.right, right, names)
+    return (
+        Line(first),
+        *(Line(part, True) for part in rest),
+        Line(f"{sign} {second}", True),
+        *(Line(part, True) for part in more),
+    )
+
+
+def _broken(expression: Any, whole: str, names: Names) -> list[str]:
+    """A sum that is too wide for a line, between its terms."""
+    if width(whole) < _ROOM or not isinstance(expression, sp.Add):
+        return [whole]
+    lines = [""]
+    for term in expression.as_ordered_terms():
+        text = latex(term, names)
+        joined = text if lines == [""] else (f"- {text[1:].lstrip()}" if text.startswith("-") else f"+ {text}")
+        if lines[-1] and width(f"{lines[-1]} {joined}") > _ROOM:
+            lines.append(joined)
+        else:
+            lines[-1] = f"{lines[-1]} {joined}".strip()
+    return lines
+
+
+def mathml(source: str, *, display: bool = False) -> str:
+    """MathML for LaTeX; LaTeX that the converter does not know is shown as it is, in a ``code`` element."""
+    element = _element(source)
+    if element is None:
+        return f"<code>{html.escape(source)}</code>"
+    element.set("display", "block" if display else "inline")
+    return ElementTree.tostring(element, encoding="unicode").replace(
+        ' xmlns="http://www.w3.org/1998/Math/MathML"', "", 1
+    )
+
+
+def width(source: str) -> float:
+    """About how many characters wide the formula is."""
+    element = _element(source)
+    return float(len(source)) if element is None else _width(element)
+
+
+@lru_cache(maxsize=4096)
+def _source(source: str) -> str | None:
+    from latex2mathml.converter import convert
+
+    try:
+        return convert(source)
+    except Exception:  # the converter raises many kinds; the formula is then shown as its LaTeX
+        return None
+
+
+def _element(source: str) -> ElementTree.Element | None:
+    converted = _source(source)
+    if converted is None:
+        return None
+    element = ElementTree.fromstring(converted)
+    for node in element.iter():
+        node.tag = node.tag.rsplit("}", 1)[-1]
+        if node.text:
+            node.text = html.unescape(node.text)
+    for parent in list(element.iter()):
+        _repair(parent)
+    return element
+
+
+def _repair(parent: ElementTree.Element) -> None:
+    """Limits go below ``lim``, and a function's name keeps a thin space from what stands before it."""
+    if parent.tag == "msub" and len(parent) and parent[0].text == "lim":
+        parent.tag = "munder"
+    if parent.tag not in ("mrow", "math", "mtd", "msqrt"):
+        return
+    place = 1
+    while place < len(parent):
+        node, before = parent[place], parent[place - 1]
+        head = node[0] if node.tag in ("msup", "msub", "munder") and len(node) else node
+        if (head.text or "") in _FUNCTIONS and before.tag not in ("mo", "mspace"):
+            parent.insert(place, ElementTree.Element("mspace", {"width": "0.1667em"}))
+            place += 1
+        place += 1
+
+
+def _width(node: ElementTree.Element) -> float:
+    match node.tag:
+        case "mfrac" | "munder" | "mover" | "munderover" if len(node):
+            return max(_width(child) for child in node)
+        case "msup" | "msub" if len(node) == 2:
+            return _width(node[0]) + 0.7 * _width(node[1])
+        case "msubsup" if len(node) == 3:
+            return _width(node[0]) + 0.7 * max(_width(node[1]), _width(node[2]))
+        case "mtable":
+            columns = zip(*([_width(cell) for cell in row] for row in node), strict=False)
+            return sum(max(column) + 1 for column in columns)
+        case "mspace":
+            return 2 * float(re.sub(r"[^\d.]", "", node.get("width", "")) or 0)
+    own = len(node.text or "") * (1.8 if node.tag == "mo" and node.text in ("=", "+", "−", "≤", "≥", "<", ">") else 1)
+    return own + sum(_width(child) for child in node)

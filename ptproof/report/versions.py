@@ -1,0 +1,20 @@
+"""The versions of what was used, for the report."""
+
+from __future__ import annotations
+
+import platform
+from importlib import metadata
+
+LIBRARIES = ("ptproof", "sympy", "z3-solver", "python-flint", "networkx", "numpy", "scipy", "casadi", "control",
+             "heyoka", "matplotlib", "latex2mathml", "jinja2")  # fmt: skip
+
+
+def versions() -> tuple[tuple[str, str], ...]:
+    """Python and the libraries that are installed, with their versions."""
+    found = [("python", platform.python_version())]
+    for name in LIBRARIES:
+        try:
+            found.append((name, metadata.version(name)))
+        except metadata.PackageNotFoundError:
+            continue
+    return tuple(found)

@@ -1,0 +1,97 @@
+"""A witness as the report shows it: formulas where its text can be read, its text where not."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from ptproof.errors import InputError
+from ptproof.parse import parse
+from ptproof.proof.claim import Claim
+from ptproof.proof.statement import free_symbols, undefined_functions
+from ptproof.proof.verdict import Witness
+from ptproof.report.formula import Names, latex
+
+
+@dataclass(frozen=True)
+class Value:
+    """A piece of a witness: its text, and LaTeX where the text could be read."""
+
+    text: str
+    latex: str = ""
+
+
+@dataclass(frozen=True)
+class WitnessView:
+    """Values of the symbols, and the two sides there."""
+
+    values: tuple[Value, ...]
+    left: Value
+    right: Value
+
+
+def witness_view(witness: Witness, claim: Claim, names: Names) -> WitnessView:
+    """Set the witness in the letters of the claim."""
+    statements = [claim.statement, *claim.assumptions]
+    symbols = {symbol.name: symbol for symbol in free_symbols(statements)}
+    functions = {applied.func.__name__: applied for applied in undefined_functions(statements)}
+    values = tuple(_value(name, text, symbols, functions, names) for name, text in witness.values.items())
+    return WitnessView(values, _side(witness.left, symbols, names), _side(witness.right, symbols, names))
+
+
+def _value(
+    name: str, text: str, symbols: dict[str, sp.Symbol], functions: dict[str, AppliedUndef], names: Names
+) -> Value:
+    plain = f"{name} = {text}"
+    called = re.fullmatch(r"(\w+)\((.*)\)", name)
+    try:
+        if name in symbols:
+            return Value(plain, f"{latex(symbols[name], names)} = {latex(_read(text, symbols), names)}")
+        if called and called.group(1) in functions:
+            # The arguments of a function are places: they are named s₁, s₂, … where the text has names of its own.
+            places = [part.strip() for part in called.group(2).split(",")]
+            own = {part: symbols.get(part) or _place(number, len(places)) for number, part in enumerate(places, 1)}
+            head = sp.Function(called.group(1))(*own.values())
+            return Value(plain, f"{latex(head, names)} = {latex(_read(text, {**symbols, **own}), names)}")
+    except InputError:
+        pass
+    return Value(plain)
+
+
+def _place(number: int, total: int) -> sp.Symbol:
+    return sp.Symbol("s" if total == 1 else f"s{number}", real=True)
+
+
+def _side(text: str, symbols: dict[str, sp.Symbol], names: Names) -> Value:
+    """``exact = 1.234 ± 1e-9``: the exact value and its enclosure."""
+    exact, equals, ball = text.partition(" = ")
+    try:
+        shown = latex(_read(exact, symbols), names)
+    except InputError:
+        return Value(text)
+    if not equals:
+        return Value(text, shown)
+    number = re.fullmatch(
+        r"\[?\s*(-?[\d.]+)(?:[eE]([+-]?\d+))?\s*(?:(?:±|\+/-)\s*([\d.]+)(?:[eE]([+-]?\d+))?)?\s*\]?", ball
+    )
+    if number is None:
+        return Value(text)
+    middle, power, radius, small = number.groups()
+    enclosed = _scientific(middle, power) + (rf" \pm {_scientific(radius, small)}" if radius else "")
+    same = not radius and shown == middle
+    return Value(text, shown if same else f"{shown} = {enclosed}")
+
+
+def _scientific(digits: str, power: str | None) -> str:
+    return digits if power is None else rf"{digits} \cdot 10^{{{int(power)}}}"
+
+
+def _read(text: str, symbols: dict[str, sp.Symbol]) -> sp.Expr:
+    safe = {f"v{place}": symbol for place, symbol in enumerate(symbols.values())}
+    renamed = {symbol_name: f"v{place}" for place, symbol_name in enumerate(symbols)}
+    # Names such as _s0 are not names to the parser.
+    source = re.sub(r"[A-Za-z_]\w*", lambda match: renamed.get(match.group(), match.group()), text)
+    return parse(source, safe, where="witness")
