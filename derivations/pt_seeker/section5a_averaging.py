@@ -44,7 +44,7 @@ from .section4_design import closed_loop_in_t, closed_loop_in_tau, closed_t_prin
 
 SECTION = "5.1 Theorem, Steps 1 to 3: the averaged system"
 
-# --- The feedback law of the theorem ----------------------------------------------------------------------------------
+# --- The feedback law of the theorem ------------------------------------------------------------------------
 
 K = 1 / nu(t - t0) ** 2
 u1_printed = K * sp.sqrt(omega)
@@ -80,7 +80,7 @@ def forward_velocity_grows(goal: Goal) -> Evidence:
     return limits(goal)
 
 
-# --- Step 1 ------------------------------------------------------------------------------------------------------------
+# --- Step 1 -------------------------------------------------------------------------------------------------
 
 stretch = 1 + (tau - t0) / T
 f_tau = drift_at(chain.clock.to_t)
@@ -137,7 +137,7 @@ def initial_phase(goal: Goal) -> Evidence:
     return exact(goal)
 
 
-# --- Step 2 ------------------------------------------------------------------------------------------------------------
+# --- Step 2 -------------------------------------------------------------------------------------------------
 
 slow = mu * tau_fast
 f_fast = drift_at(chain.clock.to_t.subs(tau, slow))
@@ -199,7 +199,7 @@ def reduced_model_seeker(goal: Goal) -> Evidence:
     return exact(goal)
 
 
-# --- Step 3 ------------------------------------------------------------------------------------------------------------
+# --- Step 3 -------------------------------------------------------------------------------------------------
 
 alpha, beta = sp.symbols("alpha beta", real=True)
 
@@ -325,7 +325,7 @@ def averaged_by_hand(goal: Goal) -> Evidence:
     return exact(goal)
 
 
-# --- Assumption 1 for the seeker --------------------------------------------------------------------------------------
+# --- Assumption 1 for the seeker ----------------------------------------------------------------------------
 
 
 @claim(

@@ -49,7 +49,7 @@ from .section5a_averaging import assumption_1, averaged_system, boundary_layer, 
 SECTION = "5.2 Theorem, Steps 4 to 6: stability"
 ONE = sp.S.One
 
-# --- Step 4: the derivative of V ----------------------------------------------------------------------------------------
+# --- Step 4: the derivative of V ----------------------------------------------------------------------------
 
 V_of_x = -(F - F_source)
 F_1, F_2 = sp.diff(F, x1), sp.diff(F, x2)
@@ -164,7 +164,7 @@ def v_differential_inequality(goal: Goal) -> Evidence:
     return reals(goal, power_positive(V, q()))
 
 
-# --- Case i: no drift ---------------------------------------------------------------------------------------------------
+# --- Case i: no drift ---------------------------------------------------------------------------------------
 
 
 @claim(
@@ -198,15 +198,25 @@ def on_interval(rate: sp.Expr, value: sp.Expr) -> ForAll:
     return ForAll((s,), le(sp.Derivative(value, s), rate), (ge(s, t0), le(s, tau)))
 
 
-driftless_rate = -k * c(1) ** 2 / 2
-sigma = 2 * q() - 1
+# κ = n + 1 with n = 1, 2, …: the exponents below are then known to be positive.
+n = sp.Symbol("n", positive=True, integer=True)
+driftless_rate = -k * c(1, n + 1) ** 2 / 2
+sigma = n / (n + 1)  # 2q − 1
 
 
 @claim(
-    "5/step4-driftless-bound", "Without drift V has an explicit class-KL bound for κ ≥ 2",
+    "5/step4-sigma", "2q_κ − 1 = (κ − 1)/κ", eq(2 * q() - 1, (kappa - 1) / kappa), place="Step 4, case i",
+)  # fmt: skip
+def sigma_form(goal: Goal) -> Evidence:
+    """The exponent of the comparison equation beyond 1; it is n/(n + 1) for κ = n + 1."""
+    return exact(goal)
+
+
+@claim(
+    "5/step4-driftless-bound", "Without drift V has an explicit class-KL bound for κ = n + 1 ≥ 2",
     le(V_away(tau), V_away(t0) * (1 - sigma * V_away(t0) ** sigma * driftless_rate * (tau - t0)) ** (-1 / sigma)),
-    given=[on_interval(driftless_rate * V_away(s) ** (2 * q()), V_away(s)), after, ge(kappa, 2)], place="Step 4, case i",
-    uses=[driftless],
+    given=[on_interval(driftless_rate * V_away(s) ** (1 + sigma), V_away(s)), after],
+    place="Step 4, case i", uses=[driftless, sigma_form],
 )  # fmt: skip
 def driftless_bound(goal: Goal) -> Evidence:
     """The comparison equation is of Bernoulli's type. It says more than asymptotic stability: the rate at which V
@@ -222,7 +232,7 @@ lyapunov_theorem = claim(
     expected="cited", place="Step 4, case i", uses=[v_bounds, driftless, driftless_definite],
 )(cited("Khalil, Nonlinear Systems, Theorem 4.9"))  # fmt: skip
 
-# --- Case ii: gradient drift, κ = 1 -------------------------------------------------------------------------------------
+# --- Case ii: gradient drift, κ = 1 -------------------------------------------------------------------------
 
 B1, B2 = c(1, ONE), c(2, ONE)
 between_1 = tuple(relation.map(lambda e: e.subs(kappa, 1)) for relation in (*between, *gradient_between))
@@ -329,7 +339,7 @@ guas = claim(
     expected="cited", place="Step 4, case ii", uses=[distance_bound_tau, distance_limit, uniform],
 )(cited("Khalil, Nonlinear Systems, Lemma 4.5: a class-KL bound that is uniform in the initial time"))  # fmt: skip
 
-# --- Steps 5 and 6 ------------------------------------------------------------------------------------------------------
+# --- Steps 5 and 6 ------------------------------------------------------------------------------------------
 
 V_layer = y_tilde**2 / 2
 

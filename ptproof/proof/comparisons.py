@@ -86,7 +86,7 @@ def _check(goal: Goal, solution: sp.Expr, denominators: Sequence[sp.Expr], lemma
     def read(item: Relation) -> Relation:
         return item.map(lambda side: side.subs(initial, first))
 
-    facts = (*goal.facts, *lemmas)
+    facts = tuple(_map(fact, read) for fact in (*goal.facts, *lemmas))
     outside = tuple(read(item) for item in goal.relations)
     if not follows(ge(end, start), outside, facts)[0]:
         raise _Failed(f"nothing says that {end} >= {start}")
@@ -107,7 +107,7 @@ def _check(goal: Goal, solution: sp.Expr, denominators: Sequence[sp.Expr], lemma
         _regular(expression, interval, hints)
     if value.is_nonnegative and not _polynomial(phi, value):
         _stays(u, interval)
-    how = _solves(u, phi.subs(value, u), s, interval, solution)
+    how = _solves(u, phi.subs(value, u), interval, hints, solution)
     begin = u.subs(s, start)
     if not _same(begin, first) and not follows(ge(begin, first), outside, facts)[0]:
         raise _Failed(f"{solution} does not start at {initial}, nor above it")
@@ -162,14 +162,14 @@ def _lipschitz(phi: sp.Expr, value: sp.Symbol) -> bool:
 
     A power that is not an integer is so on [0, ∞), where a value that is declared not negative stays.
     """
-    for term in sp.Add.make_args(sp.expand(phi)):
+    for term in sp.Add.make_args(sp.expand_mul(phi)):
         independent, dependent = term.as_independent(value, as_Add=False)
         if independent.has(value):
             return False
         if dependent == 1:
             continue
         base, exponent = dependent.as_base_exp()
-        if base != value or exponent.has(value) or not (exponent - 1).is_nonnegative:
+        if base != value or exponent.has(value) or not sp.factor(sp.together(exponent - 1)).is_nonnegative:
             return False
         if not value.is_nonnegative and not exponent.is_integer:
             return False
@@ -178,7 +178,7 @@ def _lipschitz(phi: sp.Expr, value: sp.Symbol) -> bool:
 
 def _polynomial(phi: sp.Expr, value: sp.Symbol) -> bool:
     """Whether the rate makes sense for every real value."""
-    powers = [node for node in sp.expand(phi).atoms(sp.Pow) if node.base == value]
+    powers = [node for node in sp.expand_mul(phi).atoms(sp.Pow) if node.base == value]
     return all(node.exp.is_integer for node in powers)
 
 
@@ -197,13 +197,25 @@ def _stays(u: sp.Expr, interval: _Interval) -> None:
         raise _Failed(f"{u} is not shown to stay at or above 0, where the rate is defined")
 
 
-def _solves(u: sp.Expr, rate: sp.Expr, s: sp.Symbol, interval: _Interval, solution: sp.Expr) -> str:
-    slope = sp.diff(u, s)
+def _solves(u: sp.Expr, rate: sp.Expr, interval: _Interval, hints: Sequence[sp.Expr], solution: sp.Expr) -> str:
+    slope = sp.diff(u, interval.s)
     if _same(slope, rate):
         return "solves the equation"
-    if follows(ge(slope, rate), interval.known, interval.facts)[0]:
+    # A denominator that was shown positive becomes a positive symbol, so that its powers can be split off.
+    masks = {item: sp.Dummy(f"D{i}", positive=True) for i, item in enumerate(hints)}
+
+    def mask(item: Relation) -> Relation:
+        return item.map(lambda side: side.xreplace(masks))
+
+    known = [mask(item) for item in interval.known] + [Relation(symbol, "=", item) for item, symbol in masks.items()]
+    facts = [_map(fact, mask) for fact in interval.facts]
+    if follows(mask(ge(slope, rate)), known, facts)[0]:
         return "rises at least as fast as the equation asks"
     raise _Failed(f"{solution} neither solves the equation nor stays above it")
+
+
+def _map(fact: Implication, change: Callable[[Relation], Relation]) -> Implication:
+    return Implication(tuple(map(change, fact.hypotheses)), change(fact.conclusion), fact.source)
 
 
 def _same(left: sp.Expr, right: sp.Expr) -> bool:
