@@ -72,7 +72,7 @@ def check_witness(goal: Goal, values: Mapping[Any, Any]) -> tuple[Witness | None
         if not _holds(assumption, values):
             return None, f"the assumption {assumption} is not shown to hold there"
     for part in relations_of(goal.statement):
-        there = _evaluated(substitute_in(part, values))
+        there = _at(part, values)
         if there is None:
             continue
         if _sign_is(there.negation()):
@@ -84,6 +84,14 @@ def _admissible_function(applied: AppliedUndef, value: sp.Expr) -> bool:
     """Whether an expression has, for all real arguments, the signs that the undefined function was declared with."""
     declared = ("real", "positive", "nonnegative", "negative", "nonpositive", "nonzero", "integer")
     return all(getattr(value, f"is_{word}") for word in declared if getattr(applied, f"is_{word}"))
+
+
+def _at(relation: Relation, values: Mapping[Any, Any]) -> Relation | None:
+    try:
+        there = substitute_in(relation, values)
+    except (ValueError, TypeError, ZeroDivisionError):  # such as Max of something that is not finite there
+        return None
+    return _evaluated(there)
 
 
 def _evaluated(relation: Relation) -> Relation | None:
@@ -100,7 +108,7 @@ def _evaluated(relation: Relation) -> Relation | None:
 def _holds(assumption: Assumption, values: Mapping[Any, Any]) -> bool:
     match assumption:
         case Relation():
-            parts = [_evaluated(substitute_in(part, values)) for part in assumption.components()]
+            parts = [_at(part, values) for part in assumption.components()]
             return all(part is not None and _sign_is(part) for part in parts)
         case ForAll(variables=variables, relation=relation, domain=domain):
             from ptproof.proof.reals import follows

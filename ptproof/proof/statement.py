@@ -176,6 +176,8 @@ class Implication:
         return f"{' and '.join(map(str, self.hypotheses)) or 'true'} => {self.conclusion}"
 
 
+_BINDERS = (sp.Derivative, sp.Integral, sp.Limit, sp.Subs, sp.Sum, sp.Product, sp.Lambda)
+
 Statement: TypeAlias = Relation | All | Exists | Smooth | Prose
 Assumption: TypeAlias = Relation | ForAll
 
@@ -256,7 +258,7 @@ def undefined_functions(statements: Sequence[Statement | Assumption]) -> set[App
 
 def substitute_in(relation: Relation, values: Mapping[Any, Any]) -> Relation:
     """Replace symbols and undefined functions in both sides, without carrying out limits or integrals."""
-    symbols = {key: value for key, value in values.items() if isinstance(key, sp.Symbol)}
+    symbols = {key: sp.sympify(value) for key, value in values.items() if isinstance(key, sp.Symbol)}
     functions = {key: value for key, value in values.items() if not isinstance(key, sp.Symbol)}
 
     def change(expression: sp.Expr) -> sp.Expr:
@@ -264,6 +266,9 @@ def substitute_in(relation: Relation, values: Mapping[Any, Any]) -> Relation:
             expression = expression.replace(applied.func, sp.Lambda(applied.args, value))
         if functions:
             expression = expression.doit(integrals=False, limits=False)
-        return expression.subs(symbols, simultaneous=True)
+        if expression.has(*_BINDERS):
+            return expression.subs(symbols, simultaneous=True)
+        # All at once, from the leaves up: a Min or Max is then compared once, between its final arguments.
+        return expression.xreplace(symbols)
 
     return relation.map(change)
