@@ -82,7 +82,8 @@ class Generators:
                 if pair is not None:
                     self._powers[pair[0]].append(pair[1])
         for base, exponents in self._powers.items():
-            self._choose_roots(base, exponents)
+            # The base itself is one of its powers, so that it is written by the same generators.
+            self._choose_roots(base, exponents if base is sp.E else [*exponents, sp.S.One])
         return prepared
 
     def _mask(self, expression: sp.Expr) -> sp.Expr:
@@ -121,6 +122,8 @@ class Generators:
     def rational(self, expression: sp.Expr) -> sp.Expr:
         """Replace everything that is not arithmetic by its generator (after :meth:`read`)."""
         match expression:
+            case sp.Symbol() if expression in self._roots:
+                return self._product(expression, sp.S.One)
             case sp.Symbol() | sp.Rational():
                 return expression
             case sp.Add() | sp.Mul():
@@ -152,20 +155,28 @@ class Generators:
         raise NotAlgebraic(f"no rule for {type(expression).__name__}: {expression}")
 
     def _power(self, base: sp.Expr, exponent: sp.Expr) -> sp.Expr:
+        if not base.is_Symbol and base is not sp.E:
+            own = [self._roots[base][monomial] for monomial, _ in _exponent_terms(sp.S.One, self._denominators[base])]
+            if len(own) == 1:  # a root of the base, such as √b: its power is the base
+                self._relate(own[0][0], self.rational(base), _degree(self._product(base, sp.S.One), own[0][0]))
+        return self._product(base, exponent)
+
+    def _product(self, base: sp.Expr, exponent: sp.Expr) -> sp.Expr:
+        """A power of the base as a product of powers of its roots."""
         result: sp.Expr = sp.Integer(1)
         for monomial, coefficient in _exponent_terms(exponent, self._denominators[base]):
             generator, lcm = self._roots[base][monomial]
             result *= generator ** int(coefficient * lcm)
-        own, monomial = self._denominators[base].as_coeff_Mul(rational=True)
-        if base is not sp.E and monomial in self._roots[base]:  # a root of the base, such as √b
-            generator, lcm = self._roots[base][monomial]
-            self._relate(generator, self.rational(base), int(own * lcm))
         return result
 
     def _relate(self, generator: sp.Symbol, value: sp.Expr, degree: int = 2) -> None:
         entry = (generator, generator**degree - value)
         if entry not in self.relations:
             self.relations.append(entry)
+
+
+def _degree(product: sp.Expr, generator: sp.Symbol) -> int:
+    return int(sp.degree(product, generator))
 
 
 def _known_of(node: sp.Expr) -> dict[str, bool]:

@@ -199,14 +199,14 @@ def _stays(u: sp.Expr, interval: _Interval) -> None:
 
 def _solves(u: sp.Expr, rate: sp.Expr, interval: _Interval, hints: Sequence[sp.Expr], solution: sp.Expr) -> str:
     slope = sp.diff(u, interval.s)
-    if _same(slope, rate):
-        return "solves the equation"
     # A denominator that was shown positive becomes a positive symbol, so that its powers can be split off.
     masks = {item: sp.Dummy(f"D{i}", positive=True) for i, item in enumerate(hints)}
 
     def mask(item: Relation) -> Relation:
         return item.map(lambda side: side.xreplace(masks))
 
+    if _same(slope, rate) or _same(slope.xreplace(masks), rate.xreplace(masks)):
+        return "solves the equation"
     known = [mask(item) for item in interval.known] + [Relation(symbol, "=", item) for item, symbol in masks.items()]
     facts = [_map(fact, mask) for fact in interval.facts]
     if follows(mask(ge(slope, rate)), known, facts)[0]:
