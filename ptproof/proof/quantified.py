@@ -14,7 +14,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from ptproof.errors import InputError
-from ptproof.proof.claim import Goal, admissible
+from ptproof.proof.claim import Goal
 from ptproof.proof.reals import follows
 from ptproof.proof.statement import (
     Assumption,
@@ -39,16 +39,24 @@ def plain(assumptions: Sequence[Assumption]) -> tuple[Relation, ...]:
 
 
 def at_point(
-    quantified: ForAll, point: sp.Symbol, known: Sequence[Relation], facts: Sequence[Implication] = ()
+    quantified: ForAll, point: sp.Expr, known: Sequence[Relation], facts: Sequence[Implication] = ()
 ) -> Relation | None:
     """What an assumption for all values of one variable says at ``point``, if that is shown to be in its domain."""
-    if len(quantified.variables) != 1 or not admissible(quantified.variables[0], point):
+    if len(quantified.variables) != 1 or not _is_kind(quantified.variables[0], point, known, facts):
         return None
     there = {quantified.variables[0]: point}
     domain = [substitute_in(part, there) for part in quantified.domain]
     if not all(part in known or follows(part, known, facts, seconds=_SECONDS)[0] for part in domain):
         return None
     return substitute_in(quantified.relation, there)
+
+
+def instances(goal: Goal, *points: sp.Expr) -> list[Implication]:
+    """The goal's quantified assumptions at these points, where they are shown to be in the domain, as facts."""
+    known = plain(goal.assumptions)
+    found = (at_point(item, sp.sympify(point), known) for item in goal.assumptions if isinstance(item, ForAll)
+             and not item.relation.left.has(sp.Derivative) for point in points)  # fmt: skip
+    return [Implication((), relation) for relation in found if relation is not None]
 
 
 def entailed(needed: ForAll, given: Sequence[Assumption], facts: Sequence[Implication] = ()) -> tuple[bool, str]:
@@ -122,6 +130,8 @@ def _is_kind(key: Any, value: sp.Expr, known: Sequence[Relation], facts: Sequenc
         return True
     masked = mask_positive(value, known, facts)
     missing = {name for name, truth in wanted.items() if getattr(masked, f"is_{name}") is not truth}
+    if not missing:
+        return True
     if not missing <= {"positive", "nonnegative"} or not masked.is_real:
         return False
     sign = gt(value, 0) if "positive" in missing else ge(value, 0)
@@ -129,16 +139,16 @@ def _is_kind(key: Any, value: sp.Expr, known: Sequence[Relation], facts: Sequenc
 
 
 def mask_positive(value: sp.Expr, known: Sequence[Relation], facts: Sequence[Implication] = ()) -> sp.Expr:
-    """The value with each base of a power that is shown positive replaced by a positive symbol."""
-    found: dict[sp.Expr, sp.Symbol] = {}
-    for node in sp.preorder_traversal(value):
-        if isinstance(node, sp.Pow) and node.base.is_positive is None and node.base not in found:
-            base = node.base
-            if base.is_real and follows(gt(base, 0), known, facts, seconds=_SECONDS)[0]:
-                found[base] = sp.Dummy("positive", positive=True)
-    return value.xreplace({sp.Pow(base, exponent): symbol**exponent for base, symbol in found.items()
-                           for exponent in _exponents(value, base)})  # fmt: skip
-
-
-def _exponents(value: sp.Expr, base: sp.Expr) -> set[sp.Expr]:
-    return {node.exp for node in value.atoms(sp.Pow) if node.base == base}
+    """The value with each base of a power that is shown positive replaced by a positive symbol, from inside out."""
+    refused: set[sp.Expr] = set()
+    while True:
+        bases = {node.base for node in value.atoms(sp.Pow) if node.base.is_positive is None and node.base.is_real}
+        for base in sorted(bases - refused, key=sp.count_ops):
+            if follows(gt(base, 0), known, facts, seconds=_SECONDS)[0]:
+                symbol = sp.Dummy("positive", positive=True)
+                powers = [node for node in value.atoms(sp.Pow) if node.base == base]
+                value = value.xreplace({node: symbol**node.exp for node in powers})
+                break
+            refused.add(base)
+        else:
+            return value

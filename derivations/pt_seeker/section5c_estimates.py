@@ -1,0 +1,347 @@
+"""Section 5, Proposition: the class-KL estimate with explicit functions, in both times, and its limit.
+
+κ = 1 has an exponential decay, κ ≥ 2 a power law; both families of claims come from one text, the second with
+κ = m + 1 for every m ≥ 1.
+"""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from ptproof.proof.claim import Claim, Goal, claim
+from ptproof.proof.comparisons import comparison
+from ptproof.proof.lemmas import power_monotone, power_positive, power_strict, superadditive
+from ptproof.proof.limits import limits
+from ptproof.proof.quantified import instances, specialise
+from ptproof.proof.reals import reals
+from ptproof.proof.squeeze import squeezed
+from ptproof.proof.statement import Assumption, ForAll, Implication, Relation, eq, every, ge, gt, le, lt
+from ptproof.proof.verdict import Evidence
+
+from . import chain
+from .notation import T, a1, a2, c, d, h2, k, kappa, nu, t, t0, tau
+from .section5b_proposition import constants_ordered, no_increase, u_bounds, u_inequality
+
+SECTION = "5.5 Proposition: the estimate in both times"
+
+m = sp.Symbol("m", positive=True, integer=True)  # κ = m + 1 where κ ≥ 2
+start = sp.Symbol("p_t", real=True)  # the time p of eq:upper_bound
+s = sp.Symbol("s", real=True)
+Z = sp.Symbol("Z", nonnegative=True)  # the supremum of ζ from p to τ
+first, second, elapsed = sp.symbols("s_1 s_2 varsigma", nonnegative=True)
+low = sp.Symbol("s_low", positive=True)
+distance = sp.Function("R", nonnegative=True)
+distance_in_t = sp.Function("R_t", nonnegative=True)
+U_at = sp.Function("U", nonnegative=True)
+half = (t0 + tau) / 2
+end = chain.clock.to_tau
+
+
+def rate_of(order: sp.Expr) -> sp.Expr:
+    """h₁ for κ = order."""
+    return k * c(1, order) ** 2 / (4 * order)
+
+
+def input_gain(order: sp.Expr) -> sp.Expr:
+    """h₂ for κ = order."""
+    return c(2, order) / (2 * order)
+
+
+def gamma(value: sp.Expr, order: sp.Expr) -> sp.Expr:
+    """The gain as printed: (a₁/a₂²)^(1/2κ) (s/h₁)^(1/r)."""
+    return (a1 / a2**2) ** (1 / (2 * order)) * (value / rate_of(order)) ** (1 / (2 * order - 1))
+
+
+def denominator(value: sp.Expr, after: sp.Expr, order: sp.Expr) -> sp.Expr:
+    """1 + (r − 1) h₁ w₀^(r−1) times the time."""
+    return 1 + (2 * order - 2) * rate_of(order) * value ** (2 * order - 2) * after
+
+
+def decay(value: sp.Expr, after: sp.Expr, order: sp.Expr) -> sp.Expr:
+    """The solution of w' = −h₁ w^r at the time ``after``, from ``value``."""
+    if order == 1:
+        return value * sp.exp(-rate_of(order) * after)
+    return value * denominator(value, after, order) ** (-1 / (2 * order - 2))
+
+
+def beta(value: sp.Expr, after: sp.Expr, order: sp.Expr) -> sp.Expr:
+    """A class-KL function for eq:upper_bound: the decay of U, between the bounds of U by the distance."""
+    return a2 ** (-1 / (2 * order)) * decay(a1 ** (1 / (2 * order)) * value, after, order)
+
+
+def fixed(after: sp.Expr, order: sp.Expr) -> sp.Expr:
+    """A bound of β for κ ≥ 2 that does not depend on the distance."""
+    return a2 ** (-1 / (2 * order)) * ((2 * order - 2) * rate_of(order) * after) ** (-1 / (2 * order - 2))
+
+
+def zeta_at(time: sp.Expr, order: sp.Expr) -> sp.Expr:
+    """ζ with the largest bound of the drift on the whole of [t₀, τ]."""
+    return input_gain(order) * d / (1 + (time - t0) / T) ** 2
+
+
+def halved(time: sp.Expr, order: sp.Expr) -> sp.Expr:
+    """The bound of ζ on the second half of the way to τ."""
+    return input_gain(order) * d / (1 + (time - t0) / (2 * T)) ** 2
+
+
+@claim(
+    "prop/zeta-suprema", "ζ on the first and on the second half of [t₀, τ]",
+    every(le(zeta_at(s, kappa), h2 * d), le(zeta_at(half + elapsed, kappa), halved(tau, kappa))),
+    given=[ge(tau, t0), ge(s, t0)], place="Proof of the Proposition",
+)  # fmt: skip
+def zeta_suprema(goal: Goal) -> Evidence:
+    """ζ is at most its value at the beginning of each half, because its denominator grows."""
+    return reals(goal)
+
+
+@claim(
+    "prop/input-vanishes", "The second input tends to 0",
+    eq(sp.Limit(h2 * d / (1 + (tau - t0) / (2 * T)) ** 2, tau, sp.oo, "-"), 0),
+    place="Proof of the Proposition", uses=[zeta_suprema],
+)  # fmt: skip
+def input_vanishes(goal: Goal) -> Evidence:
+    """With the largest bound of the drift on the whole interval in place of the one up to τ, which is at most that."""
+    return limits(goal)
+
+
+def bounds_at(order: sp.Expr, below: sp.Expr | None = None, above: sp.Expr | None = None) -> list[Relation]:
+    """eq:Ux_bounds at single times, the lower one and the upper one."""
+    found = []
+    if below is not None:
+        found.append(le(a2 ** (1 / (2 * order)) * distance(below), U_at(below)))
+    if above is not None:
+        found.append(le(U_at(above), a1 ** (1 / (2 * order)) * distance(above)))
+    return found
+
+
+def falls(order: sp.Expr, forcing: sp.Expr, *domain: Relation) -> ForAll:
+    """eq:Ux_inequality for all times of the domain."""
+    rate = -rate_of(order) * U_at(s) ** (2 * order - 1) + forcing
+    return ForAll((s,), le(sp.Derivative(U_at(s), s), rate), domain)
+
+
+def estimates(order: sp.Expr, tag: str, words: str) -> tuple[Claim, ...]:
+    """The claims about β and γ for one kind of κ."""
+    linear = order == 1
+    h, g, root, exponent = rate_of(order), input_gain(order), 1 / (2 * order), 2 * order - 1
+
+    @claim(
+        f"prop/gamma-class-k-{tag}", f"γ is of class K ({words})",
+        every(
+            eq(gamma(sp.S.Zero, order), 0), lt(0, gamma(low, order)), lt(gamma(low, order), gamma(second, order)),
+        ),
+        given=[lt(low, second)], place="Proof of the Proposition",
+    )  # fmt: skip
+    def gamma_class_k(goal: Goal) -> Evidence:
+        """A root: 0 at 0, strictly increasing, and continuous. The gain is printed with h₁ in its denominator."""
+        inverse = 1 / exponent
+        lemmas = [] if linear else [power_strict(low / h, second / h, inverse)]
+        return reals(goal, *lemmas)
+
+    def smaller(low: sp.Expr, high: sp.Expr, after: sp.Expr) -> list[Implication]:
+        if linear:
+            return []
+        power = 2 * order - 2
+        rows = [value**power / denominator(value, after, order) for value in (low, high)]
+        return [power_monotone(low, high, power), power_monotone(*rows, 1 / power)]
+
+    def regular(value: sp.Expr, after: sp.Expr) -> list[Implication]:
+        """The denominator of the decay, and its root, are positive."""
+        return [] if linear else [power_positive(denominator(value, after, order), 1 / (2 * order - 2))]
+
+    @claim(
+        f"prop/decay-monotone-{tag}", f"The decay from a smaller value is smaller ({words})",
+        le(decay(first, elapsed, order), decay(second, elapsed, order)), given=[le(first, second)],
+        place="Proof of the Proposition",
+    )  # fmt: skip
+    def decay_monotone(goal: Goal) -> Evidence:
+        """For κ ≥ 2 the power 2κ − 2 of the decay is y/(1 + cy) with y = w₀^(2κ−2), which increases with y."""
+        return reals(goal, *smaller(first, second, elapsed))
+
+    @claim(
+        f"prop/beta-zero-{tag}", f"β is 0 at the source and tends to 0 with time ({words})",
+        eq(sp.Limit(beta(low, elapsed, order), elapsed, sp.oo, "-"), 0),
+        place="Proof of the Proposition",
+    )  # fmt: skip
+    def beta_vanishes(goal: Goal) -> Evidence:
+        """From every distance other than 0."""
+        return limits(goal)
+
+    @claim(
+        f"prop/beta-class-kl-{tag}", f"β is 0 at 0, increases with the distance, decreases with time ({words})",
+        every(
+            eq(beta(sp.S.Zero, elapsed, order), 0),
+            lt(0, beta(low, elapsed, order)),
+            lt(beta(low, elapsed, order), beta(second, elapsed, order)),
+            lt(sp.diff(beta(low, elapsed, order), elapsed), 0),
+        ),
+        given=[lt(low, second)], place="Proof of the Proposition", uses=[beta_vanishes],
+    )  # fmt: skip
+    def beta_class_kl(goal: Goal) -> Evidence:
+        """Strictly, and continuously: with the limit, this is what class KL asks for."""
+        ends = [a1**root * value for value in (low, second)]
+        if linear:
+            return reals(goal)
+        power = 2 * order - 2
+        rows = [value**power / denominator(value, elapsed, order) for value in ends]
+        return reals(goal, power_strict(*ends, power), power_strict(*rows, 1 / power))
+
+    @claim(
+        f"prop/u-estimate-{tag}", f"U stays below its decay plus the level where ζ balances it ({words})",
+        le(U_at(tau), decay(U_at(start), tau - start, order) + (Z / h) ** (1 / exponent)),
+        given=[ge(tau, start), falls(order, Z, ge(s, start), le(s, tau))],
+        place="Proof of the Proposition", uses=[u_inequality, no_increase],
+    )  # fmt: skip
+    def u_estimate(goal: Goal) -> Evidence:
+        """This replaces the step that does not follow. Let w decay by w' = −h₁w^r and let u* be the level with
+        h₁u*^r = Z. Powers of at least 1 are superadditive, so w + u* falls no faster than the inequality for U asks,
+        and the comparison lemma puts U below it."""
+        level = (Z / h) ** (1 / exponent)
+        falling = decay(U_at(start), s - start, order)
+        denominators = [] if linear else [denominator(U_at(start), s - start, order)]
+        lemmas = [] if linear else [superadditive(falling, level, exponent)]
+        return comparison(goal, falling + level, denominators=denominators, lemmas=lemmas)
+
+    known: list[Assumption] = [le(a2, a1)]
+
+    @claim(
+        f"prop/upper-bound-{tag}", f"The input-to-state estimate with the printed gain ({words})",
+        le(distance(tau), beta(distance(start), tau - start, order) + gamma(Z, order)),
+        given=[ge(tau, start), falls(order, Z, ge(s, start), le(s, tau)), *known, *bounds_at(order, tau, start)],
+        labels=["eq:upper_bound"], uses=[u_estimate, decay_monotone, u_bounds, constants_ordered],
+    )  # fmt: skip
+    def upper_bound(goal: Goal) -> Evidence:
+        """The printed gain is right although the printed inequality before it is not: the direct comparison gives the
+        gain a₂^(−1/2κ)(s/h₁)^(1/r), and the printed one is larger by (a₁/a₂)^(1/2κ) ≥ 1."""
+        values = {first: U_at(start), second: a1**root * distance(start), elapsed: tau - start}
+        return reals(
+            goal, *specialise(goal, u_estimate, {}), *specialise(goal, decay_monotone, values),
+            power_monotone(sp.S.One, a1 / a2, root), *regular(U_at(start), tau - start),
+            *regular(a1**root * distance(start), tau - start),
+        )  # fmt: skip
+
+    whole = falls(order, zeta_at(s, order), ge(s, t0), le(s, tau))
+    first_part = le(distance(half), beta(distance(t0), (tau - t0) / 2, order) + gamma(g * d, order))
+    second_part = le(distance(tau), beta(distance(half), (tau - t0) / 2, order) + gamma(halved(tau, order), order))
+
+    @claim(
+        f"prop/upper-bound-first-half-{tag}", f"The estimate on the first half ({words})", first_part,
+        given=[ge(tau, t0), whole, *known, *bounds_at(order, half, t0)],
+        labels=["eq:upper_bound1"], uses=[upper_bound, zeta_suprema],
+    )  # fmt: skip
+    def upper_bound_1(goal: Goal) -> Evidence:
+        """From t₀ to the middle, where ζ is at most h₂ times the largest bound of the drift."""
+        return reals(goal, *specialise(goal, upper_bound, {start: t0, tau: half, Z: g * d}))
+
+    @claim(
+        f"prop/upper-bound-second-half-{tag}", f"The estimate on the second half ({words})", second_part,
+        given=[ge(tau, t0), whole, *known, *bounds_at(order, tau, half)],
+        labels=["eq:upper_bound2"], uses=[upper_bound, zeta_suprema],
+    )  # fmt: skip
+    def upper_bound_2(goal: Goal) -> Evidence:
+        """From the middle on, where ζ has become small."""
+        return reals(goal, *specialise(goal, upper_bound, {start: half, Z: halved(tau, order)}))
+
+    def combined(at_start: sp.Expr, duration: sp.Expr, last: sp.Expr) -> sp.Expr:
+        inner = beta(at_start, duration / 2, order) + gamma(g * d, order)
+        return beta(inner, duration / 2, order) + gamma(last, order)
+
+    everywhere = [*bounds_at(order, half, t0), *bounds_at(order, tau, half)]
+
+    @claim(
+        f"prop/finale-{tag}", f"Both halves together ({words})",
+        le(distance(tau), combined(distance(t0), tau - t0, halved(tau, order))),
+        given=[ge(tau, t0), whole, *known, *everywhere],
+        labels=["eq:finale"], uses=[upper_bound_1, upper_bound_2, decay_monotone],
+    )  # fmt: skip
+    def finale(goal: Goal) -> Evidence:
+        """β increases with its first argument, so the estimate at the middle may be put into it."""
+        inner = beta(distance(t0), (tau - t0) / 2, order) + gamma(g * d, order)
+        values = {first: a1**root * distance(half), second: a1**root * inner, elapsed: (tau - t0) / 2}
+        return reals(
+            goal, *specialise(goal, upper_bound_1, {}), *specialise(goal, upper_bound_2, {}),
+            *specialise(goal, decay_monotone, values), *regular(values[first], values[elapsed]),
+            *regular(values[second], values[elapsed]),
+        )  # fmt: skip
+
+    input_in_t = g * d / (1 + (t - t0) / (2 * T * nu(t - t0))) ** 2
+    in_t = combined(distance(t0), (t - t0) / nu(t - t0), input_in_t)
+    same_signal = eq(distance_in_t(t), distance(end))
+
+    @claim(
+        f"prop/finale-in-t-{tag}", f"The estimate in the original time ({words})", le(distance_in_t(t), in_t),
+        given=[
+            ge(t, t0), lt(t, t0 + T), same_signal, *known,
+            falls(order, zeta_at(s, order), ge(s, t0), le(s, end)),
+            *(part.map(lambda side: side.subs(tau, end)) for part in everywhere),
+        ],
+        labels=["eq:finale_t"], uses=[finale],
+    )  # fmt: skip
+    def finale_in_t(goal: Goal) -> Evidence:
+        """The same signal on the other clock: τ − t₀ is replaced by (t − t₀)/ν."""
+        return reals(goal, *specialise(goal, finale, {tau: end}))
+
+    if linear:
+        towards_zero, after_all, bounded_steps = in_t, combined(distance(t0), tau - t0, halved(tau, order)), []
+    else:
+        uniform_in_t = fixed((t - t0) / nu(t - t0) / 2, order) + gamma(input_in_t, order)
+        towards_zero, after_all = uniform_in_t, fixed((tau - t0) / 2, order) + gamma(halved(tau, order), order)
+
+        @claim(
+            f"prop/beta-uniform-{tag}", f"β has a bound that does not depend on the distance ({words})",
+            le(beta(second, low, order), fixed(low, order)), place="Proof of the Proposition",
+        )  # fmt: skip
+        def beta_uniform(goal: Goal) -> Evidence:
+            """The power law forgets where it started: (w₀/D)^(2κ−2) is below 1/((2κ − 2)h₁ times the time)."""
+            power = 2 * order - 2
+            value = a1**root * second
+            ratio = value**power / denominator(value, low, order)
+            return reals(goal, power_monotone(ratio, 1 / (power * h * low), 1 / power))
+
+        bounded_steps = [beta_uniform]
+
+    @claim(
+        f"prop/finale-limit-{tag}", f"The bound tends to 0 in both times ({words})",
+        every(eq(sp.Limit(after_all, tau, sp.oo, "-"), 0), eq(sp.Limit(towards_zero, t, t0 + T, "-"), 0)),
+        labels=["eq:finale", "eq:finale_t"], uses=[finale, finale_in_t, *bounded_steps],
+    )  # fmt: skip
+    def finale_limit(goal: Goal) -> Evidence:
+        """For κ ≥ 2 with β replaced by its bound that does not depend on the distance, which also covers a drift that
+        is zero."""
+        return limits(goal)
+
+    roots = [
+        ForAll((s,), le(a2**root * distance(s), U_at(s)), (ge(s, t0),)),
+        ForAll((s,), le(U_at(s), a1**root * distance(s)), (ge(s, t0),)),
+    ]
+    clock = ForAll((s,), eq(distance_in_t(s), distance(end.subs(t, s))), (ge(s, t0), lt(s, t0 + T)))
+
+    @claim(
+        f"prop/convergence-{tag}", f"The averaged vehicle reaches the source in the prescribed time ({words})",
+        eq(sp.Limit(distance_in_t(t), t, t0 + T, "-"), 0),
+        given=[falls(order, zeta_at(s, order), ge(s, t0)), *roots, clock, *known],
+        labels=["proposition"], uses=[finale_in_t, upper_bound_2, finale_limit, *bounded_steps],
+    )  # fmt: skip
+    def convergence(goal: Goal) -> Evidence:
+        """The statement of the Proposition: the distance lies between 0 and a bound that tends to 0 as t tends to
+        t₀ + T. For κ ≥ 2 the estimate on the second half alone is enough, since β forgets the distance."""
+
+        def facts(there: Goal) -> list[Implication]:
+            middle = half.subs(tau, end)
+            points = instances(there, t0, middle, end, t)
+            if linear:
+                return [*specialise(there, finale_in_t, {}), *points]
+            values = {second: distance(middle), low: (t - t0) / nu(t - t0) / 2}
+            last = specialise(there, upper_bound_2, {tau: end})
+            return [*last, *specialise(there, bounded_steps[0], values), *points]
+
+        return squeezed(goal, towards_zero, [gt(t, t0), lt(t, t0 + T)], facts)
+
+    return (
+        gamma_class_k, decay_monotone, beta_vanishes, beta_class_kl, u_estimate, upper_bound, upper_bound_1,
+        upper_bound_2, finale, finale_in_t, *bounded_steps, finale_limit, convergence,
+    )  # fmt: skip
+
+
+kappa_1 = estimates(sp.Integer(1), "kappa-1", "κ = 1")
+kappa_2 = estimates(m + 1, "kappa-2", "κ ≥ 2")
