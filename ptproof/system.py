@@ -209,10 +209,14 @@ class DitherSystem:
             raise InputError(f"{self.name}: the period {self.period} is not positive")
 
     def to_system(self, name: str | None = None) -> System:
-        """The equation itself, with the phase replaced by ω·time."""
+        """The equation itself, with the phase replaced by ω·time; what is Piecewise in it is extended periodically."""
         total = sp.Matrix(self.drift)
+        now, inside = self.omega * self.time, sp.Dummy("phase", real=True)
         for field, dither in zip(self.fields, self.dithers, strict=True):
-            total += sp.sqrt(self.omega) * dither.subs(self.phase, self.omega * self.time) * sp.Matrix(field)
+            pieces = [node for node in dither.atoms(sp.Piecewise) if self.phase in node.free_symbols]
+            signal = dither.xreplace({node: node.subs(self.phase, inside) for node in pieces})
+            signal = signal.subs(self.phase, now).subs(inside, sp.Mod(now, self.period))
+            total += sp.sqrt(self.omega) * signal * sp.Matrix(field)
         return System(self.time, self.state, tuple(total), name=self.name if name is None else name)
 
     def _repr_latex_(self) -> str:

@@ -69,7 +69,10 @@ def derive(system: DitherSystem) -> Derived:
         brackets[i, j] = dense(bracket.entries, n)
         for row, entry in bracket.entries.items():
             sums.setdefault(row, []).append(value * entry)
-    rhs = [drift + (tidy(sp.Add(*sums[row])) if row in sums else 0) for row, drift in enumerate(system.drift)]
+    rhs = []
+    for row, drift in enumerate(system.drift):
+        terms = sums.get(row, [])
+        rhs.append(drift + (tidy(sp.Add(*terms)) if len(terms) > 1 else sp.Add(*terms)))
     averaged = System(system.time, system.state, tuple(rhs), name=f"average of {system.name}")
     return Derived(system, averaged, v, brackets)
 

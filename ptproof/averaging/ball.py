@@ -36,13 +36,16 @@ def compile_entire(expression: sp.Expr, bits: int) -> Compiled:
         if node.is_Add or node.is_Mul:
             parts = [build(arg) for arg in node.args]
             join = operator.add if node.is_Add else operator.mul
+            if len(parts) == 2:
+                first, second = parts
+                return lambda values: join(first(values), second(values))
             return lambda values: functools.reduce(join, (part(values) for part in parts))
         if node.is_Pow and node.exp.is_Integer and node.exp > 0:
             base, power = build(node.base), int(node.exp)
             return lambda values: base(values) ** power
         if node.func in _ENTIRE:
-            inner, method = build(node.args[0]), _ENTIRE[node.func]
-            return lambda values: getattr(inner(values), method)()
+            inner, call = build(node.args[0]), operator.methodcaller(_ENTIRE[node.func])
+            return lambda values: call(inner(values))
         raise AveragingUndecided(f"{node} is not known to be entire")
 
     return build(expression)

@@ -95,26 +95,23 @@ def _mask(
     """Sines and cosines, and the functions outside of them, become symbols; with the way back."""
     sines: dict[sp.Expr, sp.Symbol] = {}
     cosines: dict[sp.Expr, sp.Symbol] = {}
-    forward: dict[sp.Expr, sp.Symbol] = {}
-    for node in sorted(expression.atoms(sp.sin, sp.cos), key=sp.default_sort_key):
-        table = sines if isinstance(node, sp.sin) else cosines
-        forward[node] = table.setdefault(node.args[0], sp.Dummy(node.func.__name__))
-    masked = expression.xreplace(forward)
-    # Outermost first, so that no argument changes under a node that is still to be replaced.
-    for kind in (sp.Subs, sp.Derivative, sp.Function):
-        for node in sorted(masked.atoms(kind), key=lambda entry: (-len(str(entry)), str(entry))):
-            if masked.has(node):
-                forward[node] = sp.Dummy("f")
-                masked = masked.xreplace({node: forward[node]})
-    # A denominator stays as it is written.
-    for node in sorted(masked.atoms(sp.Pow), key=lambda entry: (-len(str(entry)), str(entry))):
-        if node.base.is_Add and not (node.exp.is_Integer and node.exp > 0) and masked.has(node):
-            forward[node] = sp.Dummy("p")
-            masked = masked.xreplace({node: forward[node]})
-    for argument in set(sines) | set(cosines):
+    hidden: dict[sp.Basic, sp.Symbol] = {}
+
+    def hide(node: sp.Basic) -> sp.Basic:
+        if isinstance(node, sp.sin | sp.cos):
+            table = sines if isinstance(node, sp.sin) else cosines
+            return table.setdefault(node.args[0], sp.Dummy(node.func.__name__))
+        # A denominator stays as it is written.
+        power = node.is_Pow and node.base.is_Add and not (node.exp.is_Integer and node.exp > 0)
+        if power or isinstance(node, sp.Subs | sp.Derivative | sp.Function):
+            return hidden.setdefault(node, sp.Dummy("f"))
+        return node.func(*map(hide, node.args)) if node.args else node
+
+    masked = hide(expression)
+    for argument in (*sines, *cosines):
         sines.setdefault(argument, sp.Dummy("sin"))
         cosines.setdefault(argument, sp.Dummy("cos"))
-    back = {symbol: node for node, symbol in forward.items()}
+    back = {symbol: node for node, symbol in hidden.items()}
     back |= {symbol: sp.sin(argument) for argument, symbol in sines.items()}
     back |= {symbol: sp.cos(argument) for argument, symbol in cosines.items()}
     return masked, sines, cosines, back

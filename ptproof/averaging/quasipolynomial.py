@@ -12,7 +12,7 @@ from typing import Any
 
 import sympy as sp
 
-from ptproof.averaging.refusal import AveragingUndecided
+from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided
 from ptproof.proof.algebra import NotAlgebraic, is_zero
 from ptproof.proof.ball import Undefined, separated
 
@@ -95,7 +95,8 @@ class QuasiPolynomial:
 def read(expression: sp.Expr, variable: sp.Symbol, where: str) -> QuasiPolynomial:
     """The normal form of ``expression`` in ``variable``; everything else in it is a coefficient.
 
-    Raises :class:`AveragingUndecided`, naming ``where``, for anything outside the class.
+    Raises :class:`AveragingUndecided`, naming ``where``, for anything outside the class, and
+    :class:`AveragingRefused` for a frequency that is not a number.
     """
     if variable not in expression.free_symbols:
         return QuasiPolynomial.constant(expression)
@@ -138,7 +139,9 @@ def _sinusoid(expression: sp.Expr, variable: sp.Symbol, where: str) -> QuasiPoly
         raise AveragingUndecided(f"{where}: the argument of {expression} is not linear in the phase")
     rate, offset = linear
     if not rate.is_number:
-        raise AveragingUndecided(f"{where}: the frequency of {expression} relative to the phase is not a number")
+        raise AveragingRefused(
+            "D", where, f"the frequency of {expression} depends on a symbol, so that no period holds for all its values"
+        )
     cosine, sine = sp.cos(offset), sp.sin(offset)
     if isinstance(expression, sp.cos):
         return QuasiPolynomial.collect([_signed(0, rate, cosine, -sine)])

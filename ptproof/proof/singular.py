@@ -35,6 +35,11 @@ def find_singularity(
     a value that is not real near such a point is a witness; all comparisons are certain.
     """
     names = {str(applied): str(_concrete(applied)) for applied in sorted(_plain(expression), key=str)}
+    # A relation among symbols that play no part here does not exclude a point.
+    free = expression.free_symbols
+    domain = [
+        relation for relation in domain if relation.left.free_symbols & free or relation.right.free_symbols & free
+    ]
     expression = _concrete(expression).replace(sp.tan, lambda angle: sp.sin(angle) / sp.cos(angle))
     for suspect in suspects:
         for argument in _arguments(_concrete(suspect)):
@@ -107,13 +112,14 @@ def _lines(
 
 
 def _contradicts(symbol: sp.Symbol, value: sp.Expr) -> bool:
-    return (
+    return bool(
         (symbol.is_positive and value <= 0)
         or (symbol.is_nonzero and value == 0)
         or (symbol.is_integer and not value.is_integer)
         or (symbol.is_negative and value >= 0)
         or (symbol.is_nonnegative and value < 0)
-    ) is True
+        or (symbol.is_nonpositive and value > 0)
+    )
 
 
 def _roots(argument: sp.Expr, variable: sp.Symbol) -> list[sp.Expr]:

@@ -1,0 +1,167 @@
+"""Everything about the average of one dither system: the result, its hypotheses, and the author's claim."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from ptproof.averaging.average import Pair, derive
+from ptproof.averaging.brackets import Vector
+from ptproof.averaging.coefficients import Coefficients
+from ptproof.averaging.ledger import Ledger, examine
+from ptproof.averaging.problem import DitherProblem
+from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided
+from ptproof.proof.claim import Goal
+from ptproof.proof.exact import exact
+from ptproof.proof.statement import Relation
+from ptproof.proof.verdict import Evidence, Verdict
+from ptproof.system import DitherSystem, System
+
+
+@dataclass(frozen=True)
+class Average:
+    """The outcome of :func:`study`.
+
+    Attributes
+    ----------
+    problem
+        What was asked.
+    system
+        The Lie bracket system, or None where the theorem does not cover the problem (see ``refusals``) or no
+        exact average is known.
+    v
+        {(j, i): v_ji} for all pairs i < j; empty where there is none.
+    brackets
+        {(i, j): [b_i, b_j]} for the pairs with v_ji ≠ 0, at the quasi-steady state.
+    ledger
+        The hypotheses, each with its verdict.
+    expected
+        Whether the average that the author claims is right; None if nothing was claimed.
+    """
+
+    problem: DitherProblem
+    system: System | None
+    v: Coefficients
+    brackets: Mapping[Pair, Vector]
+    ledger: Ledger
+    expected: Evidence | None = None
+
+    @property
+    def refusals(self) -> tuple[str, ...]:
+        """Why the theorem does not cover the problem: one sentence for each refuted hypothesis."""
+        return tuple(
+            f"{letter}: {self.ledger.entries[letter].detail}" for letter in self.ledger.with_verdict(Verdict.REFUTED)
+        )
+
+    @property
+    def caveats(self) -> tuple[str, ...]:
+        """What the average rests on beyond what was shown: one sentence for each undecided hypothesis."""
+        return tuple(
+            f"{letter}: {self.ledger.entries[letter].detail}" for letter in self.ledger.with_verdict(Verdict.UNDECIDED)
+        )
+
+    @property
+    def gradient(self) -> tuple[sp.Expr, AppliedUndef] | None:
+        """(c, F) where the average without its drift is c times the gradient of an undefined function F."""
+        return None if self.system is None else recognise_gradient(self.problem, self.system)
+
+    @property
+    def as_expected(self) -> bool:
+        """Covered by the theorem, and the author's claim, if any, proved."""
+        return self.system is not None and (self.expected is None or self.expected.verdict is Verdict.PROVED)
+
+    def latex(self) -> str:
+        """The averaged system, as an ``aligned`` block, or a sentence where there is none."""
+        if self.system is None:
+            return r"\text{no average: " + "; ".join(self.refusals + self.caveats).replace("_", r"\_") + "}"
+        return self.system.latex()
+
+    def _repr_latex_(self) -> str:
+        return f"$\\displaystyle {self.latex()}$"
+
+    def to_json(self) -> dict[str, Any]:
+        """As the command ``ptproof average --json`` prints it."""
+        expected = None
+        if self.expected is not None:
+            witness = self.expected.witness
+            expected = {
+                "verdict": str(self.expected.verdict),
+                "witness": None if witness is None else witness.to_json(),
+            }
+        return {
+            "average": None if self.system is None else [str(entry) for entry in self.system.rhs],
+            "v": {f"{j},{i}": str(value) for (j, i), value in self.v.items()},
+            "assumptions": self.ledger.to_json(),
+            "expected": expected,
+        }
+
+
+def study(problem: DitherProblem | DitherSystem) -> Average:
+    """Average a dither system and say which hypotheses of the theorem hold (thm:SPLBave, ass:singular_ass).
+
+    Parameters
+    ----------
+    problem
+        With fast states, a region and a claimed average, or a dither system alone.
+
+    Returns
+    -------
+    Average
+        Where a hypothesis is refuted there is no averaged system, and ``refusals`` says why and where. What is
+        undecided is listed in ``caveats``; then the average is the theorem's if these hold.
+    """
+    if isinstance(problem, DitherSystem):
+        problem = DitherProblem(problem)
+    ledger = examine(problem)
+    nothing = Average(problem, None, {}, {}, ledger, None)
+    refused = ledger.verdict is Verdict.REFUTED
+    unknown = any(ledger.entries[letter].verdict is Verdict.UNDECIDED for letter in ("form", "D"))
+    if problem.fast is not None and ledger.steady is None:
+        unknown = True
+    if not refused and not unknown:
+        try:
+            derived = derive(problem.reduced(ledger.steady or ()))
+        except (AveragingRefused, AveragingUndecided) as error:
+            return _without(nothing, str(error))
+        expected = None if problem.expected is None else compare(derived.system, problem.expected)
+        return Average(problem, derived.system, derived.v, derived.brackets, ledger, expected)
+    return _without(nothing, "there is no average to compare with")
+
+
+def _without(average: Average, reason: str) -> Average:
+    if average.problem.expected is None:
+        return average
+    expected = Evidence("average", Verdict.UNDECIDED, reason)
+    return Average(average.problem, None, {}, {}, average.ledger, expected)
+
+
+def compare(system: System, expected: Vector) -> Evidence:
+    """Whether the right-hand side of ``system`` equals ``expected``, with a witness where it does not.
+
+    proved: the difference has the normal form 0. refuted: exact values (polynomials for undefined functions) at
+    which the two sides are apart. The two sides are compared as given; neither is computed from the other.
+    """
+    goal = Goal("expected average", Relation(sp.Matrix(system.rhs), "=", sp.Matrix(list(expected))))
+    return exact(goal)
+
+
+def recognise_gradient(problem: DitherProblem, system: System) -> tuple[sp.Expr, AppliedUndef] | None:
+    """(c, F) if Σ [b_i, b_j] v_ji = c ∇F, with c free of states, for an undefined function F of the states."""
+    drift = problem.system.drift
+    if problem.fast is not None and any(set(problem.fast.state) & entry.free_symbols for entry in drift):
+        return None
+    added = [entry - start for entry, start in zip(system.rhs, drift, strict=True)]
+    for applied in sorted(set().union(*(entry.atoms(AppliedUndef) for entry in added)), key=str):
+        slopes = [sp.diff(applied, symbol) for symbol in system.state]
+        if not slopes[0].has(sp.Derivative):
+            continue
+        factor = sp.cancel(added[0] / slopes[0])
+        if factor.free_symbols & set(system.state) or factor.has(sp.Derivative):
+            continue
+        if all(sp.expand(entry - factor * slope) == 0 for entry, slope in zip(added, slopes, strict=True)):
+            return factor, applied
+    return None
