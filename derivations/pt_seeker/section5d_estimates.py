@@ -20,7 +20,7 @@ from ptproof.proof.verdict import Evidence
 
 from . import chain
 from .notation import T, a1, a2, c, d, h2, k, kappa, nu, t, t0, tau
-from .section5b_proposition import constants_ordered, no_increase, u_bounds, u_inequality
+from .section5c_proposition import constants_ordered, no_increase, u_bounds, u_inequality
 
 SECTION = "5.5 Proposition: the estimate in both times"
 
