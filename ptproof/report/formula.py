@@ -11,6 +11,8 @@ from typing import Any
 from xml.etree import ElementTree
 
 import sympy as sp
+from sympy.core.function import _coeff_isneg
+from sympy.printing.latex import LatexPrinter
 
 from ptproof.proof.statement import (
     All,
@@ -41,9 +43,21 @@ class Line:
     indented: bool = False
 
 
+class _Printer(LatexPrinter):
+    """SymPy's printer, but a sum does not open with a minus sign where it need not: τ − t₀, not −t₀ + τ."""
+
+    def _as_ordered_terms(self, expr: sp.Expr, order: str | None = None) -> list[sp.Expr]:
+        return _ordered(super()._as_ordered_terms(expr, order=order))
+
+
+def _ordered(terms: list[sp.Expr]) -> list[sp.Expr]:
+    first = next((place for place, term in enumerate(terms) if not _coeff_isneg(term)), 0)
+    return [terms[first], *terms[:first], *terms[first + 1 :]]
+
+
 def latex(expression: Any, names: Names) -> str:
     """SymPy's LaTeX with the glyphs of the notation."""
-    return str(sp.latex(expression, symbol_names=dict(names), ln_notation=True))
+    return str(_Printer({"symbol_names": dict(names), "ln_notation": True}).doprint(expression))
 
 
 def statement_lines(statement: Statement | Assumption, names: Names) -> tuple[Line, ...]:
@@ -113,6 +127,8 @@ def _relation_lines(relation: Relation, names: Names) -> tuple[Line, ...]:
     sign = _SIGN[relation.sign]
     if width(left) + width(right) < _ROOM:
         return (Line(f"{left} {sign} {right}"),)
+    if isinstance(relation.left, sp.MatrixBase):
+        return tuple(line for part in relation.components() for line in _relation_lines(part, names))
     first, *rest = _broken(relation.left, left, names)
     second, *more = _broken(relation.right, right, names)
     return (
@@ -128,7 +144,7 @@ def _broken(expression: Any, whole: str, names: Names) -> list[str]:
     if width(whole) < _ROOM or not isinstance(expression, sp.Add):
         return [whole]
     lines = [""]
-    for term in expression.as_ordered_terms():
+    for term in _ordered(expression.as_ordered_terms()):
         text = latex(term, names)
         joined = text if lines == [""] else (f"- {text[1:].lstrip()}" if text.startswith("-") else f"+ {text}")
         if lines[-1] and width(f"{lines[-1]} {joined}") > _ROOM:
@@ -149,6 +165,7 @@ def mathml(source: str, *, display: bool = False) -> str:
     )
 
 
+@lru_cache(maxsize=4096)
 def width(source: str) -> float:
     """About how many characters wide the formula is."""
     element = _element(source)
@@ -160,9 +177,11 @@ def _source(source: str) -> str | None:
     from latex2mathml.converter import convert
 
     try:
-        return convert(source)
+        converted = str(convert(source))
+        ElementTree.fromstring(converted)
     except Exception:  # the converter raises many kinds; the formula is then shown as its LaTeX
         return None
+    return converted
 
 
 def _element(source: str) -> ElementTree.Element | None:

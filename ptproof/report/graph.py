@@ -83,7 +83,7 @@ def layout(nodes: Sequence[Node]) -> Layout:
     top = MARGIN
     for section in dict.fromkeys(node.section for node in nodes):
         inside = [node for node in nodes if node.section == section]
-        rows = _rows(inside, boxes)
+        rows = _rows(inside)
         for number, row in enumerate(rows):
             y = top + BAND_HEAD + number * ROW_PITCH
             for node, x in zip(row, _columns(row, boxes), strict=True):
@@ -104,7 +104,7 @@ def layout(nodes: Sequence[Node]) -> Layout:
     )  # fmt: skip
 
 
-def _rows(nodes: Sequence[Node], placed: dict[str, Box]) -> list[list[Node]]:
+def _rows(nodes: Sequence[Node]) -> list[list[Node]]:
     """The layers of one section, each cut into rows that fit."""
     import networkx as nx
 
@@ -114,7 +114,6 @@ def _rows(nodes: Sequence[Node], placed: dict[str, Box]) -> list[list[Node]]:
     graph.add_edges_from((used, node.id) for node in nodes for used in node.uses if used in by_id)
     order = {node.id: place for place, node in enumerate(nodes)}
     rows: list[list[Node]] = []
-    # A claim without any dependence in its section fills the gaps instead of opening the first layer.
     layers = [sorted(layer, key=order.__getitem__) for layer in nx.topological_generations(graph)]
     for layer in layers:
         chosen = [by_id[id] for id in layer]
@@ -143,9 +142,13 @@ def _column_x(column: int) -> float:
 
 
 def _curve(source: Box, target: Box) -> str:
-    """From the bottom of what is used to the top of what uses it, or the other way round where that stands above."""
-    down = source.y < target.y
+    """From the bottom of what is used to the top of what uses it, the other way round where that stands above, and
+    over the tops of the boxes within a row."""
     x1, x2 = source.x + BOX_WIDTH / 2, target.x + BOX_WIDTH / 2
+    if source.y == target.y:
+        y, top = source.y, source.y - 13
+        return f"M{x1:.1f} {y:.1f}C{x1:.1f} {top:.1f} {x2:.1f} {top:.1f} {x2:.1f} {y:.1f}"
+    down = source.y < target.y
     y1 = source.y + (BOX_HEIGHT if down else 0)
     y2 = target.y + (0 if down else BOX_HEIGHT)
     bend = max(abs(y2 - y1) / 2, 14.0) * (1 if down else -1)

@@ -13,11 +13,13 @@ from ptproof.proof.run import Verification
 from ptproof.proof.statement import Exists, Prose
 from ptproof.report import status
 from ptproof.report.content import Figure, Table
-from ptproof.report.formula import Line, domain_of, statement_lines
+from ptproof.report.formula import Line, domain_of, statement_lines, width
 from ptproof.report.graph import Node
 from ptproof.report.letters import Letter, Notation
 from ptproof.report.status import Status, status_of
 from ptproof.report.witness import WitnessView, witness_view
+
+_HALF_PAGE = 36.0  # characters
 
 
 @dataclass(frozen=True)
@@ -91,6 +93,12 @@ class Erratum:
 
     printed: ClaimView
     corrections: tuple[ClaimView, ...]
+
+    @property
+    def narrow(self) -> bool:
+        """Whether the formulas are short enough to stand side by side."""
+        lines = [line for claim in (self.printed, *self.corrections) for line in claim.lines]
+        return all(width(line.latex) + 3 * line.indented < _HALF_PAGE for line in lines)
 
 
 @dataclass(frozen=True)
@@ -285,9 +293,9 @@ def _sections(
     return tuple(found)
 
 
-def _numbered(title: str) -> tuple[tuple[int, ...], str]:
+def _numbered(title: str) -> tuple[int, ...]:
     number = re.match(r"\d+(\.\d+)*", title)
-    return tuple(map(int, number.group().split("."))) if number else (), title
+    return tuple(map(int, number.group().split("."))) if number else ()
 
 
 def _counts(claims: Sequence[ClaimView]) -> tuple[tuple[Status, int], ...]:

@@ -48,6 +48,8 @@ def _value(
     plain = f"{name} = {text}"
     called = re.fullmatch(r"(\w+)\((.*)\)", name)
     try:
+        if name in symbols and text == "any":
+            return Value(plain, rf"\text{{any }}{latex(symbols[name], names)}")
         if name in symbols:
             return Value(plain, f"{latex(symbols[name], names)} = {latex(_read(text, symbols), names)}")
         if called and called.group(1) in functions:

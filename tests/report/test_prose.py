@@ -1,0 +1,56 @@
+"""Docstrings as HTML and Markdown."""
+
+import pytest
+
+from ptproof.report.prose import code, display_math, escape, hosted, inline_math, to_html, to_markdown
+
+
+def test_paragraphs_and_items():
+    assert (
+        to_html("One\ntwo.\n\n- a\n- b\n\nEnd.") == "<p>One two.</p>\n<ul>\n<li>a</li>\n<li>b</li>\n</ul>\n<p>End.</p>"
+    )
+
+
+def test_html_is_escaped():
+    assert to_html("a < b & `<i>`") == "<p>a &lt; b &amp; <code>&lt;i&gt;</code></p>"
+
+
+def test_formulas_become_mathml():
+    assert "<msup>" in to_html("the square $x^2$")
+
+
+def test_roles_are_shown_as_code():
+    assert to_html(":func:`~ptproof.clock.dilate`") == "<p><code>dilate</code></p>"
+
+
+@pytest.mark.parametrize("text", ["a*b*c", "x_1 and x_2", "[a](b)", "<b>", "# no", "a | b", "$5", "`", "~~x~~"])
+def test_no_character_means_anything_to_markdown(text):
+    from markdown_it import MarkdownIt
+
+    tokens = MarkdownIt("gfm-like", {"linkify": False}).parse(escape(text))
+    assert [token.type for token in tokens] == ["paragraph_open", "inline", "paragraph_close"]
+    assert "".join(child.content for child in tokens[1].children) == text
+
+
+def test_a_line_that_looks_like_a_list_is_none():
+    assert escape("1. first") == "1\\. first"
+    assert escape("- first") == "\\- first"
+
+
+def test_markdown_items():
+    assert to_markdown("One.\n\n- a\n- b") == "One.\n\n- a\n- b"
+
+
+def test_code_with_backticks():
+    assert code("a`b") == "`` a`b ``"
+    assert code("a|b", cell=True) == "`a\\|b`"
+
+
+def test_math_has_no_bars_and_no_refused_command():
+    assert hosted(r"\operatorname{sign}|x| \|y\| \\|z|") == r"\mathrm{sign}\vert x\vert  \Vert y\Vert  \\\vert z\vert "
+
+
+def test_inline_and_display_math():
+    assert inline_math("x_1") == "$`x_1`$"
+    assert display_math(["x"]) == "```math\nx\n```"
+    assert display_math(["& x", "& y"]).count("\\\\") == 1
