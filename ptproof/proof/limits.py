@@ -87,6 +87,8 @@ def _at_zero(expression: sp.Expr, h: sp.Symbol) -> sp.Expr | None:
         case sp.exp():
             return _exponential(_at_zero(expression.args[0], h))
         case sp.Pow() if not expression.exp.has(h):
+            if expression.exp.is_negative:  # so that a base that falls to 0 is seen from its side
+                return _power(_at_zero(1 / expression.base, h), -expression.exp)
             return _power(_at_zero(expression.base, h), expression.exp)
         case sp.cos() | sp.sin() | sp.tanh() | sp.atan():
             inner = _at_zero(expression.args[0], h)
