@@ -58,12 +58,12 @@ def test_near_miss_is_not_zero(name: str) -> None:
 
 def test_floats_are_refused() -> None:
     with pytest.raises(NotAlgebraic, match="floating-point"):
-        is_zero(sp.Float("0.5") * x - x / 2 + y)
+        is_zero(sp.Float("0.1") * x - y)
 
 
 def test_identically_vanishing_denominator_is_refused() -> None:
     with pytest.raises(NotAlgebraic, match="denominator"):
-        is_zero((sp.Abs(x) ** 2 - x**2) / (sp.sin(x) ** 2 + sp.cos(x) ** 2 - 1))
+        is_zero((sp.sin(2 * x) - 2 * sp.sin(x) * sp.cos(x)) / (sp.sin(x) ** 2 + sp.cos(x) ** 2 - 1))
 
 
 def test_random_polynomials_with_roots_agree_with_their_expansion() -> None:
