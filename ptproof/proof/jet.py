@@ -229,7 +229,7 @@ def upper_bound(function: Callable[[Sequence[Any], Any], Any], box: Sequence[Sid
     spread = arb(0)
     split, largest = None, -1.0
     for index, (side, ball, slope) in enumerate(zip(box, balls, jet.slopes, strict=True)):
-        if slope is None or slope.is_zero() or slope >= 0:
+        if slope is None or ball.is_exact() or slope >= 0:
             point.append(side[1])
         elif slope <= 0:
             point.append(side[0])

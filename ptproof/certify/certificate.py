@@ -1,0 +1,183 @@
+"""The answer: enclosures of the best constants of a field, or a witness against them."""
+
+from __future__ import annotations
+
+import html
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from dataclasses import field as member
+from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
+from typing import Any
+
+import sympy as sp
+
+from ptproof.certify.domain import Domain
+from ptproof.errors import InputError
+from ptproof.field import Field, FieldBounds
+from ptproof.proof.verdict import Verdict
+
+NAMES = ("a1", "a2", "b1", "b2")
+
+
+@dataclass(frozen=True)
+class Range:
+    """A rigorous enclosure of a constant; an end that is not known is None."""
+
+    lower: float | None = None
+    upper: float | None = None
+
+    @property
+    def width(self) -> float:
+        """The relative width, infinite where an end is not known."""
+        if self.lower is None or self.upper is None or self.lower <= 0:
+            return math.inf
+        return (self.upper - self.lower) / self.lower
+
+    def to_json(self) -> dict[str, float | None]:
+        """Both ends, null where not known."""
+        return {"lower": self.lower, "upper": self.upper}
+
+    def __str__(self) -> str:
+        if self.lower is None and self.upper is None:
+            return "not known"
+        low = "…" if self.lower is None else _decimal(self.lower, ROUND_FLOOR, 7)
+        high = "…" if self.upper is None else _decimal(self.upper, ROUND_CEILING, 7)
+        return f"[{low}, {high}]"
+
+
+def _decimal(value: float, rounding: str, digits: int) -> str:
+    return format(Context(prec=digits, rounding=rounding).plus(Decimal(value)).normalize(), "g")
+
+
+@dataclass(frozen=True)
+class FieldWitness:
+    """Why a field does not satisfy the assumption on a domain.
+
+    ``values`` are the exact coordinates of the point, or of a ray x* + r·d along which a limit fails; ``left`` and
+    ``right`` are the two sides that contradict each other. ``distance`` is a radius such that every ball of at least
+    this radius fails: 0 for a failure at the source, infinity for one at infinity.
+    """
+
+    statement: str
+    values: Mapping[str, str]
+    left: str
+    right: str
+    distance: float
+
+    def to_json(self) -> dict[str, Any]:
+        """The witness as data."""
+        return {"statement": self.statement, "values": dict(self.values), "left": self.left, "right": self.right}
+
+
+@dataclass(frozen=True)
+class FieldCertificate:
+    """What is certain about the constants of eq:assumption2 and eq:assumption3 on a domain.
+
+    Proved: the enclosures are rigorous, have the wanted relative width, and are positive. Refuted: ``witness`` says
+    where or in which limit the assumption fails; ``largest_radius`` is the largest radius around the source for
+    which the search has certified that positive constants exist, None if it found none. Undecided: ``detail`` says
+    what was tried; the ends that are given are rigorous all the same.
+    """
+
+    field: Field
+    domain: Domain
+    verdict: Verdict
+    a1: Range = Range()
+    a2: Range = Range()
+    b1: Range = Range()
+    b2: Range = Range()
+    witness: FieldWitness | None = None
+    largest_radius: sp.Expr | None = None
+    detail: str = ""
+    rtol: float = 1e-3
+    seconds: float = member(default=0.0, compare=False)
+
+    def field_bounds(self, digits: int = 6) -> FieldBounds:
+        """Exact constants that certainly hold: the outer ends, rounded outwards to ``digits`` digits.
+
+        Raises
+        ------
+        InputError
+            If the verdict is not proved.
+        """
+        if self.verdict is not Verdict.PROVED:
+            raise InputError(f"the field has no certified constants on {self.domain}: {self.verdict}")
+        return FieldBounds(
+            self.field.kappa,
+            _rounded(self.a1.upper, ROUND_CEILING, digits),
+            _rounded(self.a2.lower, ROUND_FLOOR, digits),
+            _rounded(self.b1.lower, ROUND_FLOOR, digits),
+            _rounded(self.b2.upper, ROUND_CEILING, digits),
+        )
+
+    def to_json(self) -> dict[str, Any]:
+        """The contract of ``ptproof bounds --json``."""
+        witness = None if self.witness is None else self.witness.to_json()
+        if witness is not None:
+            witness["largest_radius"] = None if self.largest_radius is None else str(self.largest_radius)
+        constants = {name: getattr(self, name).to_json() for name in NAMES}
+        return {"verdict": str(self.verdict), "domain": str(self.domain), **constants, "witness": witness}
+
+    def rows(self) -> list[tuple[str, str, str]]:
+        """(name, what it is, enclosure) for each constant."""
+        power, lower = 2 * self.field.kappa, 2 * self.field.kappa - 1
+        drop, slope = f"(F(x*) − F(x)) / ‖x − x*‖^{power}", f"‖∇F(x)‖ / ‖x − x*‖^{lower}".replace("^1", "")
+        meanings = {"a1": f"sup {drop}", "a2": f"inf {drop}", "b1": f"inf {slope}", "b2": f"sup {slope}"}
+        return [(name, meanings[name], str(getattr(self, name))) for name in NAMES]
+
+    @property
+    def summary(self) -> str:
+        """The verdict in a sentence."""
+        if self.verdict is Verdict.PROVED:
+            return f"proved on {self.domain}, each constant to a relative width of {self.rtol:g}"
+        if self.verdict is Verdict.UNDECIDED:
+            return f"undecided on {self.domain}: {self.detail}"
+        assert self.witness is not None
+        text = f"refuted on {self.domain}: {self.witness.statement}"
+        if self.largest_radius is not None:
+            text += f". Certified on the ball of radius {self.largest_radius}, {self.detail}"
+        elif self.detail:
+            text += f". {self.detail}"
+        return text
+
+    def __str__(self) -> str:
+        lines = [
+            f"F = {self.field.expression}, source ({', '.join(map(str, self.field.source))}), κ = {self.field.kappa}",
+            self.summary,
+        ]
+        if self.verdict is not Verdict.REFUTED:
+            width = max(len(meaning) for _, meaning, _ in self.rows())
+            lines += [f"  {name} = {meaning:<{width}}  ∈ {text}" for name, meaning, text in self.rows()]
+        elif self.witness is not None:
+            lines += [f"  {name} = {value}" for name, value in self.witness.values.items()]
+            lines.append(f"  {self.witness.left}, but the assumption wants {self.witness.right}")
+        return "\n".join(lines)
+
+    def _repr_html_(self) -> str:
+        cells = "".join(
+            f"<tr><td>{html.escape(name)}</td><td>{html.escape(meaning)}</td><td>{html.escape(text)}</td></tr>"
+            for name, meaning, text in self.rows()
+        )
+        return f"<p>{html.escape(self.summary)}</p><table>{cells}</table>"
+
+    def _repr_latex_(self) -> str:
+        rows = [
+            rf"{name[0]}_{name[1]} &\in {text}".replace("…", r"\dots").replace("not known", r"\text{not known}")
+            for name, _, text in self.rows()
+        ]
+        return r"$\displaystyle \begin{aligned}" + r" \\ ".join(rows) + r"\end{aligned}$"
+
+    def plot(self, path: str | None = None) -> Any:
+        """A figure of both quotients along many directions, with the certified band; saved if ``path`` is given.
+
+        The lines are sampled and show, they do not prove.
+        """
+        from ptproof.certify.plot import plot_certificate
+
+        return plot_certificate(self, path)
+
+
+def _rounded(value: float | None, rounding: str, digits: int) -> sp.Rational:
+    assert value is not None
+    return sp.Rational(str(Context(prec=digits, rounding=rounding).plus(Decimal(value))))

@@ -1,0 +1,68 @@
+"""Where a field is looked at: a ball around the source, an annulus, or the whole space."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import sympy as sp
+
+from ptproof.errors import InputError
+
+
+@dataclass(frozen=True)
+class Domain:
+    """All points with ``inner`` ≤ ‖x − x*‖ ≤ ``outer``, x* itself left out.
+
+    ``inner`` is exact and at least 0; ``outer`` is exact and larger, or None for no limit.
+
+    Raises
+    ------
+    InputError
+        If a radius is not an exact real number, negative, or not larger than the inner one.
+    """
+
+    inner: sp.Expr = sp.S.Zero
+    outer: sp.Expr | None = None
+
+    def __post_init__(self) -> None:
+        from ptproof.proof.ball import separated
+
+        for name in ("inner", "outer"):
+            value = getattr(self, name)
+            if value is None:
+                continue
+            if isinstance(value, bool | float | str):
+                raise InputError(f"the radius must be exact, not {value!r}: give an integer or a fraction")
+            value = sp.sympify(value)
+            if not isinstance(value, sp.Expr) or value.free_symbols or not value.is_real or value.has(sp.Float):
+                raise InputError(f"the radius must be an exact real number, not {value}")
+            object.__setattr__(self, name, value)
+        if not self.inner.is_zero and separated(self.inner, 0) != 1:
+            raise InputError(f"the inner radius must not be negative, but is {self.inner}")
+        if self.outer is not None and separated(self.outer, self.inner) != 1:
+            raise InputError(f"the radius must be larger than {self.inner}, but is {self.outer}")
+
+    @staticmethod
+    def of(radius: Any = None, annulus: tuple[Any, Any] | None = None) -> Domain:
+        """The domain from the two options that a person gives."""
+        if annulus is None:
+            return Domain(sp.Integer(0), radius)
+        if radius is not None:
+            raise InputError("give either a radius or an annulus, not both")
+        inner, outer = annulus
+        if outer is None:
+            raise InputError("an annulus needs an outer radius")
+        return Domain(inner, outer)
+
+    @property
+    def has_source(self) -> bool:
+        """Whether points arbitrarily near the source belong to it."""
+        return bool(self.inner == 0)
+
+    def __str__(self) -> str:
+        if self.outer is None:
+            return "the whole space" if self.has_source else f"‖x − x*‖ ≥ {self.inner}"
+        if self.has_source:
+            return f"the ball ‖x − x*‖ ≤ {self.outer}"
+        return f"the annulus {self.inner} ≤ ‖x − x*‖ ≤ {self.outer}"

@@ -1,0 +1,406 @@
+"""The quotients whose extreme values are the constants of a field, in coordinates that reach the source and infinity.
+
+With y = x − x* and V(y) = F(x*) − F(x* + y), the quotients are V/‖y‖^(2κ) and ‖∇V‖²/‖y‖^(4κ−2). A direction is
+y/‖y‖ = u/‖u‖ with u on a face of the cube [−1, 1]ⁿ: one coordinate is ±1, the others are v. In dimension 1 there
+are the two directions only. The radial coordinate t is ‖y‖ on the inner chart and 1/‖y‖ on the outer one, so that
+t = 0 is the source, or infinity, and the quotients have two forms there: the defining one for t > 0, and a
+polynomial in (t, v) divided by a power of ‖u‖, plus an enclosed remainder that vanishes with t.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from typing import Any
+
+import sympy as sp
+from flint import arb
+
+from ptproof.certify.growth import GROWTHS, Growth, coordinates, power_of
+from ptproof.certify.series import Nested, Taylor, coefficient_along, taylor
+from ptproof.proof.ball import BALLS, interval
+from ptproof.proof.jet import Side
+from ptproof.proof.tape import Tape, Undefined, compile_tape
+
+EXTRA_ORDERS = {1: 9, 2: 5, 3: 3}
+"""How many orders beyond the leading one the Taylor polynomial has, by dimension."""
+LARGEST_POLYNOMIAL = 300
+"""The most terms for which a polynomial field is expanded."""
+
+ALIKE = 1.5
+"""How far apart the coefficients of y₁^(2κ) … yₙ^(2κ) may be, as a factor, for a common part to be split off."""
+
+Function = Callable[[Sequence[Any], Any], Any]
+"""A function of (coordinates, arithmetic)."""
+
+
+@dataclass(frozen=True)
+class Face:
+    """Directions: coordinate ``axis`` of u is ``sign``, the others range over ``sides``."""
+
+    axis: int
+    sign: int
+    sides: tuple[tuple[int, int], ...]
+
+    def cube_point(self, v: Sequence[Any]) -> list[Any]:
+        """The point u of the cube for the coordinates v."""
+        return [*v[: self.axis], arb(self.sign), *v[self.axis :]]
+
+
+@dataclass(frozen=True)
+class Box:
+    """A piece of the domain: ``outer`` chooses the chart, ``sides`` are those of t and of the coordinates v."""
+
+    face: Face
+    outer: bool
+    sides: tuple[Side, ...]
+
+    def balls(self) -> list[arb]:
+        """One ball per side."""
+        return [interval(*side) if side[0] is not side[1] else side[0] for side in self.sides]
+
+    def split(self, index: int) -> tuple[Box, Box]:
+        """The two halves along coordinate ``index``."""
+        low, high = self.sides[index]
+        cut = ((low + high) / 2).mid()
+        if index == 0 and low > 0 and high > 4 * low:
+            cut = (low * high).sqrt().mid()
+        first, second = (
+            Box(self.face, self.outer, (*self.sides[:index], side, *self.sides[index + 1 :]))
+            for side in ((low, cut), (cut, high))
+        )
+        return first, second
+
+
+class Quotients:
+    """The two quotients of one field; ``drop`` is V in the variables ``offsets`` = y."""
+
+    def __init__(self, drop: sp.Expr, offsets: Sequence[sp.Symbol], kappa: int) -> None:
+        self.offsets = tuple(offsets)
+        self.n = len(self.offsets)
+        self.kappa = kappa
+        self.polynomial, self.rest = split_polynomial(drop, self.offsets)
+        self.drop = self.polynomial.as_expr() + self.rest
+        self.value_tape = compile_tape([self.drop], self.offsets)
+        self.vanishing_is_proved = False
+        self.slope_tape = compile_tape([sp.diff(self.drop, y) for y in self.offsets], self.offsets)
+
+    @property
+    def is_polynomial(self) -> bool:
+        """Whether V is a polynomial that has been expanded."""
+        return bool(self.rest == 0)
+
+    def tape(self, slope: bool) -> Tape:
+        """The outputs V, or ∂V/∂y₁ … ∂V/∂yₙ."""
+        return self.slope_tape if slope else self.value_tape
+
+    @cached_property
+    def order(self) -> int:
+        """The order of the Taylor polynomial at the source."""
+        if self.is_polynomial:
+            return max(self.polynomial.total_degree(), 2 * self.kappa)
+        return 2 * self.kappa + EXTRA_ORDERS.get(self.n, 2)
+
+    @cached_property
+    def expansion(self) -> Taylor:
+        """The Taylor polynomial of V at the source; raises :class:`Undefined` where V is not analytic there."""
+        return taylor(self.value_tape, self.n, self.order)[0]
+
+    @cached_property
+    def faces(self) -> tuple[Face, ...]:
+        """The faces that remain when the symmetries of V are used: reflections, permutations, rotations, y → −y."""
+        return reduced_faces(self.drop, self.offsets)
+
+    # The defining form, for t > 0.
+
+    def direct(self, face: Face, outer: bool, slope: bool, *, rest: bool = True) -> Function:
+        """The quotient as a function of (t, v), defined for t > 0; without ``rest``, of the polynomial part alone.
+
+        The powers of ‖y‖ in the polynomial part are divided out before anything is evaluated.
+        """
+        share, parts = _homogeneous_of(self, face, slope)
+        tape = self._rest_tapes[slope] if rest and self.rest != 0 else None
+        top = 2 * self.kappa - slope
+
+        def function(values: Sequence[Any], arithmetic: Any) -> Any:
+            t, v = values[0], values[1:]
+            size = _norm(v, arithmetic)
+            radius = _inverse(t * size, arithmetic) if outer else t * _inverse(size, arithmetic)
+            outputs: list[Any] = [arb(0)] * len(parts)
+            if any(parts):
+                shrink = arithmetic.integer_power(size, -top)
+                outputs = [_sum_of_powers(part, v, radius, top, arithmetic) * shrink for part in parts]
+            if tape is not None:
+                # The rest is divided by the power of t itself, which loses less than powers of t/‖u‖ and of ‖u‖.
+                scale = arithmetic.integer_power(t, top if outer else -top)
+                others = tape.run([u * radius for u in face.cube_point(v)], arithmetic)
+                outputs = [main + value * scale for main, value in zip(outputs, others, strict=True)]
+            return self._finish(outputs, face, v, size, share, slope, arithmetic)
+
+        return function
+
+    def _finish(
+        self, outputs: Sequence[Any], face: Face, v: Sequence[Any], size: Any, share: arb, slope: bool, arithmetic: Any
+    ) -> Any:
+        """The quotient, from that of V − share·‖y‖^(2κ) or from those of its derivatives."""
+        if not slope:
+            return outputs[0] + share
+        total = _squares(outputs, arithmetic)
+        if share.is_zero():
+            return total
+        radial: Any = arb(0)
+        for u, output in zip(face.cube_point(v), outputs, strict=True):
+            radial = radial + u * output
+        double = 2 * self.kappa * share
+        return total + radial * _inverse(size, arithmetic) * (2 * double) + double * double
+
+    def _excess(self, tails: Sequence[arb], mains: Sequence[arb], w: Sequence[arb], share: arb) -> arb:
+        """By how much the squared slope quotient changes when ``tails`` are added to ``mains``."""
+        double = 4 * self.kappa * share
+        changes = (t * (2 * m + t) + double * u * t for t, m, u in zip(tails, mains, w, strict=True))
+        return sum(changes, arb(0))
+
+    def direct_rest(self, box: Box, slope: bool) -> arb:
+        """What :meth:`direct` without the rest misses on ``box`` (t > 0), as a ball."""
+        balls = box.balls()
+        size = _norm(balls[1:], BALLS)
+        top = 2 * self.kappa - slope
+        radius = 1 / (balls[0] * size) if box.outer else balls[0] / size
+        u = box.face.cube_point(balls[1:])
+        scale = BALLS.integer_power(balls[0] if box.outer else 1 / balls[0], top)
+        tails = [value * scale for value in self._rest_tapes[slope].run([entry * radius for entry in u], BALLS)]
+        if not slope:
+            return tails[0]
+        share, parts = _homogeneous_of(self, box.face, True)
+        shrink = BALLS.integer_power(size, -top)
+        mains = [_sum_of_powers(part, balls[1:], radius, top, BALLS) * shrink for part in parts]
+        return self._excess(tails, mains, [entry / size for entry in u], share)
+
+    # The form that includes t = 0: a polynomial, and a remainder.
+
+    def leading(self, face: Face, outer: bool, slope: bool) -> Function:
+        """The polynomial part of the quotient as a function of (t, v), defined for t ≥ 0.
+
+        Near the source it leaves out the orders below 2κ, so it is refused before these are proved to vanish.
+        """
+        if not outer and not self.vanishing_is_proved:
+            raise Undefined("the order of vanishing at the source is not known")
+        share, parts = _parts_of(self, face, outer, slope)
+        top = 2 * self.kappa - slope
+
+        def function(values: Sequence[Any], arithmetic: Any) -> Any:
+            size = _norm(values[1:], arithmetic)
+            shrink = arithmetic.integer_power(size, -top)
+            outputs = [part * shrink for part in _run_parts(parts, values, size, outer, arithmetic)]
+            return self._finish(outputs, face, values[1:], size, share, slope, arithmetic)
+
+        return function
+
+    def remainder(self, box: Box, slope: bool) -> arb:
+        """What is missing in :meth:`leading` on ``box``, as a ball; raises :class:`Undefined` where it has none."""
+        if self.is_polynomial:
+            return arb(0)
+        balls = box.balls()
+        size = _norm(balls[1:], BALLS)
+        w = [entry / size for entry in box.face.cube_point(balls[1:])]
+        tails = (self._outer_tails if box.outer else self._inner_tails)(box, w, slope)
+        if not slope:
+            return tails[0]
+        share, parts = _parts_of(self, box.face, box.outer, True)
+        scale = BALLS.integer_power(size, 1 - 2 * self.kappa)
+        mains = [value * scale for value in _run_parts(parts, balls, size, box.outer, BALLS)]
+        return self._excess(tails, mains, w, share)
+
+    def _reduced(self, whole: Taylor) -> tuple[arb, Taylor]:
+        """A number c and the polynomial minus c·‖y‖^(2κ): what is the same in all directions needs no enclosure.
+
+        Where the directions differ much, c is 0, for then the difference would be larger than the polynomial.
+        """
+        powers = [
+            whole.terms.get(tuple(2 * self.kappa * (i == j) for j in range(self.n)), arb(0)).mid()
+            for i in range(self.n)
+        ]
+        low, high = powers[0], powers[0]
+        for power in powers[1:]:
+            low, high = low.min(power), high.max(power)
+        share = ((low + high) / 2).mid()
+        if share.is_zero() or not (low > 0 and high < ALIKE * low):
+            return arb(0), whole
+        square = whole.make({tuple(2 * (i == j) for j in range(self.n)): arb(1) for i in range(self.n)})
+        power = square
+        for _ in range(self.kappa - 1):
+            power = power * square
+        return share, whole - power * share
+
+    def build_homogeneous(self, face: Face, slope: bool) -> tuple[arb, list[dict[int, Nested]]]:
+        """The polynomial part of V, reduced, or of its derivatives: for each degree a polynomial in v."""
+        share, whole = self._reduced(self.outer_expansion)
+        result = []
+        for polynomial in [whole.derivative(i) for i in range(self.n)] if slope else [whole]:
+            groups: dict[int, dict[tuple[int, ...], arb]] = {}
+            for key, value in polynomial.terms.items():
+                group = groups.setdefault(sum(key), {})
+                place = (*key[: face.axis], *key[face.axis + 1 :])
+                signed = value if face.sign > 0 or key[face.axis] % 2 == 0 else -value
+                group[place] = group[place] + signed if place in group else signed
+            result.append({degree: Nested(group) for degree, group in groups.items()})
+        return share, result
+
+    def build_parts(self, face: Face, outer: bool, slope: bool) -> tuple[arb, list[Nested]]:
+        """V, reduced, or its derivatives, as polynomials in (radial variable, v), the leading power taken out."""
+        share, whole = self._reduced(self.outer_expansion if outer else self.expansion)
+        polynomials = [whole.derivative(i) for i in range(self.n)] if slope else [whole]
+        top = 2 * self.kappa - slope
+        result = []
+        for polynomial in polynomials:
+            terms: dict[tuple[int, ...], arb] = {}
+            for key, value in polynomial.terms.items():
+                radial = top - sum(key) if outer else sum(key) - top
+                if radial < 0:
+                    if outer:
+                        raise Undefined("the field falls off faster than the power 2κ")
+                    continue  # proved to vanish, see the order of vanishing
+                place = (radial, *key[: face.axis], *key[face.axis + 1 :])
+                signed = value if face.sign > 0 or key[face.axis] % 2 == 0 else -value
+                terms[place] = terms[place] + signed if place in terms else signed
+            result.append(Nested(terms))
+        return share, result
+
+    @cached_property
+    def outer_expansion(self) -> Taylor:
+        """The polynomial part of V with exact coefficients."""
+        tape = compile_tape([self.polynomial.as_expr()], self.offsets)
+        return taylor(tape, self.n, max(self.polynomial.total_degree(), 0))[0]
+
+    def _inner_tails(self, box: Box, w: Sequence[arb], slope: bool) -> list[arb]:
+        order = self.order + (0 if slope else 1)
+        low, high = box.sides[0]
+        start = interval(0, high) if not high.is_zero() else arb(0)
+        factor = BALLS.integer_power(interval(low, high), self.order + 1 - 2 * self.kappa)
+        if high.is_zero():
+            return [arb(0)] * (self.n if slope else 1)
+        return [factor * value for value in coefficient_along(self.tape(slope), start, w, order)]
+
+    @cached_property
+    def _rest_tapes(self) -> tuple[Tape, Tape]:
+        slopes = [sp.diff(self.rest, y) for y in self.offsets]
+        return compile_tape([self.rest], self.offsets), compile_tape(slopes, self.offsets)
+
+    def _outer_tails(self, box: Box, w: Sequence[arb], slope: bool) -> list[arb]:
+        low, high = box.sides[0]
+        # At infinity itself the enclosure on a small neighbourhood serves: its decaying terms vanish there.
+        reach = high if high > 0 else arb(1) / 2**20
+        outputs = self._rest_tapes[slope].run(coordinates(w, reach), GROWTHS)
+        top = 2 * self.kappa - slope
+        results = []
+        for output in outputs:
+            growth = output if isinstance(output, Growth) else Growth({}, reach).lift(output)
+            total = arb(0)
+            for exponent, value in growth.terms.items():
+                ends = [power_of(end, top - exponent) for end in (low, high)]
+                if not all(end.is_finite() for end in ends):
+                    raise Undefined("the field grows faster than the power 2κ")
+                total += value.ball() * (interval(*ends) if low is not high else ends[0])
+            results.append(total)
+        return results
+
+
+@lru_cache(maxsize=256)
+def _parts_of(quotients: Quotients, face: Face, outer: bool, slope: bool) -> tuple[arb, list[Nested]]:
+    return quotients.build_parts(face, outer, slope)
+
+
+@lru_cache(maxsize=256)
+def _homogeneous_of(quotients: Quotients, face: Face, slope: bool) -> tuple[arb, list[dict[int, Nested]]]:
+    return quotients.build_homogeneous(face, slope)
+
+
+def _sum_of_powers(part: dict[int, Nested], v: Sequence[Any], radius: Any, top: int, arithmetic: Any) -> Any:
+    total: Any = arb(0)
+    for degree, nested in part.items():
+        total = total + nested.run(v) * arithmetic.integer_power(radius, degree - top)
+    return total
+
+
+def _norm(v: Sequence[Any], arithmetic: Any) -> Any:
+    if not v:
+        return arb(1)
+    return arithmetic.root(_squares(v, arithmetic) + arb(1), 1, 2, True)
+
+
+def _squares(values: Sequence[Any], arithmetic: Any) -> Any:
+    first, *rest = (arithmetic.integer_power(value, 2) for value in values)
+    for value in rest:
+        first = first + value
+    return first
+
+
+def _inverse(value: Any, arithmetic: Any) -> Any:
+    return arithmetic.integer_power(value, -1)
+
+
+def _run_parts(parts: Sequence[Nested], values: Sequence[Any], size: Any, outer: bool, arithmetic: Any) -> list[Any]:
+    t = values[0]
+    radial = t * size if outer else t * _inverse(size, arithmetic)
+    return [part.run([radial, *values[1:]]) for part in parts]
+
+
+def split_polynomial(drop: sp.Expr, offsets: Sequence[sp.Symbol]) -> tuple[sp.Poly, sp.Expr]:
+    """``drop`` as an expanded polynomial plus a rest without polynomial terms at its top level."""
+    nothing = sp.Poly(0, *offsets)
+    if not _expandable(drop, len(offsets)):
+        return nothing, drop
+    expanded = sp.expand(drop, deep=False, power_exp=False, power_base=False, log=False)
+    terms: list[sp.Expr] = []
+    rest: list[sp.Expr] = []
+    for term in sp.Add.make_args(expanded):
+        (terms if term.is_polynomial(*offsets) else rest).append(term)
+    if rest:
+        # A constant stays with the rest, whose bounds at infinity it sharpens: 1 − cos is in [0, 2].
+        constants = [term for term in terms if not term.has(*offsets)]
+        terms, rest = [term for term in terms if term.has(*offsets)], [*constants, *rest]
+    polynomial = sp.Poly(sp.Add(*terms), *offsets)
+    return (polynomial, sp.Add(*rest)) if len(polynomial.terms()) <= LARGEST_POLYNOMIAL else (nothing, drop)
+
+
+def _expandable(drop: sp.Expr, n: int) -> bool:
+    """Whether multiplying out stays small, judged by the powers of sums."""
+    powers = [power for power in drop.atoms(sp.Pow) if isinstance(power.base, sp.Add) and power.exp.is_Integer]
+    return all(math.comb(int(abs(power.exp)) + n, n) <= LARGEST_POLYNOMIAL for power in powers)
+
+
+def reduced_faces(drop: sp.Expr, offsets: Sequence[sp.Symbol]) -> tuple[Face, ...]:
+    """Faces of the cube that suffice, by symmetries of ``drop`` that hold identically."""
+    n = len(offsets)
+    if n > 1 and _rotational(drop, offsets):
+        return (Face(0, 1, ((0, 0),) * (n - 1)),)
+    even = [_same(drop, drop.subs(y, -y)) for y in offsets]
+    swapped = [
+        i == 0 or _same(drop, drop.subs({offsets[0]: offsets[i], offsets[i]: offsets[0]}, simultaneous=True))
+        for i in range(n)
+    ]
+    whole = not any(even) and _same(drop, drop.subs({y: -y for y in offsets}, simultaneous=True))
+    faces = []
+    for axis in range(n):
+        if axis and swapped[axis]:
+            continue  # the swap with the first coordinate maps this face to that of the first
+        others = [i for i in range(n) if i != axis]
+        sides = tuple((0, 1) if even[i] else (-1, 1) for i in others)
+        faces.append(Face(axis, 1, sides))
+        if not even[axis] and not whole:
+            faces.append(Face(axis, -1, sides))
+    return tuple(faces)
+
+
+def _same(left: sp.Expr, right: sp.Expr) -> bool:
+    return bool(left == right) or (_expandable(left, 3) and bool(sp.expand(left - right) == 0))
+
+
+def _rotational(drop: sp.Expr, offsets: Sequence[sp.Symbol]) -> bool:
+    if not _expandable(drop, 3):
+        return False
+    first, *rest = offsets
+    turned = (first * sp.diff(drop, y) - y * sp.diff(drop, first) for y in rest)
+    return all(sp.expand(item) == 0 for item in turned)

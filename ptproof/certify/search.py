@@ -1,0 +1,301 @@
+"""The search for a certificate: the source, infinity, the four constants, and a radius that works if they fail."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import sympy as sp
+
+from ptproof.certify.certificate import FieldCertificate, FieldWitness, Range
+from ptproof.certify.domain import Domain
+from ptproof.certify.optimum import (
+    BITS,
+    Goal,
+    Optimum,
+    Place,
+    extremum,
+    positive_everywhere,
+    start_boxes,
+)
+from ptproof.certify.quotients import Box, Quotients
+from ptproof.certify.witness import Prosecutor, degenerate_direction, source_order
+from ptproof.errors import InputError
+from ptproof.field import Field
+from ptproof.proof.ball import precision
+from ptproof.proof.tape import Undefined
+from ptproof.proof.verdict import Verdict
+
+GOALS = {
+    "a2": Goal(slope=False, largest=False),
+    "b1": Goal(slope=True, largest=False),
+    "a1": Goal(slope=False, largest=True),
+    "b2": Goal(slope=True, largest=True),
+}
+LARGEST_RADIUS = sp.Integer(2) ** 20
+RADIUS_RTOL = sp.Rational(1, 1000)
+
+Progress = Callable[[str], None]
+
+
+def certify_field(
+    expression: sp.Expr,
+    variables: Sequence[sp.Symbol],
+    source: Sequence[Any],
+    kappa: int,
+    *,
+    radius: Any = None,
+    annulus: tuple[Any, Any] | None = None,
+    rtol: float = 1e-3,
+    seconds: float = 60.0,
+    progress: Progress | None = None,
+) -> FieldCertificate:
+    """Enclose the best constants of a field on a domain, or find a witness that there are none.
+
+    Parameters
+    ----------
+    expression
+        F: a smooth expression in ``variables``, with exact numbers.
+    variables
+        n ≥ 1 symbols.
+    source
+        The n exact coordinates of x*.
+    kappa
+        κ, a positive integer.
+    radius, annulus
+        The ball ‖x − x*‖ ≤ radius, or the annulus (r, R); the whole space if both are left out. Exact.
+    rtol
+        The wanted relative width of each enclosure, between 1e-9 and 1.
+    seconds
+        The time after which what is not decided is left undecided.
+    progress
+        Called with a sentence now and then.
+
+    Returns
+    -------
+    FieldCertificate
+        Proved with rigorous enclosures of the supremum and infimum of (F(x*) − F(x))/‖x − x*‖^(2κ) and of
+        ‖∇F(x)‖/‖x − x*‖^(2κ−1) over the domain (eq:assumption2, eq:assumption3); refuted with a witness; or
+        undecided with what was tried.
+
+    Raises
+    ------
+    InputError
+        For data that make no sense.
+
+    Notes
+    -----
+    Near the source, the Taylor polynomial is divided by the power of ‖x − x*‖, and the remainder is enclosed by
+    Lagrange's form; the orders below 2κ are proved to vanish before. Far away, the radius is inverted, and what is
+    not a polynomial is bounded by how it grows. In between, boxes are halved until the mean value form decides.
+    """
+    began = time.perf_counter()
+    field = Field(tuple(variables), expression, tuple(source), kappa)
+    domain = Domain.of(radius, annulus)
+    if isinstance(rtol, bool) or not (1e-9 <= rtol <= 1):
+        raise InputError(f"the relative width must be between 1e-9 and 1, but is {rtol}")
+    if isinstance(seconds, bool) or not (0 < seconds < 1e6):
+        raise InputError(f"the time limit must be a positive number of seconds, but is {seconds}")
+    with precision(BITS):
+        try:
+            quotients = Quotients(*_drop(field), field.kappa)
+            search = _Search(
+                field, domain, quotients, Prosecutor(field, quotients, domain), rtol, began, seconds, progress
+            )
+        except Undefined as error:
+            detail = f"the field cannot be enclosed: {error}"
+            return FieldCertificate(field, domain, Verdict.UNDECIDED, detail=detail, rtol=rtol)
+        return search.run()
+
+
+def _drop(field: Field) -> tuple[sp.Expr, tuple[sp.Symbol, ...]]:
+    """V(y) = F(x*) − F(x* + y), and y."""
+    offsets = tuple(sp.Symbol(f"y{index}", real=True) for index in range(1, field.dimension + 1))
+    at = {x: s + y for x, s, y in zip(field.variables, field.source, offsets, strict=True)}
+    return field.peak - field.expression.subs(at, simultaneous=True), offsets
+
+
+@dataclass(frozen=True)
+class _Search:
+    field: Field
+    domain: Domain
+    quotients: Quotients
+    prosecutor: Prosecutor
+    rtol: float
+    began: float
+    seconds: float
+    progress: Progress | None
+
+    @property
+    def deadline(self) -> float:
+        return self.began + self.seconds
+
+    def tell(self, text: str) -> None:
+        if self.progress is not None:
+            self.progress(text)
+
+    def certificate(self, verdict: Verdict, **members: Any) -> FieldCertificate:
+        seconds = time.perf_counter() - self.began
+        return FieldCertificate(self.field, self.domain, verdict, rtol=self.rtol, seconds=seconds, **members)
+
+    def run(self) -> FieldCertificate:
+        if self.domain.has_source:
+            self.tell("the order of vanishing at the source")
+            try:
+                witness = source_order(self.field, self.quotients, self.prosecutor) or degenerate_direction(
+                    self.field, self.quotients, self.prosecutor
+                )
+            except Undefined as error:
+                return self.certificate(Verdict.UNDECIDED, detail=f"at the source: {error}")
+            if witness is not None:
+                return self.refuted(witness)
+        if self.domain.outer is None:
+            self.tell("the growth far from the source")
+            if witness := self.prosecutor.at_infinity():
+                return self.refuted(witness)
+        return self.constants()
+
+    def constants(self) -> FieldCertificate:
+        boxes = list(start_boxes(self.quotients, self.domain))
+        found: dict[str, Optimum] = {}
+        for index, (name, goal) in enumerate(GOALS.items()):
+            self.tell(f"enclosing {name}")
+            witnesses: list[FieldWitness] = []
+
+            def stop(
+                place: Place, best: float, looked: int, goal: Goal = goal, into: list[FieldWitness] = witnesses
+            ) -> bool:
+                if goal.largest:
+                    return False
+                witness = self.prosecutor.at_place(place, best >= 0, goal.slope)
+                if witness is not None:
+                    into.append(witness)
+                return witness is not None
+
+            now = time.perf_counter()
+            optimum = extremum(
+                self.quotients,
+                goal,
+                boxes,
+                rtol=0.95 * self.rtol * (2 if goal.slope else 1),
+                deadline=now + max(0.0, self.deadline - now) / (len(GOALS) - index),
+                stop=stop,
+            )
+            if witnesses:
+                return self.refuted(witnesses[0])
+            found[name] = optimum
+            if not goal.largest and not optimum.finished and optimum.upper <= 0:
+                break
+        return self.conclude(found)
+
+    def conclude(self, found: dict[str, Optimum]) -> FieldCertificate:
+        ranges = {name: _range(optimum, GOALS[name]) for name, optimum in found.items()}
+        good = len(found) == len(GOALS) and all(
+            item.lower is not None and item.lower > 0 and item.width <= self.rtol for item in ranges.values()
+        )
+        if good:
+            return self.certificate(Verdict.PROVED, **ranges)
+        return self.certificate(Verdict.UNDECIDED, **ranges, detail=self.tried(found, ranges))
+
+    def tried(self, found: dict[str, Optimum], ranges: dict[str, Range]) -> str:
+        parts = []
+        for name, optimum in found.items():
+            if ranges[name].width <= self.rtol:
+                continue
+            text = f"{name} after {optimum.boxes} boxes"
+            if optimum.stuck is not None:
+                text += f", no enclosure exists near x = {self.near(optimum.stuck)}"
+            elif optimum.place is not None:
+                text += f", relative width {ranges[name].width:.3g}, best value near x = {self.near(optimum.place)}"
+            parts.append(text)
+        missing = [name for name in GOALS if name not in found]
+        if missing:
+            parts.append(f"{', '.join(missing)} not tried")
+        limit = f"{time.perf_counter() - self.began:.1f} s of {self.seconds:g} s"
+        return "; ".join(parts) + f" ({limit})"
+
+    def near(self, place: Place) -> str:
+        if place.is_limit:
+            away = "infinity" if place.box.outer else "the source"
+            return f"{away} in the direction ({', '.join(f'{entry:.4g}' for entry in place.direction())})"
+        x = [float(s) + y for s, y in zip(self.field.source, place.offset(), strict=True)]
+        return f"({', '.join(f'{entry:.6g}' for entry in x)})"
+
+    # A field that fails on the whole domain may satisfy the assumption on a smaller one.
+
+    def refuted(self, witness: FieldWitness) -> FieldCertificate:
+        if witness.distance == 0:
+            detail = "This is at the source, so no ball around it works"
+            return self.certificate(Verdict.REFUTED, witness=witness, detail=detail)
+        self.tell("looking for a radius that works")
+        radius, reason = self.largest_radius(witness.distance)
+        detail = reason
+        return self.certificate(Verdict.REFUTED, witness=witness, largest_radius=radius, detail=detail)
+
+    def largest_radius(self, bad: float) -> tuple[sp.Expr | None, str]:
+        """The largest radius found for which both quotients are certainly positive, and how it was found.
+
+        On a bounded domain the other two constants are finite wherever F is smooth, and the enclosures are.
+        """
+        deadline = max(time.perf_counter() + 0.25 * self.seconds, min(self.deadline, self.began + 0.8 * self.seconds))
+        inner = self.domain.inner
+        ceiling = LARGEST_RADIUS if math.isinf(bad) else sp.Rational(bad)
+        tried = 0
+        good: sp.Expr | None = None
+        trial = min(sp.Integer(1), ceiling / 2) if inner == 0 else (inner + min(ceiling, 2 * inner)) / 2
+        while good is None and tried < 40:
+            tried += 1
+            if self.works(inner, trial, deadline):
+                good = trial
+            else:
+                ceiling, trial = trial, inner + (trial - inner) / 2
+        if good is None:
+            return None, f"No smaller ball was certified, down to radius {float(trial):.3g}"
+        failed = not math.isinf(bad) or tried > 1
+        while not failed and good < LARGEST_RADIUS:
+            tried += 1
+            if self.works(good, 2 * good, deadline):
+                good = 2 * good
+            else:
+                failed, ceiling = True, 2 * good
+        while failed and ceiling - good > RADIUS_RTOL * good and time.perf_counter() < deadline:
+            tried += 1
+            middle = _short_between(good, ceiling)
+            if self.works(good, middle, deadline):
+                good = middle
+            else:
+                ceiling = middle
+        if not failed:
+            return good, f"the largest that was tried, by {tried} doublings"
+        return good, f"the largest found by {tried} certified trials; radius {_brief(ceiling)} was not certified"
+
+    def works(self, inner: sp.Expr, outer: sp.Expr, deadline: float) -> bool:
+        """Whether both quotients are certainly positive, and finite, between two radii."""
+        boxes: list[Box] = list(start_boxes(self.quotients, Domain(inner, outer)))
+        share = time.perf_counter() + max(0.0, deadline - time.perf_counter()) / 3
+        return all(positive_everywhere(self.quotients, slope, boxes, deadline=share) is True for slope in (False, True))
+
+
+def _range(optimum: Optimum, goal: Goal) -> Range:
+    lower, upper = optimum.lower, optimum.upper
+    if goal.slope:
+        lower = math.nextafter(math.sqrt(lower), 0.0) if lower > 0 else 0.0
+        upper = math.nextafter(math.sqrt(upper), math.inf) if upper > 0 else 0.0
+    return Range(lower if math.isfinite(lower) else None, upper if math.isfinite(upper) else None)
+
+
+def _short_between(low: sp.Expr, high: sp.Expr) -> sp.Rational:
+    """A fraction with a short decimal form strictly between two numbers, near their middle."""
+    middle = (low + high) / 2
+    for digits in range(1, 30):
+        value = sp.Rational(str(sp.N(middle, digits)))
+        if low < value < high and abs(value - middle) <= (high - low) / 8:
+            return value
+    return sp.Rational(middle)
+
+
+def _brief(value: sp.Expr) -> str:
+    return str(value) if len(str(value)) < 12 else f"{float(value):.6g}"

@@ -1,0 +1,420 @@
+"""Witnesses against the assumption: points that are higher than the source, critical points, failing limits."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import product
+from typing import Any
+
+import sympy as sp
+from flint import arb, arb_mat
+
+from ptproof.certify.certificate import FieldWitness
+from ptproof.certify.domain import Domain
+from ptproof.certify.growth import GROWTHS, Growth, coordinates
+from ptproof.certify.optimum import Place
+from ptproof.certify.quotients import Quotients
+from ptproof.field import Field
+from ptproof.proof.ball import BALLS, ball_from, enclose, enclosure_text, interval, separated
+from ptproof.proof.tape import Undefined, compile_tape
+
+Vector = Sequence[sp.Rational]
+
+
+def directions(n: int) -> Iterator[tuple[sp.Rational, ...]]:
+    """Simple directions to try: the axes first, then the diagonals (axes only from dimension 5 on)."""
+    for index in range(n):
+        for sign in (1, -1):
+            yield tuple(sp.Integer(sign * (i == index)) for i in range(n))
+    if 1 < n <= 4:
+        for entries in product((-1, 0, 1), repeat=n):
+            if sum(map(abs, entries)) > 1:
+                yield tuple(map(sp.Integer, entries))
+
+
+@dataclass(frozen=True)
+class Prosecutor:
+    """Looks for witnesses against one field on one domain."""
+
+    field: Field
+    quotients: Quotients
+    domain: Domain
+
+    def inside(self, offset: Vector) -> bool:
+        """Whether x* + offset certainly lies in the domain."""
+        square = sum((entry**2 for entry in offset), sp.Integer(0))
+        if square == 0:
+            return False
+        low = self.domain.inner == 0 or separated(square, self.domain.inner**2) == 1 or square == self.domain.inner**2
+        outer = self.domain.outer
+        return low and (outer is None or square == outer**2 or separated(square, outer**2) == -1)
+
+    def point(self, offset: Vector) -> tuple[sp.Expr, ...]:
+        """x* + offset."""
+        return tuple(
+            sp.nsimplify(s + y) if (s + y).is_Rational else s + y
+            for s, y in zip(self.field.source, offset, strict=True)
+        )
+
+    def _values(self, x: Sequence[Any]) -> dict[str, str]:
+        return {str(variable): str(entry) for variable, entry in zip(self.field.variables, x, strict=True)}
+
+    # Points that are not lower than the source.
+
+    def not_lower(self, offset: Vector) -> FieldWitness | None:
+        """The witness F(x) ≥ F(x*) at x = x* + offset, if that is certain there."""
+        if not self.inside(offset):
+            return None
+        x = self.point(offset)
+        value, peak = self.field.value(x), self.field.peak
+        try:
+            sign = separated(value, peak)
+            if sign == -1 or (sign is None and sp.simplify(value - peak) != 0):
+                return None
+            left = f"F(x) = {_shown(value)}"
+        except (Undefined, TypeError, ValueError):
+            return None
+        relation = "lies above" if sign == 1 else "equals"
+        return FieldWitness(
+            f"F(x) {relation} F(x*) at another point x",
+            self._values(x),
+            left,
+            f"F(x) < F(x*) = {_shown(peak)}",
+            _length(offset),
+        )
+
+    def not_lower_near(self, target: Sequence[float]) -> FieldWitness | None:
+        """The same at a point with short coordinates near ``target``."""
+        for digits in (0, 1, 2, 3, 4, 6, 9, 12):
+            offset = tuple(sp.Rational(str(round(entry, digits))) for entry in target)
+            if found := self.not_lower(offset):
+                return found
+        return None
+
+    def not_lower_on_ray(self, direction: Vector, *, outward: bool) -> FieldWitness | None:
+        """The same at a point x* + 2^±k·direction, far out or near the source."""
+        for k in range(60):
+            factor = sp.Integer(2) ** (k if outward else -k)
+            if found := self.not_lower(tuple(factor * entry for entry in direction)):
+                return found
+        return None
+
+    # Limits.
+
+    def limit(self, direction: Vector, slope: bool, *, outward: bool, limit: str, detail: str) -> FieldWitness:
+        """The witness that a quotient tends to ``limit`` ("0" or "∞") along a ray."""
+        power = 2 * self.field.kappa - slope
+        numerator = "‖∇F(x)‖" if slope else "(F(x*) − F(x))"
+        quotient = f"{numerator}/‖x − x*‖^{power}".replace("^1", "") if power == 1 else f"{numerator}/‖x − x*‖^{power}"
+        r = sp.Symbol("r", positive=True)
+        name = ("b1" if slope else "a2") if limit == "0" else ("b2" if slope else "a1")
+        where = "r → ∞" if outward else "r → 0"
+        right = f"{name} > 0" if limit == "0" else f"a finite {name}"
+        return FieldWitness(
+            f"{quotient} tends to {limit} for {where} along a ray from the source ({detail})",
+            self._values([s + r * d for s, d in zip(self.field.source, direction, strict=True)]),
+            f"{quotient} → {limit} for {where}",
+            right,
+            math.inf if outward else 0.0,
+        )
+
+    def at_infinity(self) -> FieldWitness | None:
+        """A ray along which a quotient tends to 0 or to infinity far from the source, found by growth."""
+        for direction in directions(self.quotients.n):
+            for slope in (False, True):
+                if found := self._along_ray(direction, slope):
+                    return found
+        return None
+
+    def _along_ray(self, direction: Vector, slope: bool) -> FieldWitness | None:
+        top = 2 * self.field.kappa - slope
+        balls = [ball_from(entry) for entry in direction]
+        for k in (1, 4, 8, 16, 32):
+            reach = arb(1) / 2**k
+            try:
+                outputs = self.quotients.tape(slope).run(coordinates(balls, reach), GROWTHS)
+            except Undefined:
+                continue
+            heads = [_head(output, reach) for output in outputs]
+            if all(finite and degree < top for degree, _, finite in heads):
+                degree = max(degree for degree, _, _ in heads)
+                detail = f"the numerator grows no faster than r^{degree}"
+                return self.limit(direction, slope, outward=True, limit="0", detail=detail)
+            for degree, sign, _ in heads:
+                if degree <= top or sign == 0:
+                    continue
+                if sign < 0 and not slope:
+                    return self.not_lower_on_ray(direction, outward=True)
+                detail = f"the numerator grows at least like r^{degree}"
+                return self.limit(direction, slope, outward=True, limit="∞", detail=detail)
+        return None
+
+    # Places that a search has come upon.
+
+    def at_place(self, place: Place, value_is_zero_or_less: bool, slope: bool) -> FieldWitness | None:
+        """What the best place of a search for a smallest quotient proves."""
+        if place.is_limit:
+            if not value_is_zero_or_less:
+                return None
+            u = [_fraction(entry) for entry in place.box.face.cube_point(place.point[1:])]
+            outward = place.box.outer
+            if not slope and (found := self.not_lower_on_ray(u, outward=outward)):
+                return found
+            return self.limit(u, slope, outward=outward, limit="0", detail="by enclosure of the limit")
+        offset = place.offset()
+        if value_is_zero_or_less and not slope and (found := self.not_lower_near(offset)):
+            return found
+        return self.critical_point_near(offset)
+
+    # Critical points besides the source.
+
+    def critical_point_near(self, start: Sequence[float]) -> FieldWitness | None:
+        """A second point with ∇F = 0, exact or enclosed with proof, reached from ``start`` by Newton's method."""
+        n = self.quotients.n
+        everything = list(range(n))
+        for kept in [everything] + [[index] for index in range(n) if n > 1 and self._gradient_stays_on_axis(index)]:
+            if found := self._newton(start, kept):
+                return found
+        return None
+
+    def _gradient_stays_on_axis(self, index: int) -> bool:
+        offsets = self.quotients.offsets
+        rest = {y: 0 for i, y in enumerate(offsets) if i != index}
+        slopes = (sp.diff(self.quotients.drop, y).subs(rest) for y in rest)
+        return all(sp.expand(slope) == 0 for slope in slopes)
+
+    def _newton(self, start: Sequence[float], kept: Sequence[int]) -> FieldWitness | None:
+        offsets = self.quotients.offsets
+        active = [offsets[i] for i in kept]
+        drop = self.quotients.drop.subs({y: 0 for y in offsets if y not in active})
+        gradient = compile_tape([sp.diff(drop, y) for y in active], active)
+        hessian = compile_tape([sp.diff(drop, y, z) for y in active for z in active], active)
+        begin = [start[i] for i in kept]
+        if len(kept) < len(start):
+            begin = [math.copysign(math.sqrt(sum(entry**2 for entry in start)), begin[0])]
+        found = _iterate(gradient, hessian, begin)
+        if found is None:
+            return None
+        full = [0.0] * len(start)
+        for index, entry in zip(kept, found, strict=True):
+            full[index] = float(entry)
+        size = math.sqrt(sum(entry**2 for entry in full))
+        if size < 1e-6:
+            return None
+        return self._exact_critical(full) or self._enclosed_critical(found, kept, gradient, hessian)
+
+    def _exact_critical(self, offset: Sequence[float]) -> FieldWitness | None:
+        for denominator in (1, 12, 1000):
+            x = tuple(
+                s + sp.Rational(Fraction(entry).limit_denominator(denominator))
+                for s, entry in zip(self.field.source, offset, strict=True)
+            )
+            y = tuple(entry - s for entry, s in zip(x, self.field.source, strict=True))
+            if max(abs(float(a) - b) for a, b in zip(y, offset, strict=True)) > 1e-6 or not self.inside(y):
+                continue
+            at = dict(zip(self.field.variables, x, strict=True))
+            if all(sp.simplify(entry.subs(at)) == 0 for entry in self.field.gradient):
+                return self._critical(self._values(x), "∇F(x) = 0 exactly", _length(y))
+        return None
+
+    def _enclosed_critical(
+        self, found: Sequence[arb], kept: Sequence[int], gradient: Any, hessian: Any
+    ) -> FieldWitness | None:
+        box = _krawczyk(found, gradient, hessian)
+        if box is None:
+            return None
+        square = sum((BALLS.integer_power(ball, 2) for ball in box), arb(0))
+        low, high = self.domain.inner, self.domain.outer
+        if not square > 0 or (low != 0 and not square > ball_from(low**2)):
+            return None
+        if high is not None and not square < ball_from(high**2):
+            return None
+        full = [arb(0)] * self.quotients.n
+        for index, ball in zip(kept, box, strict=True):
+            full[index] = ball
+        x = [ball_from(s) + y for s, y in zip(self.field.source, full, strict=True)]
+        values = {str(v): _interval_text(entry) for v, entry in zip(self.field.variables, x, strict=True)}
+        left = "∇F(x) = 0 at exactly one point x of this box (interval Newton method)"
+        return self._critical(values, left, float(square.upper()) ** 0.5 * (1 + 1e-12))
+
+    def _critical(self, values: dict[str, str], left: str, distance: float) -> FieldWitness:
+        power = 2 * self.field.kappa - 1
+        right = f"‖∇F(x)‖ ≥ b1‖x − x*‖^{power} > 0".replace("^1 ", " ")
+        return FieldWitness("the field has a second critical point", values, left, right, distance)
+
+
+def _head(output: Any, reach: arb) -> tuple[Fraction, int, bool]:
+    """(degree, sign of the leading behaviour or 0 where not certain, whether every coefficient is finite)."""
+    growth = output if isinstance(output, Growth) else Growth({}, reach).lift(output)
+    if not growth.terms:
+        return Fraction(-1), 0, True
+    degree, head = growth.head()
+    finite = all(c.low.is_finite() and c.high.is_finite() for c in growth.terms.values())
+    return degree, 1 if head.low > 0 else -1 if head.high < 0 else 0, finite
+
+
+def _iterate(gradient: Any, hessian: Any, begin: Sequence[float]) -> list[arb] | None:
+    import numpy as np
+
+    n = len(begin)
+    point = np.array(begin, dtype=float)
+    try:
+        for _ in range(60):
+            balls = [arb(float(entry)) for entry in point]
+            value = np.array([float(entry.mid()) for entry in gradient.run(balls, BALLS)])
+            slope = np.array([float(entry.mid()) for entry in hessian.run(balls, BALLS)]).reshape(n, n)
+            step = np.linalg.lstsq(slope, value, rcond=1e-12)[0]
+            point = point - step
+            if not np.all(np.isfinite(point)) or np.abs(point).max() > 1e9:
+                return None
+            if np.abs(step).max() <= 1e-13 * max(1.0, float(np.abs(point).max())):
+                return [arb(float(entry)) for entry in point]
+    except (Undefined, np.linalg.LinAlgError, ValueError, OverflowError):
+        return None
+    return None
+
+
+def _krawczyk(found: Sequence[arb], gradient: Any, hessian: Any) -> list[arb] | None:
+    """A box that certainly contains exactly one zero of the gradient, around ``found``."""
+    n = len(found)
+    for radius in ("1e-9", "1e-7", "1e-11", "1e-5"):
+        box = [arb(centre, arb(radius)) for centre in found]
+        try:
+            slope = arb_mat(n, n, hessian.run(box, BALLS))
+            middle = arb_mat(n, n, [entry.mid() for entry in hessian.run(list(found), BALLS)])
+            inverse = arb_mat(n, n, [entry.mid() for entry in middle.inv().entries()])
+            value = arb_mat(n, 1, gradient.run(list(found), BALLS))
+        except (Undefined, ZeroDivisionError):
+            continue
+        offset = arb_mat(n, 1, [ball - centre for ball, centre in zip(box, found, strict=True)])
+        identity = arb_mat(n, n, [int(i == j) for i in range(n) for j in range(n)])
+        image = arb_mat(n, 1, list(found)) - inverse * value + (identity - inverse * slope) * offset
+        if all(ball.contains_interior(new) for ball, new in zip(box, image.entries(), strict=True)):
+            return list(image.entries())
+    return None
+
+
+def _fraction(ball: arb) -> sp.Rational:
+    value = ball.fmpq()
+    return sp.Rational(int(value.p), int(value.q))
+
+
+def _length(offset: Vector) -> float:
+    return float(sp.sqrt(sum((entry**2 for entry in offset), sp.Integer(0)))) * (1 + 1e-12)
+
+
+def _interval_text(ball: arb) -> str:
+    low, high = ball.lower(), ball.upper()
+    return (
+        f"[{low.str(15, radius=False)}, {high.str(15, radius=False)}]"
+        if not ball.is_exact()
+        else ball.str(15, radius=False)
+    )
+
+
+def _shown(value: sp.Expr) -> str:
+    text = str(value)
+    if value.is_Rational and len(text) < 30:
+        return text
+    ball = enclosure_text(enclose(value))
+    return f"{text} = {ball}" if len(text) < 60 else ball
+
+
+def source_order(field: Field, quotients: Quotients, prosecutor: Prosecutor) -> FieldWitness | None:
+    """Prove that F(x*) − F(x) vanishes to the order 2κ at the source, or say how it fails.
+
+    Returns None where every term of lower order vanishes and one of order 2κ does not; sets
+    ``quotients.vanishing_is_proved``. Raises :class:`Undefined` where that cannot be decided.
+    """
+    top = 2 * field.kappa
+    terms = quotients.expansion.terms
+    for order in range(1, top + 1):
+        found = {key: value for key, value in terms.items() if sum(key) == order}
+        certain = [key for key, value in found.items() if value > 0 or value < 0]
+        if order == top:
+            if certain or not all(_vanishes(quotients, key) for key in found):
+                break
+            return _too_flat(quotients, prosecutor, top)
+        if certain or not all(_vanishes(quotients, key) for key in found):
+            return _too_steep(quotients, prosecutor, order)
+    quotients.vanishing_is_proved = True
+    return None
+
+
+def _vanishes(quotients: Quotients, key: Sequence[int]) -> bool:
+    expression = quotients.drop
+    for y, times in zip(quotients.offsets, key, strict=True):
+        expression = sp.diff(expression, y, times) if times else expression
+    value = expression.subs(dict.fromkeys(quotients.offsets, 0))
+    if sp.simplify(value) == 0:
+        return True
+    if separated(value, 0) is None:
+        raise Undefined(f"cannot decide whether the derivative {tuple(key)} vanishes at the source")
+    return False
+
+
+def _leading_form(quotients: Quotients, order: int) -> Callable[[Vector], arb]:
+    terms = {key: value for key, value in quotients.expansion.terms.items() if sum(key) == order}
+
+    def form(direction: Vector) -> arb:
+        total = arb(0)
+        for key, value in terms.items():
+            factor = math.prod(entry**power for entry, power in zip(direction, key, strict=True))
+            total += value * ball_from(factor)
+        return total
+
+    return form
+
+
+def _wide_directions(n: int) -> Iterator[tuple[sp.Rational, ...]]:
+    yield from directions(n)
+    for entries in product(range(-3, 4), repeat=min(n, 4)):
+        yield tuple(map(sp.Integer, (*entries, *([0] * (n - len(entries))))))
+
+
+def _too_steep(quotients: Quotients, prosecutor: Prosecutor, order: int) -> FieldWitness | None:
+    form = _leading_form(quotients, order)
+    signs = {d: form(d) for d in _wide_directions(quotients.n)}
+    for direction, value in signs.items():
+        if value < 0 and (found := prosecutor.not_lower_on_ray(direction, outward=False)):
+            return found
+    for direction, value in signs.items():
+        if value > 0:
+            detail = f"the numerator vanishes only to the order {order}"
+            return prosecutor.limit(direction, False, outward=False, limit="∞", detail=detail)
+    raise Undefined(f"the field has a term of order {order} at the source, of a sign that was not found")
+
+
+def _too_flat(quotients: Quotients, prosecutor: Prosecutor, top: int) -> FieldWitness:
+    direction = next(iter(directions(quotients.n)))
+    detail = f"the numerator vanishes to an order above {top}"
+    return prosecutor.limit(direction, False, outward=False, limit="0", detail=detail)
+
+
+def degenerate_direction(field: Field, quotients: Quotients, prosecutor: Prosecutor) -> FieldWitness | None:
+    """A direction in which the form of order 2κ is not positive, where one can be found exactly."""
+    top = 2 * field.kappa
+    form = _leading_form(quotients, top)
+    for direction in _wide_directions(quotients.n):
+        if not any(direction):
+            continue
+        value = form(direction)
+        if value < 0:
+            return prosecutor.not_lower_on_ray(direction, outward=False)
+        if value.is_zero():
+            detail = f"the terms of order {top} vanish in this direction"
+            return prosecutor.limit(direction, False, outward=False, limit="0", detail=detail)
+    if field.kappa == 1 and sp.simplify(field.hessian_at_source.det()) == 0:
+        kernel = field.hessian_at_source.nullspace(simplify=True)
+        if kernel:
+            direction = tuple(sp.simplify(entry) for entry in kernel[0])
+            return prosecutor.limit(
+                direction, False, outward=False, limit="0", detail="the Hessian at the source is singular"
+            )
+    return None
+
+
+__all__ = ["Prosecutor", "degenerate_direction", "directions", "interval", "source_order"]
