@@ -41,8 +41,9 @@ class Range:
     def __str__(self) -> str:
         if self.lower is None and self.upper is None:
             return "not known"
-        low = "…" if self.lower is None else _decimal(self.lower, ROUND_FLOOR, 7)
-        high = "…" if self.upper is None else _decimal(self.upper, ROUND_CEILING, 7)
+        digits = 7 if self.width > 1e-6 else 12
+        low = "…" if self.lower is None else _decimal(self.lower, ROUND_FLOOR, digits)
+        high = "…" if self.upper is None else _decimal(self.upper, ROUND_CEILING, digits)
         return f"[{low}, {high}]"
 
 
@@ -93,7 +94,7 @@ class FieldCertificate:
     rtol: float = 1e-3
     seconds: float = member(default=0.0, compare=False)
 
-    def field_bounds(self, digits: int = 6) -> FieldBounds:
+    def field_bounds(self, digits: int = 9) -> FieldBounds:
         """Exact constants that certainly hold: the outer ends, rounded outwards to ``digits`` digits.
 
         Raises
@@ -136,7 +137,8 @@ class FieldCertificate:
         assert self.witness is not None
         text = f"refuted on {self.domain}: {self.witness.statement}"
         if self.largest_radius is not None:
-            text += f". Certified on the ball of radius {self.largest_radius}, {self.detail}"
+            smaller = Domain(self.domain.inner, self.largest_radius)
+            text += f". Positive constants are certified on {smaller}, {self.detail}"
         elif self.detail:
             text += f". {self.detail}"
         return text

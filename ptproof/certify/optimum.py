@@ -14,7 +14,7 @@ from flint import arb
 from ptproof.certify.domain import Domain
 from ptproof.certify.quotients import Box, Function, Quotients
 from ptproof.proof.ball import BALLS, ball_from
-from ptproof.proof.jet import Bound, Side, upper_bound
+from ptproof.proof.jet import Bound, Side, middle, upper_bound
 from ptproof.proof.tape import Undefined
 
 BITS = 96
@@ -179,59 +179,66 @@ def _widest_relative(box: Box) -> int:
     return max(range(len(widths)), key=widths.__getitem__)
 
 
-def extremum(
-    quotients: Quotients,
-    goal: Goal,
-    boxes: Sequence[Box],
-    *,
-    rtol: float,
-    deadline: float,
-    stop: Callable[[Place, float, int], bool] | None = None,
-    max_boxes: int = 400_000,
-) -> Optimum:
-    """Enclose the supremum or infimum of a quotient over ``boxes`` to the relative width ``rtol``.
+class Extremum:
+    """The supremum or infimum of a quotient over ``boxes``, enclosed ever more narrowly until ``rtol`` is reached.
 
-    ``stop(place, best value, boxes)`` is asked now and then, and each time the best value passes zero; True ends the
-    search. The result is rigorous also when it is not finished: the lower and the upper end are bounds either way.
+    The bounds are rigorous at any time, finished or not.
     """
-    search = _Search(Evaluator(quotients, goal), rtol)
-    for box in boxes:
-        search.add(box)
-    finished, stuck, next_question = False, None, 64
-    while True:
-        if not search.heap or search.heap[0][0] >= -search.accept():
-            finished = search.place is not None
-            break
-        if time.perf_counter() > deadline or search.boxes > max_boxes:
-            break
-        negative, _, box, split = heapq.heappop(search.heap)
-        passed = search.place is not None and not goal.largest and search.best >= 0
-        if stop is not None and search.place is not None and (passed or search.boxes >= next_question):
-            next_question *= 3
-            if stop(search.place, search.best, search.boxes) or passed:
-                heapq.heappush(search.heap, (negative, next(search.ticket), box, split))
-                break
-        if split is None:
-            split = _widest(box)
-        if split is None or (negative == -math.inf and _is_tiny(box)):
-            stuck = Place(box, tuple(((low + high) / 2).mid() for low, high in box.sides))
-            heapq.heappush(search.heap, (negative, next(search.ticket), box, split))
-            break
-        for half in box.split(split):
-            search.add(half)
-    ceiling = max(search.ceiling, search.best, -search.heap[0][0] if search.heap else -math.inf)
-    lower, upper = (search.best, ceiling) if goal.largest else (-ceiling, -search.best)
-    return Optimum(lower, upper, search.place, finished, search.boxes, stuck)
 
-
-class _Search:
-    def __init__(self, evaluator: Evaluator, rtol: float) -> None:
-        self.evaluator, self.rtol = evaluator, rtol
+    def __init__(self, quotients: Quotients, goal: Goal, boxes: Sequence[Box], rtol: float) -> None:
+        self.evaluator, self.goal, self.rtol = Evaluator(quotients, goal), goal, rtol
         self.best = self.ceiling = -math.inf
         self.place: Place | None = None
+        self.stuck: Place | None = None
         self.boxes = 0
         self.ticket = count()
         self.heap: list[tuple[float, int, Box, int | None]] = []
+        self.waiting = list(boxes)
+        self.next_question = 64
+
+    @property
+    def finished(self) -> bool:
+        """Whether the wanted width has been reached."""
+        return not self.waiting and self.place is not None and self.top() <= self.accept()
+
+    def top(self) -> float:
+        """The largest bound of a box that is still open."""
+        return -self.heap[0][0] if self.heap else -math.inf
+
+    def run(
+        self, deadline: float, stop: Callable[[Place, float], bool] | None = None, max_boxes: int = 400_000
+    ) -> bool:
+        """Work until the width is reached, the time is over, or ``stop`` says so; returns whether ``stop`` did.
+
+        ``stop(place, best value)`` is asked now and then, and when a smallest value has turned out not positive.
+        """
+        while self.waiting:
+            self.add(self.waiting.pop())
+        while not self.finished and self.heap and self.boxes < max_boxes and time.perf_counter() < deadline:
+            passed = self.place is not None and not self.goal.largest and self.best >= 0
+            if stop is not None and self.place is not None and (passed or self.boxes >= self.next_question):
+                self.next_question = 3 * self.boxes
+                if stop(self.place, self.best):
+                    return True
+                if passed:
+                    return False
+            entry = heapq.heappop(self.heap)
+            negative, _, box, split = entry
+            if split is None:
+                split = _widest(box)
+            if split is None or (negative == -math.inf and _is_tiny(box)):
+                heapq.heappush(self.heap, entry)
+                self.stuck = Place(box, tuple(middle(side) for side in box.sides))
+                return False
+            for half in box.split(split):
+                self.add(half)
+        return False
+
+    def optimum(self) -> Optimum:
+        """What is known now."""
+        ceiling = math.inf if self.waiting else max(self.ceiling, self.best, self.top())
+        lower, upper = (self.best, ceiling) if self.goal.largest else (-ceiling, -self.best)
+        return Optimum(lower, upper, self.place, self.finished, self.boxes, self.stuck)
 
     def accept(self) -> float:
         """What is not above this needs no further look."""
@@ -244,7 +251,7 @@ class _Search:
             upper, split, point = up(bound.upper), bound.split, bound.point
         except Undefined:
             upper, split = math.inf, _widest(box)
-            point = tuple(((low + high) / 2).mid() if low is not high else low for low, high in box.sides)
+            point = tuple(side[0] if side[0] is side[1] else middle(side) for side in box.sides)
         if upper <= self.best:
             self.ceiling = max(self.ceiling, upper)
             return

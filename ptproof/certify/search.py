@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import sympy as sp
@@ -14,10 +14,10 @@ from ptproof.certify.certificate import FieldCertificate, FieldWitness, Range
 from ptproof.certify.domain import Domain
 from ptproof.certify.optimum import (
     BITS,
+    Extremum,
     Goal,
     Optimum,
     Place,
-    extremum,
     positive_everywhere,
     start_boxes,
 )
@@ -151,7 +151,7 @@ class _Search:
             except Undefined as error:
                 return self.certificate(Verdict.UNDECIDED, detail=f"at the source: {error}")
             if witness is not None:
-                return self.refuted(witness)
+                return self.refuted(replace(witness, distance=0.0))
         if self.domain.outer is None:
             self.tell("the growth far from the source")
             if witness := self.prosecutor.at_infinity():
@@ -160,36 +160,38 @@ class _Search:
 
     def constants(self) -> FieldCertificate:
         boxes = list(start_boxes(self.quotients, self.domain))
-        found: dict[str, Optimum] = {}
-        for index, (name, goal) in enumerate(GOALS.items()):
-            self.tell(f"enclosing {name}")
-            witnesses: list[FieldWitness] = []
+        searches = {
+            name: Extremum(self.quotients, goal, boxes, 0.95 * self.rtol * (2 if goal.slope else 1))
+            for name, goal in GOALS.items()
+        }
+        # First each has its share of the time, then the unfinished ones have what is left.
+        for round_ in (1, 2):
+            open_ = [name for name, search in searches.items() if not search.finished and search.stuck is None]
+            for index, name in enumerate(open_):
+                self.tell(f"enclosing {name}" if round_ == 1 else f"enclosing {name} further")
+                now = time.perf_counter()
+                share = max(0.0, self.deadline - now) / (len(open_) - index)
+                if witness := self.examine(searches[name], now + share):
+                    return self.refuted(witness)
+                if not searches[name].goal.largest and searches[name].best >= 0:
+                    return self.conclude({name: searches[name].optimum()})
+        return self.conclude({name: search.optimum() for name, search in searches.items()})
 
-            def stop(
-                place: Place, best: float, looked: int, goal: Goal = goal, into: list[FieldWitness] = witnesses
-            ) -> bool:
-                if goal.largest:
-                    return False
-                witness = self.prosecutor.at_place(place, best >= 0, goal.slope)
-                if witness is not None:
-                    into.append(witness)
-                return witness is not None
+    def examine(self, search: Extremum, deadline: float) -> FieldWitness | None:
+        """Let one search work; returns the witness if it comes upon one."""
+        found: list[FieldWitness] = []
 
-            now = time.perf_counter()
-            optimum = extremum(
-                self.quotients,
-                goal,
-                boxes,
-                rtol=0.95 * self.rtol * (2 if goal.slope else 1),
-                deadline=now + max(0.0, self.deadline - now) / (len(GOALS) - index),
-                stop=stop,
-            )
-            if witnesses:
-                return self.refuted(witnesses[0])
-            found[name] = optimum
-            if not goal.largest and not optimum.finished and optimum.upper <= 0:
-                break
-        return self.conclude(found)
+        def stop(place: Place, best: float) -> bool:
+            witness = self.prosecutor.at_place(place, best >= 0, search.goal.slope)
+            if witness is not None:
+                found.append(witness)
+            return witness is not None
+
+        search.run(deadline, None if search.goal.largest else stop)
+        if search.stuck is not None and not search.stuck.is_limit:
+            undefined = self.prosecutor.undefined_near(search.stuck.offset())
+            return undefined or (found[0] if found else None)
+        return found[0] if found else None
 
     def conclude(self, found: dict[str, Optimum]) -> FieldCertificate:
         ranges = {name: _range(optimum, GOALS[name]) for name, optimum in found.items()}
@@ -240,7 +242,7 @@ class _Search:
 
         On a bounded domain the other two constants are finite wherever F is smooth, and the enclosures are.
         """
-        deadline = max(time.perf_counter() + 0.25 * self.seconds, min(self.deadline, self.began + 0.8 * self.seconds))
+        deadline = time.perf_counter() + 0.25 * self.seconds
         inner = self.domain.inner
         ceiling = LARGEST_RADIUS if math.isinf(bad) else sp.Rational(bad)
         tried = 0

@@ -169,6 +169,21 @@ class Prosecutor:
             return found
         return self.critical_point_near(offset)
 
+    def undefined_near(self, target: Sequence[float]) -> FieldWitness | None:
+        """The witness that F has no finite real value at a point with short coordinates near ``target``."""
+        source = [float(entry) for entry in self.field.source]
+        for denominator in (1, 12, 1000):
+            x = tuple(
+                sp.Rational(Fraction(s + y).limit_denominator(denominator)) for s, y in zip(source, target, strict=True)
+            )
+            offset = tuple(entry - s for entry, s in zip(x, self.field.source, strict=True))
+            value = self.field.value(x)
+            if self.inside(offset) and (value.has(sp.zoo, sp.nan, sp.oo, -sp.oo) or value.is_real is False):
+                right = "a function that is twice continuously differentiable"
+                left = f"F(x) = {value}"
+                return FieldWitness("F is not defined at x", self._values(x), left, right, _length(offset))
+        return None
+
     # Critical points besides the source.
 
     def critical_point_near(self, start: Sequence[float]) -> FieldWitness | None:
@@ -307,12 +322,7 @@ def _length(offset: Vector) -> float:
 
 
 def _interval_text(ball: arb) -> str:
-    low, high = ball.lower(), ball.upper()
-    return (
-        f"[{low.str(15, radius=False)}, {high.str(15, radius=False)}]"
-        if not ball.is_exact()
-        else ball.str(15, radius=False)
-    )
+    return enclosure_text(ball, 12)
 
 
 def _shown(value: sp.Expr) -> str:
@@ -384,6 +394,8 @@ def _too_steep(quotients: Quotients, prosecutor: Prosecutor, order: int) -> Fiel
     for direction, value in signs.items():
         if value > 0:
             detail = f"the numerator vanishes only to the order {order}"
+            if order % 2 == 0:
+                detail += f", which is κ = {order // 2}"
             return prosecutor.limit(direction, False, outward=False, limit="∞", detail=detail)
     raise Undefined(f"the field has a term of order {order} at the source, of a sign that was not found")
 

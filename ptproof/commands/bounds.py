@@ -1,0 +1,115 @@
+"""``ptproof bounds``."""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING
+
+import click
+
+if TYPE_CHECKING:
+    from ptproof.certify import FieldCertificate
+
+_STYLES = {"proved": "green", "refuted": "bold red", "undecided": "yellow"}
+
+
+class _WithExpression(click.Command):
+    """A command whose argument may begin with a minus sign."""
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        options = {name: param for param in self.get_params(ctx) for name in param.opts}
+        front: list[str] = []
+        back: list[str] = []
+        rest = iter(args)
+        for token in rest:
+            if token == "--":
+                back.extend(rest)
+            elif token in options:
+                front.append(token)
+                param = options[token]
+                if not (isinstance(param, click.Option) and param.is_flag) and (value := next(rest, None)) is not None:
+                    front.append(value)
+            elif token.startswith("--"):
+                front.append(token)
+            else:
+                back.append(token)
+        return super().parse_args(ctx, [*front, "--", *back])
+
+
+@click.command(cls=_WithExpression)
+@click.argument("expression", metavar="EXPR")
+@click.option("--vars", "names", metavar="x1,x2", required=True, help="The variables, in order.")
+@click.option("--source", metavar="0,0", help="The coordinates of the source, exact; the origin if left out.")
+@click.option("--kappa", metavar="K", required=True, help="The order: 2K is the power of the distance.")
+@click.option("--radius", metavar="R", help="Look at the ball of this radius around the source.")
+@click.option("--annulus", metavar="r,R", help="Look at the points at a distance between r and R.")
+@click.option("--rtol", type=float, default=1e-3, show_default=True, help="Relative width of each enclosure.")
+@click.option("--timeout", type=float, default=60.0, show_default=True, help="Time limit, in seconds.")
+@click.option("--plot", metavar="FILE", help="Write a picture of the quotients and the certified band.")
+@click.option("--json", "as_json", is_flag=True, help="Print JSON on standard output.")
+def bounds(
+    expression: str,
+    names: str,
+    source: str | None,
+    kappa: str,
+    radius: str | None,
+    annulus: str | None,
+    rtol: float,
+    timeout: float,
+    plot: str | None,
+    as_json: bool,
+) -> int:
+    """Certify the best constants a1, a2, b1, b2 of the field EXPR, or show why there are none.
+
+    Without --radius and --annulus the domain is the whole space. Exit status 1 if the constants are not proved.
+
+    \b
+    Example:  ptproof bounds "5/2 + cos(2*pi/3*x1)/2 - (x1**2 + x2**2)/2" --vars x1,x2 --kappa 1
+    """
+    from ptproof.certify.limited import certify_text
+
+    certificate = certify_text(expression, names, source, kappa, radius, annulus, rtol, timeout)
+    if plot is not None:
+        _draw(certificate, plot)
+    if as_json:
+        if str(certificate.verdict) == "undecided":
+            click.echo(f"ptproof: {certificate.summary}", err=True)
+        click.echo(json.dumps(certificate.to_json(), indent=2, ensure_ascii=False))
+    else:
+        _show(certificate)
+    return 0 if str(certificate.verdict) == "proved" else 1
+
+
+def _draw(certificate: FieldCertificate, path: str) -> None:
+    from ptproof.errors import InputError
+
+    try:
+        certificate.plot(path)
+    except (OSError, ValueError) as error:
+        raise InputError(f"--plot: cannot write a picture to {path!r} ({error})") from None
+
+
+def _show(certificate: FieldCertificate) -> None:
+    from rich.console import Console
+    from rich.table import Table
+    from rich.text import Text
+
+    console = Console()
+    verdict = str(certificate.verdict)
+    head, *lines = str(certificate).splitlines()
+    console.print(Text(head))
+    console.print(Text(certificate.summary, style=_STYLES[verdict]))
+    if certificate.witness is not None:
+        for line in lines[1:]:
+            console.print(Text(line))
+        return
+    table = Table(box=None, pad_edge=False)
+    for column in ("constant", "meaning", "enclosure"):
+        table.add_column(column, overflow="fold")
+    for row in certificate.rows():
+        table.add_row(*(Text(cell) for cell in row))
+    console.print(table)
+    if verdict == "proved":
+        found = certificate.field_bounds()
+        text = ", ".join(f"{name} = {float(getattr(found, name)):.9g}" for name in ("a1", "a2", "b1", "b2"))
+        console.print(Text(f"constants that certainly hold: {text}", style="bold"))
