@@ -58,12 +58,16 @@ def _angle(function: type, argument: sp.Expr) -> sp.Expr:
 class Generators:
     """The generators met so far, the symbols that stand for them, and their relations.
 
-    One object must see all expressions that are to be compared: :meth:`read` first, :meth:`rational` then.
+    One object must see all expressions that are to be compared: :meth:`read` first, :meth:`rational` then. With
+    ``real`` the generators will be taken for real numbers: a symbol that may be negative is then not written by its
+    root, and the relation of the root holds only where its base, kept in ``bases``, is not negative.
     """
 
+    real: bool = False
     symbols: dict[sp.Expr, sp.Symbol] = field(default_factory=dict)
     relations: list[tuple[sp.Symbol, sp.Expr]] = field(default_factory=list)
     meaning: dict[sp.Symbol, sp.Expr] = field(default_factory=dict)
+    bases: dict[sp.Symbol, sp.Expr] = field(default_factory=dict)
     _powers: dict[sp.Expr, list[sp.Expr]] = field(default_factory=lambda: defaultdict(list))
     _roots: dict[sp.Expr, dict[sp.Expr, tuple[sp.Symbol, int]]] = field(default_factory=dict)
     _denominators: dict[sp.Expr, sp.Expr] = field(default_factory=dict)
@@ -115,6 +119,8 @@ class Generators:
             known = {sign: True} if sign and monomial.is_real and common.is_real else {}
             generator = self.symbol(root, **known)
             self._roots[base][monomial] = (generator, lcm)
+            if not base.is_nonnegative:
+                self.bases[generator] = base
 
     def choice(self, generator: sp.Symbol) -> tuple[type, list[sp.Expr]] | None:
         """For a generator that stands for a maximum or minimum: which, and of what."""
@@ -126,7 +132,7 @@ class Generators:
     def rational(self, expression: sp.Expr) -> sp.Expr:
         """Replace everything that is not arithmetic by its generator (after :meth:`read`)."""
         match expression:
-            case sp.Symbol() if expression in self._roots:
+            case sp.Symbol() if expression in self._roots and self._by_roots(expression):
                 return self._product(expression, sp.S.One)
             case sp.Symbol() | sp.Rational():
                 return expression
@@ -159,11 +165,15 @@ class Generators:
         raise NotAlgebraic(f"no rule for {type(expression).__name__}: {expression}")
 
     def _power(self, base: sp.Expr, exponent: sp.Expr) -> sp.Expr:
-        if not base.is_Symbol and base is not sp.E:
+        if base is not sp.E and not (base.is_Symbol and self._by_roots(base)):
             own = [self._roots[base][monomial] for monomial, _ in _exponent_terms(sp.S.One, self._denominators[base])]
             if len(own) == 1:  # a root of the base, such as √b: its power is the base
                 self._relate(own[0][0], self.rational(base), _degree(self._product(base, sp.S.One), own[0][0]))
         return self._product(base, exponent)
+
+    def _by_roots(self, base: sp.Symbol) -> bool:
+        """Whether a symbol may be written as a power of its root: with a real root it could not be negative."""
+        return bool(not self.real or base.is_nonnegative)
 
     def _product(self, base: sp.Expr, exponent: sp.Expr) -> sp.Expr:
         """A power of the base as a product of powers of its roots."""

@@ -26,6 +26,8 @@ def limits(goal: Goal) -> Evidence:
         if part.sign != "=" or not isinstance(part.left, sp.Limit):
             return Evidence("limits", Verdict.UNDECIDED, f"not a limit with its value: {part}")
         expression, variable, point, side = part.left.args
+        if str(side) not in ("+", "-"):
+            return Evidence("limits", Verdict.UNDECIDED, f"a limit from one side is needed, not {part.left}")
         found = limit_of(expression, variable, point, str(side))
         seconds = time.perf_counter() - start
         if found is None:

@@ -8,7 +8,7 @@ of the generators is a proof for the values that they have; a counterexample is 
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import sympy as sp
@@ -92,7 +92,7 @@ class _Problem:
         relations = [conclusion, *assumptions]
         for fact in facts:
             relations += [*fact.hypotheses, fact.conclusion]
-        self.generators = Generators()
+        self.generators = Generators(real=True)
         prepared = self.generators.read([side for relation in relations for side in (relation.left, relation.right)])
         sides = iter([self.generators.rational(side) for side in prepared])
         read = [Relation(next(sides), relation.sign, next(sides)) for relation in relations]
@@ -103,8 +103,22 @@ class _Problem:
             count = len(fact.hypotheses)
             self.facts.append(Implication(tuple(rest[:count]), rest[count], fact.source))
             rest = rest[count + 1 :]
+        self.bases = {symbol: self.generators.rational(base) for symbol, base in self.generators.bases.items()}
+        self.domain = list(self._domain(prepared[: 2 + 2 * len(assumptions)]))
         found = ((symbol, self.generators.choice(symbol)) for symbol in self.generators.meaning)
         self.choices = [(symbol, choice) for symbol, choice in found if choice is not None]
+
+    def _domain(self, sides: Sequence[sp.Expr]) -> Iterator[Relation]:
+        """What has to hold lest a root, a power or a logarithm in ``sides`` is not real there."""
+        for side in sides:
+            nodes = sp.preorder_traversal(side)
+            for node in nodes:
+                if isinstance(node, sp.Integral | sp.Limit | sp.Derivative | sp.Subs):
+                    nodes.skip()  # bound variables; the whole is one real number
+                elif node.is_Pow and not node.exp.is_integer and not node.base.is_nonnegative:
+                    yield Relation(self.generators.rational(node.base), ">=", sp.S.Zero)
+                elif isinstance(node, sp.log) and not node.args[0].is_positive:
+                    yield Relation(self.generators.rational(node.args[0]), ">", sp.S.Zero)
 
     def solver(self, z3: Any, tactic: str, milliseconds: int) -> Any:
         if tactic == "default":
@@ -128,14 +142,19 @@ class _Problem:
             solver.add(relation(item))
         for fact in self.facts:
             solver.add(z3.Implies(z3.And([relation(item) for item in fact.hypotheses]), relation(fact.conclusion)))
-        for _, polynomial in self.generators.relations:
-            solver.add(number(polynomial) == 0)
+        for generator, polynomial in self.generators.relations:
+            holds = number(polynomial) == 0
+            if generator in self.bases:
+                # The power of a negative base is not real; a fact that mentions it says nothing of the base's sign.
+                holds = z3.Implies(number(self.bases[generator]) >= 0, holds)
+            solver.add(holds)
         for generator, (operation, arguments) in self.choices:
             symbol, values = number(generator), [number(argument) for argument in arguments]
             solver.add(z3.Or([symbol == value for value in values]))
             for value in values:
                 solver.add(symbol >= value if operation is sp.Max else symbol <= value)
-        solver.add(z3.Not(relation(self.conclusion)))
+        undefined = [z3.Not(relation(item)) for item in self.domain]
+        solver.add(z3.Or(z3.Not(relation(self.conclusion)), *undefined))
         for symbol, variable in list(variables.items()):
             for fact in _known(symbol, variable, self.generators.meaning.get(symbol), z3):
                 solver.add(fact)
