@@ -23,15 +23,16 @@ def coverage(paper: str, paths: tuple[str, ...], as_json: bool) -> int:
     from ptproof.errors import InputError
     from ptproof.proof.load import load
     from ptproof.report.coverage import coverage as match
-    from ptproof.report.labels import equation_labels, read_paper
+    from ptproof.report.labels import all_labels, equation_labels, read_paper
 
-    labels = equation_labels(read_paper(paper))
+    source = read_paper(paper)
+    labels = equation_labels(source)
     if not labels:
         raise InputError(rf"{paper}: no \label stands in an equation; name the LaTeX source of the paper")
     derivation = load(paths)
-    found = match(labels, [*derivation.claims, *derivation.definitions])
+    found = match(labels, [*derivation.claims, *derivation.definitions], all_labels(source))
     for label, ids in found.stale:
-        click.echo(f"ptproof: {paper} has no equation labelled {label}, which is named by {', '.join(ids)}", err=True)
+        click.echo(f"ptproof: {paper} has no label {label}, which is named by {', '.join(ids)}", err=True)
     if as_json:
         click.echo(json.dumps(found.to_json(), indent=2, ensure_ascii=False))
     else:

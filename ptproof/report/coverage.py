@@ -44,8 +44,11 @@ class Coverage:
         return {"covered": {label: list(ids) for label, ids in self.covered}, "missing": list(self.missing)}
 
 
-def coverage(labels: Sequence[str], items: Iterable[Labelled]) -> Coverage:
-    """Match the equation ``labels`` of a paper with the claims and definitions that name them."""
+def coverage(labels: Sequence[str], items: Iterable[Labelled], others: Iterable[str] = ()) -> Coverage:
+    """Match the equation ``labels`` of a paper with the claims and definitions that name them.
+
+    ``others`` are the paper's labels of figures, theorems and the like: to name them is no mistake.
+    """
     named: dict[str, list[str]] = {}
     for item in items:
         for label in item.labels:
@@ -53,8 +56,9 @@ def coverage(labels: Sequence[str], items: Iterable[Labelled]) -> Coverage:
             if item.id not in ids:
                 ids.append(item.id)
     printed = tuple(dict.fromkeys(labels))
+    known = {*printed, *others}
     return Coverage(
         tuple((label, tuple(named[label])) for label in printed if label in named),
         tuple(label for label in printed if label not in named),
-        tuple((label, tuple(ids)) for label, ids in named.items() if label not in set(printed)),
+        tuple((label, tuple(ids)) for label, ids in named.items() if label not in known),
     )

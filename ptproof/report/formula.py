@@ -37,10 +37,10 @@ _FUNCTIONS = frozenset(
 
 @dataclass(frozen=True)
 class Line:
-    """One line of a displayed formula, as LaTeX; the continuation of a broken line is indented."""
+    """One line of a displayed formula, as LaTeX; what continues a broken line is indented, in steps."""
 
     latex: str
-    indented: bool = False
+    indent: int = 0
 
 
 class _Printer(LatexPrinter):
@@ -70,7 +70,7 @@ def statement_lines(statement: Statement | Assumption, names: Names) -> tuple[Li
         case Exists(variables=variables, body=body, over=over):
             head = rf"\exists\, {_list(variables, names)}" + (rf"\ \ \forall\, {_list(over, names)}" if over else "")
             inside = (line for part in body for line in _relation_lines(part, names))
-            return (Line(head + ":"), *(Line(line.latex, True) for line in inside))
+            return (Line(head + ":"), *(Line(line.latex, line.indent + 1) for line in inside))
         case Smooth(expressions=expressions, variables=variables, order=order):
             column = expressions[0] if len(expressions) == 1 else sp.ImmutableDenseMatrix(list(expressions))
             belongs = rf"{latex(column, names)} \in C^{{{order}}}"
@@ -81,7 +81,7 @@ def statement_lines(statement: Statement | Assumption, names: Names) -> tuple[Li
             tail = rf"\forall\, {_list(variables, names)}" + (rf":\ {where}" if domain else "")
             if sum(width(line.latex) for line in lines) + width(tail) < _ROOM and len(lines) == 1:
                 return (Line(rf"{lines[0].latex} \quad {tail}"),)
-            return (*lines, Line(tail, True))
+            return (*lines, Line(tail, 1))
         case Prose():
             return ()
     raise TypeError(f"not a statement: {statement!r}")
@@ -133,9 +133,9 @@ def _relation_lines(relation: Relation, names: Names) -> tuple[Line, ...]:
     second, *more = _broken(relation.right, right, names)
     return (
         Line(first),
-        *(Line(part, True) for part in rest),
-        Line(f"{sign} {second}", True),
-        *(Line(part, True) for part in more),
+        *(Line(part, 2) for part in rest),
+        Line(f"{sign} {second}", 1),
+        *(Line(part, 2) for part in more),
     )
 
 

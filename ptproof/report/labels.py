@@ -7,6 +7,7 @@ A scanner, not a TeX engine: comments, verbatim text and ``\\iffalse`` parts are
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from pathlib import Path
 
 from ptproof.errors import InputError
@@ -44,6 +45,11 @@ _TOKEN = re.compile(r"\\(begin|end|label)\s*(?:\[[^\]]*\]\s*)?\{([^{}]*)\}|\\[\\
 _INPUT = re.compile(r"\\(?:input|include|subfile)\s*\{([^{}]*)\}")
 
 
+def all_labels(source: str) -> tuple[str, ...]:
+    """Every label of the paper, of whatever, in the order of the text, each once."""
+    return tuple(dict.fromkeys(name for name, _ in _labels(source)))
+
+
 def equation_labels(source: str) -> tuple[str, ...]:
     """The labels that stand in an equation, in the order of the text, each once.
 
@@ -51,7 +57,11 @@ def equation_labels(source: str) -> tuple[str, ...]:
     their like count, starred or not, also on a line inside them or inside a nested aligned or split. Labels of
     sections, figures, theorems and list items do not.
     """
-    found: dict[str, None] = {}
+    return tuple(dict.fromkeys(name for name, in_equation in _labels(source) if in_equation))
+
+
+def _labels(source: str) -> Iterator[tuple[str, bool]]:
+    """Each label, and whether it stands in an equation."""
     stack: list[str] = []
     for token in _TOKEN.finditer(_expanded(_without_comments(source))):
         word, name = token.group(1), (token.group(2) or "").strip()
@@ -67,9 +77,8 @@ def equation_labels(source: str) -> tuple[str, ...]:
                 break
             if name in stack:  # an end without its begin is ignored; a begin without its end closes with its parent
                 del stack[len(stack) - 1 - stack[::-1].index(name) :]
-        elif word == "label" and _in_equation(stack):
-            found.setdefault(name)
-    return tuple(found)
+        elif word == "label":
+            yield name, _in_equation(stack)
 
 
 def read_paper(path: str | Path) -> str:

@@ -98,7 +98,7 @@ class Erratum:
     def narrow(self) -> bool:
         """Whether the formulas are short enough to stand side by side."""
         lines = [line for claim in (self.printed, *self.corrections) for line in claim.lines]
-        return all(width(line.latex) + 3 * line.indented < _HALF_PAGE for line in lines)
+        return all(width(line.latex) + 3 * line.indent < _HALF_PAGE for line in lines)
 
 
 @dataclass(frozen=True)

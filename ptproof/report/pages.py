@@ -50,7 +50,6 @@ def markdown_page(report: Report) -> str:
     filters: dict[str, Callable[..., str]] = {
         "math": inline_math,
         "lines": _markdown_lines,
-        "cell": _cell,
         "prose": to_markdown,
         "esc": escape,
         "code": code,
@@ -66,12 +65,7 @@ def markdown_page(report: Report) -> str:
 def _markdown_lines(lines: tuple[Line, ...]) -> str:
     if len(lines) == 1:
         return display_math([lines[0].latex])
-    return display_math([("& \\quad " if line.indented else "& ") + line.latex for line in lines])
-
-
-def _cell(lines: tuple[Line, ...]) -> str:
-    """Lines of a formula in the cell of a table."""
-    return "<br>".join(inline_math(line.latex) for line in lines)
+    return display_math(["& " + r"\quad " * line.indent + line.latex for line in lines])
 
 
 def _data_uri(figure: Figure) -> str:

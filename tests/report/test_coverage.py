@@ -71,6 +71,11 @@ def test_a_stale_label_is_status_1_and_named(tmp_path, capsys):
     assert json.loads(captured.out)["missing"] == []
 
 
+def test_a_label_of_a_figure_is_not_stale(tmp_path):
+    paper = PAPER + r"\begin{figure}\label{fig:one}\end{figure}"
+    assert status("coverage", *files(tmp_path, ["eq:two", "fig:one"], paper)) == 0
+
+
 def test_the_table_names_what_is_missing(tmp_path, capsys):
     status("coverage", *files(tmp_path, []))
     assert "eq:two" in capsys.readouterr().out

@@ -46,7 +46,7 @@ def test_a_long_relation_is_broken_before_its_sign_and_between_terms():
     total = sum(sp.Symbol(f"alpha{i}") * sp.cos(i * x) for i in range(30))
     found = statement_lines(eq(total, y), {})
     assert found[-1].latex == "= y"
-    assert all(line.indented for line in found[1:])
+    assert all(line.indent for line in found[1:])
     assert all(width(line.latex) < 100 for line in found)
 
 

@@ -3,7 +3,7 @@
 import pytest
 
 from ptproof.errors import InputError
-from ptproof.report.labels import equation_labels, read_paper
+from ptproof.report.labels import all_labels, equation_labels, read_paper
 
 EQUATION = r"\begin{equation} x \label{eq:a} \end{equation}"
 
@@ -68,6 +68,10 @@ CASES = {
 def test_labels(name):
     source, labels = CASES[name]
     assert list(equation_labels(source)) == labels
+
+
+def test_all_labels_are_those_of_everything():
+    assert all_labels(r"\section{S}\label{sec:a}" + EQUATION + r"\label{sec:a}") == ("sec:a", "eq:a")
 
 
 def test_windows_line_ends():

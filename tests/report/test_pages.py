@@ -94,7 +94,7 @@ def test_titles_are_escaped(page, text):
 def test_a_refuted_claim_shows_its_witness(page, text):
     for content in (entry(page, "c-a-lonely"), page[page.index('id="errata"') : page.index('id="graph"')]):
         assert 'class="witness"' in content
-    witness = re.search(r"^\*\*Witness\.\*\* .*$", text[text.index("Wrong and not corrected") :], re.MULTILINE)
+    witness = re.search(r"^\*\*Witness\.\*\* .*$", text[text.index("### ✗ Wrong and not corrected") :], re.MULTILINE)
     assert r"\Vert \nabla F\Vert  = 1" in witness.group()
 
 
@@ -108,8 +108,9 @@ def test_errata_come_before_the_claims_and_name_the_correction(page, text):
     assert page.index('id="errata"') < page.index('id="s-1"')
     assert text.index("## Errata") < text.index('<a id="s-1">')
     row = next(line for line in text.split("\n") if line.startswith("| `eq:sum`"))
-    assert "a/printed" in row
-    assert "a/corrected" in row
+    assert "(#c-a-corrected)" in row
+    assert "refuted" in row
+    assert "fully proved" in row
 
 
 def test_errata_without_correction_are_listed(report, page):
