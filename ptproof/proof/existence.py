@@ -11,7 +11,7 @@ import sympy as sp
 
 from ptproof.proof.claim import Goal, admissible
 from ptproof.proof.reals import follows, reals
-from ptproof.proof.statement import All, Exists, Implication, substitute_in
+from ptproof.proof.statement import All, Exists, Implication, Relation, substitute_in
 from ptproof.proof.verdict import Evidence, Verdict, Witness
 
 
@@ -38,7 +38,8 @@ def exists_by(goal: Goal, choice: Mapping[sp.Symbol, Any], *lemmas: Implication)
 def defeats_every_choice(goal: Goal, values: Mapping[sp.Symbol, Any], lemmas: Sequence[Implication] = ()) -> Evidence:
     """Refute "there is A such that … for all x" by an x that depends on A and breaks the body for every A.
 
-    The body's first relation is shown to fail for all values of A that its declaration allows.
+    One relation of the body is shown to fail for all values of A that its declaration allows. Assumptions about x
+    restrict the x that count, so they are shown to hold for this one.
     """
     start = time.perf_counter()
     statement = goal.statement
@@ -51,10 +52,19 @@ def defeats_every_choice(goal: Goal, values: Mapping[sp.Symbol, Any], lemmas: Se
             return Evidence(
                 "counterexample family", Verdict.UNDECIDED, f"{value} is not known to be what {symbol} may be"
             )
+    facts = [*goal.facts, *lemmas]
+    # What is assumed of a letter outside says nothing of the A that is asked for.
+    outside, _ = _split(goal.relations, set(statement.variables))
+    given, about_these = _split(outside, set(statement.over))
+    for assumption in about_these:
+        inside, how = follows(substitute_in(assumption, values), given, facts)
+        if not inside:
+            detail = f"the values are not shown to satisfy {assumption}: {how}"
+            return Evidence("counterexample family", Verdict.UNDECIDED, detail, time.perf_counter() - start)
     tried = []
     for part in statement.body:
         there = substitute_in(part, values)
-        shown, how = follows(there.negation(), goal.relations, [*goal.facts, *lemmas])
+        shown, how = follows(there.negation(), given, facts)
         if shown:
             witness = Witness(_family(statement, values), str(there.left), str(there.right))
             detail = f"for every {', '.join(map(str, statement.variables))}: {there.negation()} ({how})"
@@ -62,6 +72,12 @@ def defeats_every_choice(goal: Goal, values: Mapping[sp.Symbol, Any], lemmas: Se
             return Evidence("counterexample family", Verdict.REFUTED, detail, seconds, witness)
         tried.append(f"{there}: {how}")
     return Evidence("counterexample family", Verdict.UNDECIDED, "; ".join(tried), time.perf_counter() - start)
+
+
+def _split(relations: Sequence[Relation], symbols: set[sp.Symbol]) -> tuple[list[Relation], list[Relation]]:
+    """The relations without and with any of the symbols."""
+    about = [item for item in relations if (item.left.free_symbols | item.right.free_symbols) & symbols]
+    return [item for item in relations if item not in about], about
 
 
 def _family(statement: Exists, values: Mapping[sp.Symbol, Any]) -> dict[str, str]:

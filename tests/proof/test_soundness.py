@@ -1,0 +1,57 @@
+"""What must never be proved: statements that hold only if something is taken for real, inside a domain or two-sided."""
+
+import pytest
+import sympy as sp
+
+from ptproof.proof.claim import Goal
+from ptproof.proof.existence import defeats_every_choice
+from ptproof.proof.lemmas import power_monotone
+from ptproof.proof.limits import limits
+from ptproof.proof.reals import reals
+from ptproof.proof.statement import Exists, eq, ge, gt, le
+from ptproof.proof.verdict import Verdict
+
+x, y, p = sp.symbols("x y p", real=True)
+a = sp.Symbol("a", positive=True)
+half = sp.Rational(1, 2)
+
+
+@pytest.mark.parametrize("exponent", [half, half / 2, sp.Rational(1, 3)])
+def test_lemma_that_mentions_a_root_says_nothing_of_the_sign(exponent):
+    assert reals(Goal("a", ge(x, 0)), power_monotone(x, y, exponent)).verdict is Verdict.REFUTED
+
+
+def test_power_with_even_coefficient_is_not_a_square_of_a_real_number():
+    # x = −1, p = 1/2: x^(2p) = −1.
+    assert reals(Goal("a", ge(x ** (2 * p), 0))).verdict is Verdict.REFUTED
+
+
+@pytest.mark.parametrize("statement", [
+    ge(sp.sqrt(x), 0), ge(2 * sp.sqrt(x - 1) + 1, 0), ge(sp.log(x) ** 2, 0), gt(sp.sin(sp.sqrt(x)) + 2, 0),
+])  # fmt: skip
+def test_statement_has_to_be_defined(statement):
+    assert reals(Goal("a", statement)).verdict is not Verdict.PROVED
+
+
+@pytest.mark.parametrize(("statement", "assumption"), [
+    (ge(sp.sqrt(x), 0), ge(x, 0)), (ge(sp.sqrt(x - 1), 0), ge(x, 2)), (ge(sp.log(x) ** 2, 0), gt(x, 0)),
+    (le(sp.sqrt(1 - x**2), 1), le(x**2, 1)),
+])  # fmt: skip
+def test_statement_that_is_defined_by_its_assumption_is_proved(statement, assumption):
+    assert reals(Goal("a", statement, (assumption,))).verdict is Verdict.PROVED
+
+
+@pytest.mark.parametrize("value", [sp.oo, -sp.oo])
+def test_two_sided_limit_is_not_decided_from_one_side(value):
+    assert limits(Goal("a", eq(sp.Limit(1 / x, x, 0, "+-"), value))).verdict is Verdict.UNDECIDED
+
+
+def test_counterexample_family_stays_in_the_domain():
+    bounded = Exists((a,), (le(x, a),), over=(x,))
+    assert defeats_every_choice(Goal("a", bounded), {x: a + 1}).verdict is Verdict.REFUTED
+    assert defeats_every_choice(Goal("a", bounded, (le(x, 1),)), {x: a + 1}).verdict is Verdict.UNDECIDED
+
+
+def test_counterexample_family_works_for_every_choice():
+    bounded = Exists((a,), (le(x, a),), over=(x,))
+    assert defeats_every_choice(Goal("a", bounded, (le(a, 1),)), {x: 2}).verdict is Verdict.UNDECIDED
