@@ -22,7 +22,9 @@ from ptproof.proof.ball import enclose, precision
 from ptproof.system import DitherSystem
 
 _BITS = 80
+_RULE_BITS = 320
 _DEGREE = 32
+_COARSEST = sp.Rational(1, 10**6)
 _RHO = 4
 _TARGET = sp.Rational(1, 10**8)
 _SLIVER = sp.Rational(1, 10**13)
@@ -40,9 +42,13 @@ def check_coefficients(
 
     with precision(_BITS):
         symbols = sample(set().union(*(dither.free_symbols for dither in system.dithers)) - {system.phase})
-        enclosures = enclose_coefficients(system, symbols, hints)
+        readers = [_Reader(system, dither, symbols) for dither in system.dithers]
+        enclosures = enclose_coefficients(system, readers, hints)
+        unit = enclose(_COARSEST * system.period, bits=_BITS)
         for (j, i), exact in values.items():
             ball = enclosures[j - 1, i - 1]
+            if not ball.rad() <= unit * readers[j - 1].scale * readers[i - 1].scale:
+                raise ArithmeticError(f"the enclosure {ball} of v_{j},{i} is too wide to check anything")
             if not ball.overlaps(enclose(exact, symbols, bits=_BITS) if exact != 0 else arb(0)):
                 raise ArithmeticError(f"v_{j},{i} = {exact} lies outside its enclosure {ball}; please report this")
 
@@ -68,12 +74,11 @@ class _Panel:
     size: Any
 
 
-def enclose_coefficients(system: DitherSystem, symbols: Mapping[sp.Symbol, Any], hints: Sequence[sp.Expr] = ()) -> Any:
+def enclose_coefficients(system: DitherSystem, readers: Sequence[_Reader], hints: Sequence[sp.Expr] = ()) -> Any:
     """The matrix (flint ``arb_mat``, N × N) whose entry (j, i) contains v_ji."""
     from flint import arb, arb_mat
 
     count, nodes, weights, nested = len(system.dithers), *_rules()
-    readers = [_Reader(system, dither, symbols) for dither in system.dithers]
     total, error = arb_mat(count, count), arb_mat(count, count)
     before = arb_mat(count, 1)
     for left, right in _panels(system, hints, readers):
@@ -98,7 +103,7 @@ def enclose_coefficients(system: DitherSystem, symbols: Mapping[sp.Symbol, Any],
     return total * (1 / enclose(system.period, bits=_BITS))
 
 
-def _panels(system: DitherSystem, hints: Sequence[sp.Expr], readers: list[_Reader]) -> list[tuple[Any, Any]]:
+def _panels(system: DitherSystem, hints: Sequence[sp.Expr], readers: Sequence[_Reader]) -> list[tuple[Any, Any]]:
     """Consecutive panels on each of which every dither is well interpolated, or that are slivers."""
     from flint import arb
 
@@ -131,9 +136,14 @@ class _Reader:
     """Evaluates one dither on panels; switches are resolved where they are decided on the whole panel."""
 
     def __init__(self, system: DitherSystem, dither: sp.Expr, symbols: Mapping[sp.Symbol, Any]) -> None:
+        from flint import arb
+
         self.phase, self.symbols, self.dither = system.phase, dict(symbols), dither
         self.switches = switching.has_switch(dither, system.phase)
-        self.compiled = functools.cache(lambda expression: compile_entire(expression, _BITS))
+        whole = enclose(system.period, bits=_BITS) / 2
+        self.scale = self.largest(arb(whole.mid(), whole.abs_upper()))
+        self.target = enclose(_TARGET, bits=_BITS) * self.scale
+        self.compiled = functools.cache(lambda expression: compile_entire(expression, self.symbols, _BITS))
 
     def smooth(self, middle: Any, half: Any) -> Any:
         """The analytic function that the dither is on the panel, or None."""
@@ -147,7 +157,7 @@ class _Reader:
 
     def fits(self, middle: Any, half: Any) -> bool:
         function = self.smooth(middle, half)
-        return function is not None and bool(self.error(function, middle, half) < enclose(_TARGET, bits=_BITS))
+        return function is not None and bool(self.error(function, middle, half) < self.target)
 
     def error(self, function: Any, middle: Any, half: Any) -> Any:
         """A bound for the error of the interpolant of degree ``_DEGREE`` on the panel."""
@@ -155,7 +165,7 @@ class _Reader:
 
         wide, high = arb(_RHO + arb(1) / _RHO) / 2, arb(_RHO - arb(1) / _RHO) / 2
         box = acb(arb(middle.mid(), _radius(middle, half * wide)), arb(0, (half * high).abs_upper()))
-        size = acb(function({**self.symbols, self.phase: box})).abs_upper()
+        size = acb(function({self.phase: box})).abs_upper()
         return 4 * size / (arb(_RHO) ** _DEGREE * (_RHO - 1))
 
     def panel(self, middle: Any, half: Any, nodes: Sequence[Any]) -> _Panel:
@@ -166,8 +176,8 @@ class _Reader:
         if function is None:
             size = self.largest(ball)
             return _Panel(None, size, size)
-        values = [arb(function({**self.symbols, self.phase: middle + half * node})) for node in nodes]
-        size = arb(function({**self.symbols, self.phase: ball})).abs_upper()
+        values = [arb(function({self.phase: middle + half * node})) for node in nodes]
+        size = arb(function({self.phase: ball})).abs_upper()
         return _Panel(values, self.error(function, middle, half), size)
 
     def largest(self, ball: Any) -> Any:
@@ -187,6 +197,12 @@ def _radius(middle: Any, half: Any) -> Any:
 @functools.cache
 def _rules() -> tuple[list[Any], Any, Any]:
     """Chebyshev nodes on [−1, 1], weights of ∫ p, and Q with f·Q·g = ∫ p_f(t) ∫₋₁^t p_g for interpolants."""
+    # Lagrange's basis in powers of t loses most of the bits.
+    with precision(_RULE_BITS):
+        return _build_rules()
+
+
+def _build_rules() -> tuple[list[Any], Any, Any]:
     from flint import arb, arb_mat, arb_poly
 
     n = _DEGREE + 1

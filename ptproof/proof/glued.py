@@ -9,7 +9,7 @@ from sympy.core.relational import Relational
 
 from ptproof.proof.algebra import NotAlgebraic, is_zero
 
-_KINKS = (sp.Abs, sp.sign, sp.Heaviside, sp.Max, sp.Min, sp.Piecewise)
+KINKS = (sp.Abs, sp.sign, sp.Heaviside, sp.Max, sp.Min, sp.Piecewise)
 
 
 def glued_smoothly(
@@ -20,7 +20,7 @@ def glued_smoothly(
     ``is_smooth`` decides about expressions without these kinks. True is a proof: with D = E₊ − E₋ = g^(order+1) q
     and q smooth, the term is E₋ + max(g, 0)^(order+1) q, and the values on g = 0 are checked separately.
     """
-    kinks = [node for node in term.atoms(*_KINKS) if node.free_symbols & variables]
+    kinks = [node for node in term.atoms(*KINKS) if node.free_symbols & variables]
     sides = {_canonical(g) for node in kinks for g in _sides(node)}
     if len(sides) != 1 or None in sides:
         return False
@@ -61,8 +61,8 @@ def _sides(node: sp.Basic) -> list[sp.Expr | None]:
 
 
 def _innermost(expression: sp.Expr, variables: frozenset[sp.Symbol]) -> sp.Basic | None:
-    for node in expression.atoms(*_KINKS):
-        if node.free_symbols & variables and not any(arg.has(*_KINKS) for arg in node.args):
+    for node in expression.atoms(*KINKS):
+        if node.free_symbols & variables and not any(arg.has(*KINKS) for arg in node.args):
             return node
     return None
 

@@ -65,10 +65,12 @@ def _plain(expression: sp.Basic) -> set[AppliedUndef]:
 
 
 def _concrete(expression: sp.Basic) -> sp.Basic:
-    """Undefined functions become one fixed polynomial in their arguments."""
+    """Undefined functions become one fixed polynomial in their arguments, of their declared sign."""
     for applied in sorted(expression.atoms(AppliedUndef), key=str):
         places = [sp.Dummy(f"s{i}", real=True) for i in range(len(applied.args))]
-        polynomial = sp.Integer(2) + sum((i + 1) * place for i, place in enumerate(places))
+        power = 2 if applied.is_nonnegative or applied.is_nonpositive else 1
+        polynomial = sp.Integer(2) + sum((i + 1) * place**power for i, place in enumerate(places))
+        polynomial = -polynomial if applied.is_nonpositive else polynomial
         (expression,) = substitute([expression], {applied.func(*places): polynomial})
     return expression
 

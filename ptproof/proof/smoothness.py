@@ -11,7 +11,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 from sympy.core.relational import Relational
 
-from ptproof.proof.glued import glued_smoothly
+from ptproof.proof.glued import KINKS, glued_smoothly
 from ptproof.proof.reals import follows
 from ptproof.proof.singular import find_singularity
 from ptproof.proof.statement import Relation
@@ -71,25 +71,19 @@ def smoothness(
     """
     start = time.perf_counter()
     orders = {_key(function): value for function, value in (assumed or {}).items()}
-    needs = list(dict.fromkeys(_needs(sp.sympify(expression), frozenset(variables), order, orders)))
+    examiner = _Examiner(frozenset(variables), orders, tuple(domain))
     shown, left = [], []
-    for need in needs:
+    for need in dict.fromkeys(examiner.needs(sp.sympify(expression), order)):
         if need.relation is not None and _holds(need.relation, domain):
             shown.append(str(need.relation))
         else:
             left.append(need)
     if not left:
         detail = f"C^{order}: a composition of smooth functions"
+        if examiner.glued:
+            detail += f", {', '.join(map(str, examiner.glued))} glued to order {order}"
         if shown:
             detail += f", with {', '.join(shown)} on the whole domain"
-        return Evidence(ENGINE, Verdict.PROVED, detail, time.perf_counter() - start)
-    places = frozenset(variables)
-    terms = sp.Add.make_args(sp.sympify(expression))
-    if all(
-        _is_smooth(term, places, order, orders, domain) or _is_glued(term, places, order, orders, domain)
-        for term in terms
-    ):
-        detail = f"C^{order}: smooth pieces whose difference vanishes to order {order} where they meet"
         return Evidence(ENGINE, Verdict.PROVED, detail, time.perf_counter() - start)
     found = find_singularity(expression, variables, order, [need.node for need in left], domain)
     seconds = time.perf_counter() - start
@@ -102,29 +96,6 @@ def smoothness(
     return Evidence(ENGINE, Verdict.UNDECIDED, f"C^{order} not shown, it rests on {remaining}", seconds)
 
 
-def _is_smooth(
-    expression: sp.Expr,
-    variables: frozenset[sp.Symbol],
-    order: int,
-    orders: Mapping[str, Any],
-    domain: Sequence[Relation],
-) -> bool:
-    return all(
-        need.relation is not None and _holds(need.relation, domain)
-        for need in _needs(expression, variables, order, orders)
-    )
-
-
-def _is_glued(
-    term: sp.Expr,
-    variables: frozenset[sp.Symbol],
-    order: int,
-    orders: Mapping[str, Any],
-    domain: Sequence[Relation],
-) -> bool:
-    return glued_smoothly(term, variables, order, lambda entry: _is_smooth(entry, variables, order, orders, domain))
-
-
 def _key(function: Any) -> str:
     """Functions are matched by name: SymPy makes a new class for the same name with other assumptions."""
     if isinstance(function, AppliedUndef):
@@ -132,33 +103,87 @@ def _key(function: Any) -> str:
     return str(function)
 
 
-def _needs(node: sp.Basic, variables: frozenset[sp.Symbol], order: int, orders: Mapping[str, Any]) -> Iterator[_Need]:
-    if not node.free_symbols & variables or node.is_Symbol:
-        return
-    match node:
-        case sp.Pow():
-            yield from _power(node, variables, order, orders)
+class _Examiner:
+    """Walks through an expression and collects what has to hold for it to be smooth."""
+
+    def __init__(
+        self, variables: frozenset[sp.Symbol], orders: Mapping[str, Any], domain: tuple[Relation, ...]
+    ) -> None:
+        self.variables, self.orders, self.domain = variables, orders, domain
+        self.glued: list[sp.Expr] = []
+
+    def needs(self, node: sp.Basic, order: int) -> Iterator[_Need]:
+        if not node.free_symbols & self.variables or node.is_Symbol:
             return
-        case sp.Derivative():
-            inner, count = node.expr, sum(number for _, number in node.variable_count)
-            if isinstance(inner, AppliedUndef) and orders.get(str(inner.func), -1) >= order + count:
+        if not node.is_Add and node.has(*KINKS) and self.is_glued(node, order):
+            self.glued.append(node)
+            return
+        match node:
+            case sp.Pow():
+                yield from self.power(node, order)
                 return
-            yield _Need(node, None)
+            case sp.Derivative():
+                inner, count = node.expr, sum(number for _, number in node.variable_count)
+                if not (isinstance(inner, AppliedUndef) and self.order_of(inner) >= order + count):
+                    yield _Need(node, None)
+                    return
+                node = inner
+            case sp.Subs():
+                inside = _Examiner(frozenset(node.variables), self.orders, ())
+                yield from inside.needs(node.expr, order)
+                for point in node.point:
+                    yield from self.needs(point, order)
+                return
+            case sp.Piecewise():
+                yield from self.piecewise(node, order)
+                return
+            case AppliedUndef() if self.order_of(node) < order:
+                yield _Need(node, None)
+        for argument in node.args:
+            yield from self.needs(argument, order)
+        if order > 0 or not isinstance(node, sp.Abs | sp.Max | sp.Min):
+            yield from _own_needs(node)
+
+    def order_of(self, applied: AppliedUndef) -> Any:
+        return self.orders.get(str(applied.func), -1)
+
+    def is_smooth(self, expression: sp.Expr, order: int) -> bool:
+        return all(
+            need.relation is not None and _holds(need.relation, self.domain) for need in self.needs(expression, order)
+        )
+
+    def is_glued(self, node: sp.Expr, order: int) -> bool:
+        return glued_smoothly(node, self.variables, order, lambda entry: self.is_smooth(entry, order))
+
+    def power(self, node: sp.Pow, order: int) -> Iterator[_Need]:
+        base, exponent = node.base, node.exp
+        zero = sp.S.Zero
+        yield from self.needs(exponent, order)
+        if isinstance(base, sp.Abs) and exponent.is_Rational and exponent > order:  # |h|^p is C^k for p > k
+            yield from self.needs(base.args[0], order)
             return
-        case sp.Subs():
-            yield from _needs(node.expr, frozenset(node.variables), order, orders)
-            for point in node.point:
-                yield from _needs(point, variables, order, orders)
+        if base is sp.E:
             return
-        case sp.Piecewise():
-            yield from _piecewise(node, variables, order, orders)
+        yield from self.needs(base, order)
+        if exponent.is_integer and exponent.is_nonnegative:
             return
-        case AppliedUndef() if orders.get(str(node.func), -1) < order:
-            yield _Need(node, None)
-    for argument in node.args:
-        yield from _needs(argument, variables, order, orders)
-    if order > 0 or not isinstance(node, sp.Abs | sp.Max | sp.Min):
-        yield from _own_needs(node)
+        if exponent.is_integer:
+            yield _Need(node, Relation(base, "!=", zero))
+        elif order <= 2 and exponent.is_Rational and 2 * exponent > order:
+            # g ≥ 0 with |∇g|² ≤ C g near its zeros: g^q is C^1 for q > 1/2 and C^2 for q > 1.
+            yield from self.needs(base, 2)
+            yield _Need(node, Relation(zero, "<=", base))
+        else:
+            yield _Need(node, Relation(zero, "<", base))
+
+    def piecewise(self, node: sp.Piecewise, order: int) -> Iterator[_Need]:
+        for value, condition in node.args:
+            yield from self.needs(value, order)
+            for relation in condition.atoms(Relational):
+                difference = relation.lhs - relation.rhs
+                if difference.free_symbols & self.variables:
+                    yield from self.needs(difference, 0)
+                    yield _Need(node, Relation(difference, "!=", sp.S.Zero))
 
 
 def _own_needs(node: sp.Basic) -> Iterator[_Need]:
@@ -183,44 +208,6 @@ def _own_needs(node: sp.Basic) -> Iterator[_Need]:
             yield _Need(node, Relation(zero, "<", node.args[1]))
         case _:
             yield _Need(node, None)
-
-
-def _power(node: sp.Pow, variables: frozenset[sp.Symbol], order: int, orders: Mapping[str, Any]) -> Iterator[_Need]:
-    base, exponent = node.base, node.exp
-    zero = sp.S.Zero
-    yield from _needs(exponent, variables, order, orders)
-    if exponent.is_integer and exponent.is_nonnegative:
-        if isinstance(base, sp.Abs) and exponent > order:  # |h|^p is C^k for p > k
-            yield from _needs(base.args[0], variables, order, orders)
-        else:
-            yield from _needs(base, variables, order, orders)
-        return
-    if isinstance(base, sp.Abs) and exponent.is_Rational and exponent > order:
-        yield from _needs(base.args[0], variables, order, orders)
-        return
-    if base is sp.E:
-        return
-    yield from _needs(base, variables, order, orders)
-    if exponent.is_integer:
-        yield _Need(node, Relation(base, "!=", zero))
-    elif order <= 2 and exponent.is_Rational and 2 * exponent > order:
-        # g ≥ 0 with |∇g|² ≤ C g near its zeros: g^q is C^1 for q > 1/2 and C^2 for q > 1.
-        yield from _needs(base, variables, max(order, 2), orders)
-        yield _Need(node, Relation(zero, "<=", base))
-    else:
-        yield _Need(node, Relation(zero, "<", base))
-
-
-def _piecewise(
-    node: sp.Piecewise, variables: frozenset[sp.Symbol], order: int, orders: Mapping[str, Any]
-) -> Iterator[_Need]:
-    for value, condition in node.args:
-        yield from _needs(value, variables, order, orders)
-        for relation in condition.atoms(Relational):
-            difference = relation.lhs - relation.rhs
-            if difference.free_symbols & variables:
-                yield from _needs(difference, variables, 0, orders)
-                yield _Need(node, Relation(difference, "!=", sp.S.Zero))
 
 
 def _holds(relation: Relation, domain: Sequence[Relation]) -> bool:

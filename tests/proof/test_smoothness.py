@@ -18,6 +18,8 @@ SMOOTH = [
     sp.Abs(x) ** 3,
     x**2 * sp.Abs(x),
     sp.cos(k * sp.Abs(x)),
+    sp.sin(k * sp.Abs(x) ** 3) * sp.exp(y),
+    1 / (1 + sp.Abs(x) ** 3),
     1 / (1 + x**2 + y**2),
     (x**2 + y**2) ** sp.Rational(3, 2),
     sp.log(2 + sp.sin(x)),
@@ -41,6 +43,7 @@ NOT_SMOOTH = [
     sp.tan(x),
     1 / (x - y),
     1 / (x**2 - k),
+    sp.sin(k * x * sp.Abs(x)),
 ]
 
 
