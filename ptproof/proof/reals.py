@@ -22,7 +22,7 @@ from ptproof.proof.verdict import Evidence, Verdict
 SECONDS = 20.0
 
 
-def reals(goal: Goal, *lemmas: Implication, seconds: float = SECONDS) -> Evidence:
+def reals(goal: Goal, *lemmas: Implication, seconds: float | None = None) -> Evidence:
     """Show the goal's relations from its assumptions, the claims that it uses, and the ``lemmas``."""
     start = time.perf_counter()
     # The limits that the goal uses say nothing to z3.
@@ -51,12 +51,13 @@ def follows(
     assumptions: Sequence[Relation],
     facts: Sequence[Implication] = (),
     *,
-    seconds: float = SECONDS,
+    seconds: float | None = None,
 ) -> tuple[bool, str]:
     """Whether ``conclusion`` follows over the reals: (True, how) or (False, what was tried).
 
     It is tried without the facts first: fewer powers and products make an easier problem.
     """
+    seconds = SECONDS if seconds is None else seconds
     if facts:
         alone, how = _follows(conclusion, assumptions, (), min(seconds / 8, 1.0))
         if alone:

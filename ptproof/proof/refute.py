@@ -44,9 +44,10 @@ def refute(goal: Goal, values: Mapping[Any, Any]) -> Evidence:
     return Evidence("witness", Verdict.REFUTED, "the two sides differ at exact values", seconds, witness)
 
 
-def or_refute(goal: Goal, tried: Evidence, *, seconds: float = SEARCH_SECONDS) -> Evidence:
+def or_refute(goal: Goal, tried: Evidence, *, seconds: float | None = None) -> Evidence:
     """Look for a witness after a proof has failed; without one, the evidence of the failed proof stays."""
     start = time.perf_counter()
+    seconds = SEARCH_SECONDS if seconds is None else seconds
     if not isinstance(goal.statement, Relation | All):
         return tried
     count = 0

@@ -1,0 +1,46 @@
+"""Every proved claim of the paper has corrupted twins that are certainly false, and none of them is proved.
+
+A twin counts as certainly false when the refuting engine, which shares no code with the proving ones beyond
+exact evaluation, finds a witness. So the test would fail for a proof that does not look at its statement.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from mutations import mutants
+
+import ptproof.proof.reals
+import ptproof.proof.refute
+from ptproof.proof.claim import Claim
+from ptproof.proof.load import load
+from ptproof.proof.refute import or_refute
+from ptproof.proof.run import run_one
+from ptproof.proof.verdict import Evidence, Verdict
+
+CLAIMS = [claim for claim in load().claims if claim.expected is Verdict.PROVED]
+_NOT_TRIED = Evidence("none", Verdict.UNDECIDED, "")
+
+
+@pytest.fixture(autouse=True)
+def short_limits(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A failed proof is what is expected here, so it may give up early; that can only lose proofs."""
+    monkeypatch.setattr(ptproof.proof.reals, "SECONDS", 2.0)
+    monkeypatch.setattr(ptproof.proof.refute, "SEARCH_SECONDS", 0.3)
+
+
+@pytest.mark.parametrize("claim", CLAIMS, ids=lambda claim: claim.id)
+def test_corrupted_twin_is_not_proved(claim: Claim) -> None:
+    killed: list[Any] = []
+    for word, twin in mutants(claim):
+        found = run_one(twin)
+        if found.verdict is Verdict.PROVED:
+            # Some changes leave a true statement, such as a bound that is doubled; a false one must not be proved.
+            check = or_refute(twin.goal(), _NOT_TRIED, seconds=1.0)
+            assert check.verdict is not Verdict.REFUTED, f"proved and false: {word}: {twin.statement}: {check.witness}"
+            continue
+        killed.append((word, found.verdict))
+        if len(killed) >= 2:
+            break
+    assert killed, "every change of this claim is still proved: its proof does not look at it"
