@@ -14,6 +14,8 @@ from ptproof.proof.refute import or_refute
 from ptproof.proof.statement import Relation, relations_of
 from ptproof.proof.verdict import Evidence, Verdict
 
+_BINDERS = (sp.Derivative, sp.Integral, sp.Limit, sp.Subs, sp.Sum, sp.Product)
+
 
 def exact(goal: Goal) -> Evidence:
     """Show every equality of the goal; an assumption ``symbol = expression`` is substituted first."""
@@ -44,13 +46,45 @@ def definitions_in(goal: Goal) -> dict[sp.Expr, sp.Expr]:
 
 
 def resolve(expression: sp.Expr, given: Mapping[sp.Expr, sp.Expr]) -> sp.Expr:
-    """Replace until nothing changes; a circle of definitions is left as it is after as many rounds as there are."""
+    """Replace until nothing changes; a circle of definitions is left as it is after as many rounds as there are.
+
+    An assumption says that two values agree, not two functions: inside a derivative, an integral or a limit only
+    symbols are replaced, and only by what does not depend on the bound variables.
+    """
     for _ in range(len(given) + 1):
-        replaced = expression.xreplace(dict(given))
+        replaced = _replaced(expression, given)
         if replaced == expression:
             break
         expression = replaced
     return expression
+
+
+def _replaced(expression: sp.Expr, given: Mapping[sp.Expr, sp.Expr]) -> sp.Expr:
+    masks: dict[sp.Expr, sp.Expr] = {}
+    traversal = sp.preorder_traversal(expression)
+    for node in traversal:
+        if isinstance(node, _BINDERS):
+            masks[node] = sp.Dummy("bound", real=True)
+            traversal.skip()
+    outside = expression.xreplace(masks).xreplace(dict(given))
+    return outside.xreplace({mask: _replaced_inside(node, given) for node, mask in masks.items()})
+
+
+def _replaced_inside(node: sp.Expr, given: Mapping[sp.Expr, sp.Expr]) -> sp.Expr:
+    bound = {symbol for binder in node.atoms(*_BINDERS) for symbol in _bound(binder)}
+    constant = {
+        symbol: value for symbol, value in given.items()
+        if symbol.is_Symbol and not bound & {symbol, *value.free_symbols}
+    }  # fmt: skip
+    return node.xreplace(constant)
+
+
+def _bound(binder: sp.Basic) -> set[sp.Symbol]:
+    if isinstance(binder, sp.Derivative):
+        return set(binder.variables)
+    if isinstance(binder, sp.Limit):
+        return {binder.args[1]}
+    return set(binder.bound_symbols)
 
 
 def same(left: Any, right: Any) -> bool:
