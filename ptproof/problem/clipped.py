@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import sympy as sp
 
@@ -52,29 +53,29 @@ class ClippedClock:
     def start(self) -> sp.Expr:
         return self.clock.start
 
-    @property
+    @cached_property
     def corner_t(self) -> sp.Expr:
         """The instant from which on the gain is constant: t₀ + T(1 − ν_min)."""
         return self.start + self.clock.horizon * (1 - self.minimum)
 
-    @property
+    @cached_property
     def corner_tau(self) -> sp.Expr:
         """The same instant in τ."""
         return sp.factor(sp.cancel(self.clock.to_tau.subs(self.t, self.corner_t)))
 
-    @property
+    @cached_property
     def to_tau(self) -> sp.Expr:
         """a(t)."""
         late = self.corner_tau + (self.t - self.corner_t) / self.minimum**2
         return sp.Piecewise((self.clock.to_tau, self.t <= self.corner_t), (late, True))
 
-    @property
+    @cached_property
     def to_t(self) -> sp.Expr:
         """a⁻¹(τ)."""
         late = self.corner_t + (self.tau - self.corner_tau) * self.minimum**2
         return sp.Piecewise((self.clock.to_t, self.tau <= self.corner_tau), (late, True))
 
-    @property
+    @cached_property
     def rate_back(self) -> sp.Expr:
         """dt/dτ = max(ν_min, ν)², with ν as a function of τ."""
         nu = 1 - (self.clock.to_t - self.start) / self.clock.horizon

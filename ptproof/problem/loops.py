@@ -35,6 +35,7 @@ class parameters:
     t0, p0 = sp.symbols("t0 p0", real=True)
 
 
+@lru_cache(maxsize=256)
 def parameter_values(problem: Problem) -> Mapping[sp.Symbol, sp.Expr]:
     """The exact value of each of :class:`parameters` in ``problem``."""
     tuning, symbols = problem.tuning, parameters
@@ -52,6 +53,7 @@ def parameter_values(problem: Problem) -> Mapping[sp.Symbol, sp.Expr]:
     return MappingProxyType(values)
 
 
+@lru_cache(maxsize=256)
 def loop_letters(problem: Problem) -> Letters:
     """The states' letters; theta, z and u2 give way (theta_, …) where a coordinate has that name."""
     if len(problem.variables) != 2:
@@ -83,6 +85,7 @@ def _clock(clipped: bool) -> Clock | ClippedClock:
     return ClippedClock(clock, parameters.nu_min) if clipped else clock
 
 
+@lru_cache(maxsize=256)
 def gain_of(problem: Problem, seeker: str = "pt") -> sp.Expr:
     """K(t), symbolic: the seeker's gain."""
     clock = clock_of(problem, seeker)
@@ -131,6 +134,7 @@ def check_word(what: str, word: str, allowed: tuple[str, ...]) -> None:
         raise InputError(f"{what}: {word!r} is not one of {', '.join(allowed)}")
 
 
+@lru_cache(maxsize=256)
 def without_start(problem: Problem) -> Problem:
     """The problem without what its systems don't contain, so that problems that differ in it share one."""
     origin = replace(problem.initial, x=problem.source, theta=sp.S.Zero, z=None, u2=sp.S.Zero)

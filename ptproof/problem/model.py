@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import sympy as sp
@@ -160,7 +161,7 @@ class Problem:
         for where, point in (("field.source", source), ("initial.x", self.initial.x)):
             number_at(self.field, self.variables, point, f"field.expression at {where}")
 
-    @property
+    @cached_property
     def measured(self) -> sp.Expr:
         """z₀: the given filter state, or the field at the initial position."""
         if self.initial.z is not None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import difflib
 import tomllib
 from collections.abc import Callable, Mapping, Sequence
+from functools import lru_cache
 from importlib import resources
 from pathlib import Path
 from typing import Any
@@ -36,6 +37,7 @@ _RESERVED = {"t", "tau", "Piecewise", "Derivative", *FUNCTIONS, *CONSTANTS}
 _LARGEST_FILE = 1_000_000
 
 
+@lru_cache(maxsize=8)
 def example(name: str) -> Problem:
     """One of the paper's examples (Section 7): ``vanishing``, ``nonvanishing`` or ``saturated``, with exact numbers."""
     if name not in EXAMPLES:

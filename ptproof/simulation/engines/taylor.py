@@ -1,0 +1,201 @@
+"""heyoka's Taylor integrator: the fast engine, an extra, for systems whose kinks are known instants.
+
+On each smooth piece the choices in the right-hand side (Max, Min, Piecewise in the time alone) are made once, so
+that heyoka sees smooth expressions. Members run in SIMD batches of a fixed order; whatever a batch can't finish is run
+again on its own and gets its own outcome.
+"""
+
+from __future__ import annotations
+
+import copy
+import math
+import time as clock
+from concurrent.futures import ThreadPoolExecutor
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+import sympy as sp
+
+from ptproof.errors import InputError
+from ptproof.simulation.plan import Array, Batch, Finals, Outcome, Plan, Run, stopped
+from ptproof.simulation.translate import heyoka_rules, translate
+from ptproof.system import System
+
+_STEPS_A_CALL = 20_000
+_BATCH_STEPS = 200_000
+
+
+def chosen(system: System, time: float, values: tuple[float, ...]) -> System:
+    """``system`` with each Max, Min and Piecewise of the time alone replaced by its branch at ``time``."""
+    kinks = set().union(*(entry.atoms(sp.Max, sp.Min, sp.Piecewise, sp.Abs) for entry in system.rhs))
+    if not kinks:
+        return system
+    state = set(system.state)
+    point = {system.time: sp.Float(time, 17)}
+    point |= {symbol: sp.Float(value, 17) for symbol, value in zip(system.parameters or (), values, strict=True)}
+    choices = {}
+    for node in kinks:
+        if node.free_symbols & state:
+            raise InputError("heyoka can't follow a kink in the state (Max, Min, Abs, …); use the engine casadi")
+        choices[node] = _branch(node, point)
+    rhs = tuple(entry.xreplace(choices) for entry in system.rhs)
+    return System(system.time, system.state, rhs, system.parameters, name=system.name)
+
+
+def _branch(node: Any, point: dict[sp.Symbol, sp.Float]) -> sp.Expr:
+    if isinstance(node, sp.Piecewise):
+        return next(value for value, condition in (piece.args for piece in node.args) if condition.subs(point) == True)  # noqa: E712
+    values = [float(argument.subs(point)) for argument in node.args]
+    if isinstance(node, sp.Abs):
+        return node.args[0] if values[0] >= 0 else -node.args[0]
+    return node.args[int(np.argmax(values) if isinstance(node, sp.Max) else np.argmin(values))]
+
+
+@lru_cache(maxsize=64)
+def equations(system: System) -> tuple[list[tuple[Any, Any]], int]:
+    """heyoka's list of (variable, rate), and the number of parameters up to the last that occurs."""
+    import heyoka as hy
+
+    names = [f"x{i}" for i in range(system.dimension)]
+    made = hy.make_vars(*names)
+    variables = made if isinstance(made, list) else [made]
+    parameters = system.parameters or ()
+    table: dict[Any, Any] = {system.time: hy.time}
+    table |= dict(zip(system.state, variables, strict=True))
+    table |= {symbol: hy.par[i] for i, symbol in enumerate(parameters)}
+    used = set().union(*(entry.free_symbols for entry in system.rhs))
+    count = max((i + 1 for i, symbol in enumerate(parameters) if symbol in used), default=0)
+    return list(zip(variables, translate(system.rhs, table, heyoka_rules()), strict=True)), count
+
+
+@lru_cache(maxsize=64)
+def scalar(system: System, tolerance: float) -> Any:
+    """A compiled integrator for one trajectory."""
+    import heyoka as hy
+
+    odes, count = equations(system)
+    return hy.taylor_adaptive(odes, [0.0] * system.dimension, pars=[0.0] * count, tol=tolerance)
+
+
+@lru_cache(maxsize=64)
+def batched(system: System, tolerance: float) -> Any:
+    """A compiled integrator for as many trajectories as the processor's vectors hold."""
+    import heyoka as hy
+
+    odes, count = equations(system)
+    width = hy.recommended_simd_size()
+    return hy.taylor_adaptive_batch(
+        odes, np.zeros((system.dimension, width)), pars=np.zeros((count, width)), tol=tolerance
+    )
+
+
+def _tolerance(plan: Plan) -> float:
+    return max(plan.rtol / 10, 1e-16)
+
+
+class _Taylor:
+    name = "heyoka"
+
+    def trajectory(self, plan: Plan, member: Batch) -> Run:
+        """One run with samples; see :class:`ptproof.simulation.plan.Engine`."""
+        import heyoka as hy
+
+        deadline = clock.monotonic() + plan.time_limit
+        values = member.parameters[:, 0]
+        start = member.initial[:, 0]
+        times, columns = [member.edges[0, 0]], [start]
+        pieces, total = member.pieces(), float(member.edges[-1, 0] - member.edges[0, 0])
+        for a, b in pieces:
+            solver = scalar(chosen(plan.system, (a + b) / 2, tuple(values.tolist())), _tolerance(plan))
+            solver.time, solver.state[:], solver.pars[:] = a, columns[-1], values[: len(solver.pars)]
+            for target in np.linspace(a, b, max(1, math.ceil(plan.samples * (b - a) / total - 1e-9)) + 1)[1:]:
+                outcome = hy.taylor_outcome.step_limit
+                while outcome == hy.taylor_outcome.step_limit and clock.monotonic() <= deadline:
+                    outcome = solver.propagate_until(float(target), max_steps=_STEPS_A_CALL)[0]
+                    if plan.distance(solver.state) > plan.radius:
+                        break
+                times.append(float(solver.time))
+                columns.append(solver.state.copy())
+                if outcome == hy.taylor_outcome.time_limit and plan.distance(columns[-1]) <= plan.radius:
+                    continue
+                if plan.distance(columns[-1]) > plan.radius:
+                    word, message = Outcome.ESCAPED, f"left the ball of radius {plan.radius:.3g}"
+                else:
+                    late = outcome == hy.taylor_outcome.step_limit
+                    reason = f"time limit of {plan.time_limit:g} s" if late else "the state is not finite any more"
+                    word, message = stopped(plan, start, columns[-1], reason)
+                return Run(np.array(times), np.stack(columns, axis=1), word, message)
+        return Run(np.array(times), np.stack(columns, axis=1), Outcome.REACHED)
+
+    def finals(self, plan: Plan, batch: Batch, workers: int = 1) -> Finals:
+        """End states of many, in SIMD groups of a fixed order, spread over ``workers`` threads."""
+        import heyoka as hy
+
+        width = hy.recommended_simd_size()
+        groups = [np.arange(first, first + width) for first in range(0, batch.size, width)]
+        time, x = batch.edges[-1].copy(), np.empty_like(batch.initial)
+        solvers = _piece_solvers(plan, batch)
+
+        def work(share: list[Any], own: list[Any]) -> list[int]:
+            return [i for group in share for i in _group(plan, batch, own, group, x)]
+
+        if workers == 1 or len(groups) < 2 * workers:
+            unfinished = work(groups, solvers)
+        else:
+            # Each thread has integrators of its own; heyoka lets other threads run while it integrates.
+            with ThreadPoolExecutor(workers) as pool:
+                shares = [
+                    pool.submit(work, groups[w::workers], [copy.deepcopy(solver) for solver in solvers])
+                    for w in range(workers)
+                ]
+            unfinished = sorted(i for share in shares for i in share.result())
+        outcomes = [Outcome.REACHED] * batch.size
+        for i in unfinished:
+            run = self.trajectory(plan, batch.member(i))
+            time[i], x[:, i], outcomes[i] = run.time[-1], run.x[:, -1], run.outcome
+        return Finals(time, x, tuple(outcomes))
+
+
+def _group(plan: Plan, batch: Batch, solvers: list[Any], group: Any, x: Array) -> list[int]:
+    """Integrate one group into ``x``; the members of a group that didn't get through are returned."""
+    import heyoka as hy
+
+    # The last group is filled up with copies of its last member.
+    index = np.minimum(group, batch.size - 1)
+    kept = index[: max(0, min(len(group), batch.size - int(group[0])))]
+    state = batch.initial[:, index]
+    for piece, solver in enumerate(solvers):
+        solver.set_time(batch.edges[piece, index])
+        solver.state[:], solver.pars[:] = state, batch.parameters[: len(solver.pars), index]
+        solver.propagate_until(batch.edges[piece + 1, index].tolist(), max_steps=_BATCH_STEPS)
+        state = solver.state
+        through = all(result[0] == hy.taylor_outcome.time_limit for result in solver.propagate_res)
+        if not through or not np.all(plan.distance(state) <= plan.radius):
+            return [int(i) for i in kept]
+    x[:, kept] = state[:, : len(kept)]
+    return []
+
+
+def _piece_solvers(plan: Plan, batch: Batch) -> list[Any]:
+    """One batch integrator per piece; the pieces' branches must be the same for all members."""
+    solvers = []
+    for a, b in zip(batch.edges[:-1], batch.edges[1:], strict=True):
+        if not np.all(b > a):
+            raise InputError("heyoka: some members have a kink in time where others have none; use the engine casadi")
+        middle, values = float((a[0] + b[0]) / 2), tuple(batch.parameters[:, 0].tolist())
+        solvers.append(batched(chosen(plan.system, middle, values), _tolerance(plan)))
+    return solvers
+
+
+def follows(system: System) -> bool:
+    """Whether heyoka can take ``system``: kinks in the time alone, and functions that it has."""
+    try:
+        middle = tuple(0.5 for _ in system.parameters or ())
+        equations(chosen(system, 0.0, middle))
+    except InputError:
+        return False
+    return True
+
+
+TAYLOR = _Taylor()

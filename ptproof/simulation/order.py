@@ -1,0 +1,214 @@
+"""Whether an average describes a system: the gap between them must fall like a power of ω that theory names."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import sympy as sp
+
+from ptproof.errors import InputError
+from ptproof.simulation.plan import Array, Outcome
+from ptproof.simulation.run import simulate
+from ptproof.simulation.setup import as_float, by_name
+from ptproof.simulation.trajectory import Trajectory
+from ptproof.system import DitherSystem, System
+
+if TYPE_CHECKING:
+    from ptproof.averaging.correction import Correction
+
+LADDER = (100.0, 200.0, 400.0, 800.0, 1600.0)
+_SLACK = 0.1
+_SAMPLES_A_TURN = 16
+
+
+@dataclass(frozen=True)
+class GapOrder:
+    """The largest gap over an interval for a ladder of ω, and the power of ω that fits it.
+
+    Attributes
+    ----------
+    omegas, gaps
+        The ladder and the largest distance between system and average on it; NaN where a run did not get through.
+    slope, intercept, spread
+        log gap ≈ intercept + slope · log ω by least squares, and the standard error of the slope.
+    tail
+        The slope between the last two rungs: a gap that stops falling shows here first.
+    expected
+        The theoretical slope: −1/2 for an average, −1 for one with its first correction.
+    """
+
+    omegas: tuple[float, ...]
+    gaps: tuple[float, ...]
+    slope: float
+    intercept: float
+    spread: float
+    tail: float
+    expected: float
+    message: str = ""
+
+    @property
+    def agrees(self) -> bool:
+        """Whether the gap falls at least as fast as expected, over the ladder and at its end (within 0.1)."""
+        return max(self.slope, self.tail) <= self.expected + _SLACK and self.spread <= _SLACK
+
+    def to_json(self) -> dict[str, Any]:
+        """The whole as data."""
+        return {
+            "omegas": list(self.omegas), "gaps": list(self.gaps), "slope": self.slope, "spread": self.spread,
+            "tail": self.tail, "expected": self.expected, "agrees": self.agrees,
+        }  # fmt: skip
+
+    def plot(self, ax: Any = None) -> Any:
+        """The ladder with the fitted and the expected slope; the Matplotlib ``Axes``."""
+        from ptproof.simulation.figures import draw_order
+
+        return draw_order(self, ax)
+
+
+def gap_order(
+    system: DitherSystem | System,
+    average: System | Correction,
+    *,
+    initial: Mapping[Any, Any] | Sequence[Any],
+    end: Any,
+    start: Any = 0,
+    omega: sp.Symbol | None = None,
+    values: Mapping[Any, Any] | None = None,
+    omegas: Sequence[float] = LADDER,
+    expected: float | None = None,
+    rtol: float = 1e-9,
+    engine: str | None = None,
+    time_limit: float = 60.0,
+) -> GapOrder:
+    """Measure how the gap between a dithered system and its average falls with ω.
+
+    Parameters
+    ----------
+    system
+        A dither system, or any system in which ``omega`` is a parameter, such as a closed loop in τ with its filter.
+    average
+        A system whose states are among the first's, by name; or a ``Correction``, to first order.
+    initial
+        The system's initial state, in order or by name; the average starts in its part of it.
+    start, end
+        The fixed interval of time.
+    values
+        Values for parameters and undefined functions of both; they may contain ω, such as ``{mu: omega**-2 / 5}``, a
+        filter so fast that it does not interfere with the order.
+    omegas
+        The ladder, increasing.
+    expected
+        −1/2 for a plain average and −1 for a ``Correction`` if left out.
+
+    Returns
+    -------
+    GapOrder
+        ``agrees`` says whether the theoretical order was met. A wrong average leaves a gap that does not fall.
+
+    Raises
+    ------
+    InputError
+        If states or parameters don't fit.
+    """
+    ladder = tuple(as_float(value, "omegas") for value in omegas)
+    if len(ladder) < 3 or any(b <= a for a, b in zip(ladder, ladder[1:], strict=False)) or ladder[0] <= 0:
+        raise InputError("omegas: expected at least three positive numbers in increasing order")
+    symbol = omega if omega is not None else getattr(system, "omega", None) or sp.Symbol("omega", positive=True)
+    values = dict(values or {})
+    full = _filled(system.to_system() if isinstance(system, DitherSystem) else system, values)
+    begin, stop = as_float(start, "start"), as_float(end, "end")
+    names = [state.name for state in full.state]
+    table = by_name(initial) if isinstance(initial, Mapping) else dict(zip(names, initial, strict=False))
+    plain = isinstance(average, System)
+    slow = _filled(average if plain else average.corrected_average, values)
+    correct = None if plain else _correction(average, values)
+    shared = [state.name for state in slow.state]
+    if missing := [name for name in shared if name not in names]:
+        raise InputError(f"{slow.name}: {', '.join(missing)} is not a state of {full.name}")
+    gaps, message = [], ""
+    for rung in ladder:
+        samples = min(200_000, max(400, math.ceil(_SAMPLES_A_TURN * rung * (stop - begin) / (2 * math.pi))))
+        options: dict[str, Any] = {
+            "span": (begin, stop), "samples": samples, "rtol": rtol, "engine": engine, "time_limit": time_limit,
+        }  # fmt: skip
+        fast = _run(full, {name: table[name] for name in names if name in table}, symbol, rung, options)
+        x0 = {name: as_float(table[name], f"initial.{name}") for name in shared if name in table}
+        if correct is not None:
+            x0 = dict(zip(shared, correct.start([x0[name] for name in shared], begin, rung), strict=True))
+        mean = _run(slow, x0, symbol, rung, options)
+        if fast.outcome is not Outcome.REACHED or mean.outcome is not Outcome.REACHED:
+            message = f"at omega = {rung:g} the system ended as {fast.outcome!s}, the average as {mean.outcome!s}"
+            gaps.append(math.nan)
+            continue
+        expectation = mean.x if correct is None else correct.along(mean.t, mean.x, rung)
+        rows = [names.index(name) for name in shared]
+        gaps.append(float(np.max(np.linalg.norm(fast.x[rows] - expectation, axis=0))))
+    wanted = expected if expected is not None else (-0.5 if plain else -1.0)
+    return fit_order(ladder, tuple(gaps), wanted, message)
+
+
+def fit_order(omegas: Sequence[float], gaps: Sequence[float], expected: float, message: str = "") -> GapOrder:
+    """The straight line through (log ω, log gap) and the standard error of its slope; NaN if a gap is not positive."""
+    if not all(math.isfinite(gap) and gap > 0 for gap in gaps):
+        return GapOrder(tuple(omegas), tuple(gaps), math.nan, math.nan, math.inf, math.nan, expected, message)
+    x, y = np.log(omegas), np.log(gaps)
+    design = np.stack([x, np.ones_like(x)], axis=1)
+    (slope, intercept), *_ = np.linalg.lstsq(design, y, rcond=None)
+    residual = y - design @ np.array([slope, intercept])
+    spread = math.sqrt(float(residual @ residual) / max(1, len(x) - 2) / float(np.sum((x - x.mean()) ** 2)))
+    tail = float((y[-1] - y[-2]) / (x[-1] - x[-2]))
+    return GapOrder(tuple(omegas), tuple(gaps), float(slope), float(intercept), spread, tail, expected, message)
+
+
+def _filled(system: System, values: Mapping[Any, Any]) -> System:
+    return system.with_values(values) if values else system
+
+
+def _run(system: System, initial: Mapping[str, Any], omega: sp.Symbol, rung: float, options: Any) -> Trajectory:
+    given = {omega.name: rung} if omega in (system.parameters or ()) else {}
+    result = simulate(system, initial=initial, parameters=given, **options)
+    assert isinstance(result, Trajectory)
+    return result
+
+
+@dataclass(frozen=True)
+class _Numbers:
+    """A correction as functions of numbers."""
+
+    start: Callable[[Sequence[float], float, float], list[float]]
+    along: Callable[[Array, Array, float], Array]
+
+
+def _correction(correction: Correction, values: Mapping[Any, Any]) -> _Numbers:
+    from ptproof.system import substitute
+
+    system = correction.system
+    arguments = (system.time, system.state, system.omega)
+    start = sp.lambdify(arguments, list(substitute(correction.initial_state, values)), modules="numpy")
+    along = sp.lambdify(arguments, list(substitute(correction.expressions, values)), modules="numpy", cse=True)
+
+    def evaluate(t: Array, x: Array, omega: float) -> Array:
+        return np.array([np.broadcast_to(row, t.shape) for row in along(t, tuple(x), omega)])
+
+    return _Numbers(lambda x, t, omega: [float(value) for value in start(t, tuple(x), omega)], evaluate)
+
+
+def hover_radius(omega: Any) -> Any:
+    """1/√ω: the leading term of the distance at which the seeker stays from the source, its average having arrived.
+
+    Derivation. With θ = p₀ + ωτ − kF(x), the reduced model is dx/dτ = drift + √ω (cos θ, sin θ). Its first correction
+    is the antiderivative of zero mean of the dither, (sin θ, −cos θ)/√ω, a vector of length exactly 1/√ω
+    whatever F, k and p₀ are, so that x = x̄ + (sin θ, −cos θ)/√ω + O(1/ω): where x̄ = x*, |x − x*| = 1/√ω + O(1/ω).
+    For a radial field without drift the circle of radius 1/√ω around the source is itself a solution, with its
+    filter at rest: F does not change along it, the heading turns at the rate ω, and the speed is √ω = ω/√ω. The
+    term does not depend on k, T or the gain; a filter of time constant μ changes it by terms in μω.
+
+    Works for numbers, arrays and symbols.
+    """
+    if isinstance(omega, sp.Basic):
+        return 1 / sp.sqrt(omega)
+    return 1 / np.sqrt(omega)

@@ -1,0 +1,288 @@
+"""From a problem, or a system, to what an engine is asked: parameters, time span, kinks and initial states by name."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+import sympy as sp
+
+from ptproof.errors import InputError
+from ptproof.parse import parse
+from ptproof.problem import Problem, parameters
+from ptproof.problem.clipped import ClippedClock
+from ptproof.problem.loops import TAU, clock_of, gain_of, loop_letters
+from ptproof.problem.model import TIME
+from ptproof.seekers import feedback
+from ptproof.simulation.plan import Array
+from ptproof.system import System
+
+MODELS = ("closed loop", "reduced model", "average")
+LARGEST = 1e15
+# How close an unclipped gain, infinite at T, is followed towards it.
+NU_END = {"closed loop": 0.01, "reduced model": 0.01, "average": 1e-4}
+
+
+@dataclass(frozen=True)
+class Setup:
+    """One question to an engine, with everything by name.
+
+    Attributes
+    ----------
+    system
+        With symbolic parameters.
+    defaults
+        The value of each parameter and of each initial state that is not computed from others, by name.
+    initial
+        The initial states (n × N) from a table of values by name (N each).
+    edges
+        Start, kinks and end (q × N) from the same table.
+    position
+        Indices of the states whose distance to ``source`` counts.
+    complete
+        Whether the end is T itself; False where the gain is infinite there.
+    to_t, to_tau
+        Maps between the run's own time and t, τ for arrays, given the parameters of one member.
+    """
+
+    system: System
+    defaults: Mapping[str, float]
+    initial: Callable[[Mapping[str, Array]], Array]
+    edges: Callable[[Mapping[str, Array]], Array]
+    position: tuple[int, ...]
+    source: tuple[float, ...]
+    complete: bool = True
+    note: str = ""
+    to_t: Callable[[Array, Mapping[str, Any]], Array] | None = None
+    to_tau: Callable[[Array, Mapping[str, Any]], Array] | None = None
+    field_at: Callable[[Array], Array] | None = None
+    inputs_at: Callable[[Array, Array, Mapping[str, float]], dict[str, Array]] | None = None
+    free: tuple[str, ...] = field(default=())
+
+
+def as_float(value: Any, where: str) -> float:
+    """A finite number from a number, exact expression or text; refused otherwise."""
+    if isinstance(value, str):
+        value = parse(value, where=where)
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        raise InputError(f"{where}: expected a number, got {value!r}") from None
+    if not np.isfinite(number) or abs(number) > LARGEST:
+        raise InputError(f"{where}: expected a finite number up to {LARGEST:g}, got {value}")
+    return number
+
+
+def by_name(values: Mapping[Any, Any]) -> dict[str, Any]:
+    """The same mapping with symbols as keys replaced by their names."""
+    return {key.name if isinstance(key, sp.Symbol) else str(key): value for key, value in values.items()}
+
+
+def from_system(system: System, initial: Any, span: tuple[Any, Any] | None, values: Mapping[Any, Any] | None) -> Setup:
+    """The setup of a bare system: initial states in order or by name, the time span, and the parameters by name."""
+    if system.undefined_functions:
+        undefined = ", ".join(map(str, system.undefined_functions))
+        raise InputError(f"{system.name}: {undefined} undefined; put expressions in with with_values before simulating")
+    states = [symbol.name for symbol in system.state]
+    if initial is None or span is None:
+        raise InputError(f"{system.name}: a system needs initial= (states {', '.join(states)}) and span=(start, end)")
+    if isinstance(initial, Mapping):
+        given = by_name(initial)
+    else:
+        entries: list[Any] = list(initial)
+        if len(entries) != len(states):
+            raise InputError(f"initial: {len(entries)} numbers for {len(states)} states ({', '.join(states)})")
+        given = dict(zip(states, entries, strict=True))
+    parameters_given: dict[str, Any] = by_name(values or {})
+    names = [symbol.name for symbol in system.parameters or ()]
+    for what, found, wanted in (("initial", given, states), ("parameters", parameters_given, names)):
+        if absent := [name for name in wanted if name not in found]:
+            raise InputError(f"{what}: no value for {', '.join(absent)}")
+        extra = [name for name in found if name not in wanted]
+        if extra:
+            raise InputError(f"{what}: {', '.join(extra)} is not one of {', '.join(wanted) or 'none'}")
+    if len(span) != 2:
+        raise InputError("span: expected (start, end)")
+    start, end = (as_float(value, "span") for value in span)
+    if not end > start:
+        raise InputError(f"span: must end after it starts, got {start:g} to {end:g}")
+    defaults = {name: as_float(value, f"initial.{name}") for name, value in given.items()}
+    defaults |= {name: as_float(value, f"parameters.{name}") for name, value in parameters_given.items()}
+
+    def edges(table: Mapping[str, Array]) -> Array:
+        size = len(next(iter(table.values())))
+        return np.array([np.full(size, start), np.full(size, end)])
+
+    return Setup(
+        system, defaults, lambda table: np.array([table[name] for name in states]), edges,
+        tuple(range(system.dimension)), (0.0,) * system.dimension, free=tuple(defaults),
+    )  # fmt: skip
+
+
+def from_problem(
+    problem: Problem, seeker: str, frame: str, coordinates: str, model: str, until: Any, nu_end: float | None
+) -> Setup:
+    """The setup of a problem's closed loop, reduced model or average."""
+    if model not in MODELS:
+        raise InputError(f"model: {model!r} is not one of {', '.join(MODELS)}")
+    if model == "closed loop":
+        system = problem.closed_loop(seeker, frame, coordinates=coordinates, symbolic=True)
+    else:
+        derive = problem.reduced_model if model == "reduced model" else problem.averaged
+        system = derive(seeker, frame, symbolic=True)
+    letters = loop_letters(problem)
+    names = [symbol.name for symbol in problem.variables]
+    x1, x2 = names
+    theta, z, u2 = letters.heading.name, letters.filter.name, letters.angular_velocity.name
+    defaults = {symbol.name: float(value) for symbol, value in problem.values.items() if symbol != parameters.p0}
+    start = problem.initial
+    defaults |= {name: float(value) for name, value in zip(names, start.x, strict=True)}
+    defaults |= {theta: float(start.theta), u2: float(start.u2)}
+    if start.z is not None:
+        defaults[z] = float(start.z)
+    field_at = field_function(problem)
+
+    def completed(table: Mapping[str, Array]) -> dict[str, Array]:
+        full = dict(table)
+        if z not in full:
+            # The filter starts at the measured field of each member's own position.
+            full[z] = field_at(np.array([full[x1], full[x2]]))
+        full["p0"] = full[theta] + full["k"] * full[z]
+        return full
+
+    complete = until is not None or problem.tuning.nu_min is not None or clock_of(problem, seeker) is None
+    last = as_float(until, "until") if until is not None else None
+    ending = _Ending(problem, seeker, frame, last, complete, NU_END[model] if nu_end is None else nu_end)
+    clock = clock_of(problem, seeker)
+    note = "" if complete else ending.note
+    full = model == "closed loop" and coordinates == "full"
+    inputs_at = input_function(problem, seeker, system) if full else None
+    return Setup(
+        system, defaults,
+        initial=lambda table: np.array([completed(table)[symbol.name] for symbol in system.state]),
+        edges=ending, position=(0, 1), source=tuple(float(value) for value in problem.source),
+        complete=complete, note=note,
+        to_t=_identity if clock is None or frame == "t" else _time_map(clock.to_t, TAU),
+        to_tau=_identity if clock is None or frame == "tau" else _time_map(clock.to_tau, TIME),
+        field_at=field_at,
+        inputs_at=inputs_at, free=(*defaults, *([] if z in defaults else [z])),
+    )  # fmt: skip
+
+
+def completed_parameters(setup: Setup, problem: Problem | None, table: Mapping[str, Array]) -> Array:
+    """The parameter values (m × N) in the system's order; p₀ follows from heading and filter of each member."""
+    full = dict(table)
+    names = [symbol.name for symbol in setup.system.parameters or ()]
+    if "p0" in names and problem is not None:
+        letters = loop_letters(problem)
+        theta, z = letters.heading.name, letters.filter.name
+        position = np.array([full[symbol.name] for symbol in problem.variables])
+        measured = full[z] if z in full else field_function(problem)(position)
+        full["p0"] = full[theta] + full["k"] * measured
+    size = len(next(iter(full.values())))
+    return np.array([full[name] for name in names]).reshape(len(names), size)
+
+
+@dataclass(frozen=True)
+class _Ending:
+    """Start, kink and end of each member, in the frame's own time."""
+
+    problem: Problem
+    seeker: str
+    frame: str
+    until: float | None
+    complete: bool
+    nu_end: float
+
+    @property
+    def note(self) -> str:
+        return (
+            f"the gain is not clipped and infinite at T, so that no run gets there; this one was asked as far as "
+            f"nu = {self.nu_end:g}"
+        )
+
+    def __call__(self, table: Mapping[str, Array]) -> Array:
+        start, horizon = table["t0"], table["T"]
+        end = start + horizon if self.until is None else np.full_like(start, self.until)
+        if self.until is not None and np.any(end <= start):
+            raise InputError(f"until: must be after the start t0 = {start.min():g}, got {self.until:g}")
+        clock = clock_of(self.problem, self.seeker)
+        if clock is None:
+            return np.array([start, end])
+        if not isinstance(clock, ClippedClock):
+            last = start + horizon * (1 - self.nu_end)
+            end = last if self.until is None else np.minimum(end, last)
+            return self._in_frame(np.array([start, end]), table)
+        corner = np.clip(start + horizon * (1 - table["nu_min"]), start, end)
+        return self._in_frame(np.array([start, corner, end]), table)
+
+    def _in_frame(self, edges: Array, table: Mapping[str, Array]) -> Array:
+        if self.frame == "t":
+            return edges
+        clock = clock_of(self.problem, self.seeker)
+        assert clock is not None
+        to_tau = _time_map(clock.to_tau, TIME)
+        return np.array([to_tau(row, table) for row in edges])
+
+
+def _identity(times: Array, _: Mapping[str, Any]) -> Array:
+    return times
+
+
+@lru_cache(maxsize=16)
+def _time_map(expression: sp.Expr, variable: sp.Symbol) -> Callable[[Array, Mapping[str, Any]], Array]:
+    symbols = [parameters.t0, parameters.T, parameters.nu_min]
+    function = sp.lambdify([variable, *symbols], expression, modules="numpy")
+
+    def evaluate(times: Array, table: Mapping[str, Any]) -> Array:
+        values = [table.get(symbol.name, 1.0) for symbol in symbols]
+        with np.errstate(all="ignore"):
+            return np.asarray(function(times, *values), dtype=float) + 0.0 * times
+
+    return evaluate
+
+
+@lru_cache(maxsize=64)
+def _vectorised(expression: sp.Expr, variables: tuple[sp.Symbol, ...]) -> Callable[..., Any]:
+    return sp.lambdify(variables, expression, modules="numpy", cse=True)
+
+
+def field_function(problem: Problem) -> Callable[[Array], Array]:
+    """F for arrays of positions (n × …)."""
+    function = _vectorised(problem.field, problem.variables)
+
+    def evaluate(x: Array) -> Array:
+        with np.errstate(all="ignore"):
+            return np.asarray(function(*x), dtype=float) + 0.0 * x[0]
+
+    return evaluate
+
+
+def input_function(
+    problem: Problem, seeker: str, system: System
+) -> Callable[[Array, Array, Mapping[str, float]], dict[str, Array]]:
+    """The inputs u₁ and u₂ (and the angular acceleration a) along a run in full coordinates, from t and x."""
+    letters, symbols = loop_letters(problem), parameters
+    law = feedback(problem.field, letters.filter, symbols.k, symbols.omega, symbols.mu, gain_of(problem, seeker))
+    wanted = {"u1": law.forward, "u2": law.angular}
+    if seeker.startswith("saturated"):
+        loop = problem.closed_loop(seeker, "t", symbolic=True)
+        wanted = {"u1": law.forward, "a": loop.rhs[loop.state.index(letters.angular_velocity)]}
+    order = (
+        symbols.k, symbols.omega, symbols.mu, symbols.T, symbols.nu_min, symbols.epsilon, symbols.level,
+        symbols.gain, symbols.t0,
+    )  # fmt: skip
+    functions = {name: _vectorised(expression, (TIME, *system.state, *order)) for name, expression in wanted.items()}
+
+    def evaluate(t: Array, x: Array, table: Mapping[str, float]) -> dict[str, Array]:
+        values = [table.get(symbol.name, 1.0) for symbol in order]
+        with np.errstate(all="ignore"):
+            return {
+                name: np.asarray(function(t, *x, *values), dtype=float) + 0.0 * t
+                for name, function in functions.items()
+            }
+
+    return evaluate

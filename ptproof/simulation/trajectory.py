@@ -1,0 +1,172 @@
+"""What a simulation gives back: a trajectory, or an ensemble of end states."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ptproof.errors import InputError
+from ptproof.simulation.plan import Array, Outcome
+
+
+@dataclass(frozen=True)
+class Trajectory:
+    """One run.
+
+    Attributes
+    ----------
+    t
+        Times (m), increasing, in the original time t of a problem, or in the system's own time.
+    x
+        States (n × m), row i being ``states[i]``.
+    states
+        The states' names.
+    outcome, message
+        How it ended, and why if it did not reach T.
+    final_distance
+        ‖x − x*‖ at the end for a problem; for a system the norm of its last state.
+    tau
+        The dilated times (m) of a problem's run, else None.
+    field
+        F along the run (m) of a problem, else None.
+    inputs
+        By name: u1 and u2, and for a saturated seeker the angular acceleration a (m each).
+    settings
+        Everything that repeats the run: seeker, frame, engine, tolerances, parameters.
+    seconds
+        The wall time of the integration.
+    """
+
+    t: Array
+    x: Array
+    states: tuple[str, ...]
+    outcome: Outcome
+    final_distance: float
+    message: str = ""
+    tau: Array | None = None
+    field: Array | None = None
+    inputs: Mapping[str, Array] = dataclasses.field(default_factory=dict)
+    settings: Mapping[str, Any] = dataclasses.field(default_factory=dict)
+    seconds: float = 0.0
+
+    def __post_init__(self) -> None:
+        if self.x.shape != (len(self.states), len(self.t)):
+            raise ValueError(f"x is {self.x.shape}, expected {(len(self.states), len(self.t))}")
+
+    def __getitem__(self, name: str) -> Array:
+        """The samples (m) of the state, or input, ``name``; ``field``, ``t`` and ``tau`` work too."""
+        if name in self.states:
+            return np.asarray(self.x[self.states.index(name)])
+        if name in self.inputs:
+            return self.inputs[name]
+        found = {"t": self.t, "tau": self.tau, "field": self.field}.get(name)
+        if found is None:
+            known = ", ".join([*self.states, *self.inputs, "t"])
+            raise InputError(f"{name!r} is not part of this trajectory (known: {known})")
+        return found
+
+    @property
+    def final(self) -> Mapping[str, float]:
+        """The last instant: t, each state, and field and distance where they are known."""
+        last = {"t": float(self.t[-1])} | {name: float(self.x[i, -1]) for i, name in enumerate(self.states)}
+        if self.field is not None:
+            last["field"] = float(self.field[-1])
+        return last | {"distance": self.final_distance}
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draw the path in the plane (two positions), or the states against time; the Matplotlib ``Axes``."""
+        from ptproof.simulation.figures import draw_trajectory
+
+        return draw_trajectory(self, ax)
+
+    def _repr_png_(self) -> bytes:
+        from ptproof.simulation.figures import png
+
+        return png(self.plot().figure)
+
+    def _repr_html_(self) -> str:
+        rows = "".join(f"<tr><td>{name}</td><td>{value:.6g}</td></tr>" for name, value in self.final.items())
+        caption = f"{self.settings.get('example', 'trajectory')}: {self.outcome}"
+        if self.message:
+            caption += f" ({self.message})"
+        return f"<table><caption>{caption}</caption>{rows}</table>"
+
+    def __repr__(self) -> str:
+        return (
+            f"Trajectory({', '.join(self.states)}; {len(self.t)} samples to t = {self.t[-1]:.6g}, "
+            f"{self.outcome}, final distance {self.final_distance:.6g})"
+        )
+
+
+@dataclass(frozen=True)
+class Ensemble:
+    """Many runs' ends.
+
+    Attributes
+    ----------
+    t, x, outcomes, distances
+        End times (N), end states (n × N), outcomes (N) and final distances (N), member by member.
+    varied
+        What differed, by name: N values each.
+    states, settings, seconds
+        As for :class:`Trajectory`.
+    """
+
+    t: Array
+    x: Array
+    states: tuple[str, ...]
+    outcomes: tuple[Outcome, ...]
+    distances: Array
+    varied: Mapping[str, Array]
+    settings: Mapping[str, Any] = dataclasses.field(default_factory=dict)
+    seconds: float = 0.0
+
+    @property
+    def size(self) -> int:
+        return len(self.outcomes)
+
+    @property
+    def counts(self) -> Mapping[str, int]:
+        """How many members ended in each outcome; outcomes that did not occur are left out."""
+        return dict(sorted(Counter(str(outcome) for outcome in self.outcomes).items()))
+
+    @property
+    def median(self) -> float:
+        """The median final distance over all members, wherever they ended."""
+        return float(np.median(self.distances))
+
+    @property
+    def q95(self) -> float:
+        """The 95 % quantile of the final distance."""
+        return float(np.quantile(self.distances, 0.95))
+
+    @property
+    def max(self) -> float:
+        """The largest final distance."""
+        return float(np.max(self.distances))
+
+    def plot(self, ax: Any = None) -> Any:
+        """A histogram of the final distances; the Matplotlib ``Axes``."""
+        from ptproof.simulation.figures import draw_ensemble
+
+        return draw_ensemble(self, ax)
+
+    def _repr_png_(self) -> bytes:
+        from ptproof.simulation.figures import png
+
+        return png(self.plot().figure)
+
+    def _repr_html_(self) -> str:
+        rows = {"members": self.size, **self.counts} | {
+            f"distance, {name}": f"{getattr(self, name):.6g}" for name in ("median", "q95", "max")
+        }
+        return "<table>" + "".join(f"<tr><td>{k}</td><td>{v}</td></tr>" for k, v in rows.items()) + "</table>"
+
+    def __repr__(self) -> str:
+        counts = ", ".join(f"{count} {word}" for word, count in self.counts.items())
+        return f"Ensemble({self.size}: {counts}; distance median {self.median:.4g}, max {self.max:.4g})"
