@@ -44,10 +44,30 @@ class Line:
 
 
 class _Printer(LatexPrinter):
-    """SymPy's printer, but a sum does not open with a minus sign where it need not: τ − t₀, not −t₀ + τ."""
+    """SymPy's printer, but a sum does not open with a minus sign where it need not (τ − t₀, not −t₀ + τ), and a norm
+    needs no parentheses around it before an exponent."""
 
     def _as_ordered_terms(self, expr: sp.Expr, order: str | None = None) -> list[sp.Expr]:
         return _ordered(super()._as_ordered_terms(expr, order=order))
+
+    def parenthesize_super(self, s: str) -> str:
+        return f"{{{s}}}" if re.fullmatch(r"\\\|.*\\\||.*\)", s) else str(super().parenthesize_super(s))
+
+    def _print_Mul(self, expr: sp.Expr) -> str:
+        # SymPy asks of each power with a negative symbolic exponent whether it is constant, which takes seconds on a
+        # page. None is, so letters that are printed like the powers stand in for them.
+        names = self._settings["symbol_names"]
+        masks = {}
+        for factor in sp.Mul.make_args(expr):
+            exponent = factor.as_base_exp()[1]
+            if exponent.free_symbols and exponent.is_negative:
+                masks[factor] = sp.Symbol(f"zz{len(names)}", positive=True)
+                names[masks[factor]] = self._print(factor)
+        if masks:
+            expr = sp.Mul(*(masks.get(factor, factor) for factor in sp.Mul.make_args(expr)))
+            if not isinstance(expr, sp.Mul):
+                return str(self._print(expr))
+        return str(super()._print_Mul(expr))
 
 
 def _ordered(terms: list[sp.Expr]) -> list[sp.Expr]:

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from ptproof.proof.claim import Claim, Definition, Result
 from ptproof.proof.load import Derivation
 from ptproof.proof.run import Verification
-from ptproof.proof.statement import Exists, Prose
+from ptproof.proof.statement import All, Exists, Prose, Relation, relations_of
 from ptproof.report import status
 from ptproof.report.content import Figure, Table
 from ptproof.report.formula import Line, domain_of, statement_lines, width
@@ -53,6 +53,7 @@ class ClaimView:
     kind: str
     lines: tuple[Line, ...]
     words: str
+    same: bool
     domain: tuple[str, ...]
     given: tuple[tuple[Line, ...], ...]
     evidence: tuple[EvidenceView, ...]
@@ -232,6 +233,7 @@ class _Composer:
             kind=claim.kind,
             lines=statement_lines(claim.statement, self.glyphs),
             words=claim.statement.text if isinstance(claim.statement, Prose) else "",
+            same=_same(claim),
             domain=domain_of([claim.statement, *claim.assumptions], _bound(claim), self.glyphs),
             given=tuple(statement_lines(item, self.glyphs) for item in claim.assumptions),
             evidence=tuple(
@@ -251,6 +253,13 @@ class _Composer:
         return DefinitionView(
             self.refs[item.id], item.labels, statement_lines(item.statement, self.glyphs), words, item.prose
         )
+
+
+def _same(claim: Claim) -> bool:
+    """Whether the two sides are one expression as they stand, which a reader should be told."""
+    if not isinstance(claim.statement, Relation | All):
+        return False
+    return all(part.sign == "=" and part.left == part.right for part in relations_of(claim.statement))
 
 
 def _bound(claim: Claim) -> tuple[object, ...]:

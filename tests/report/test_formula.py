@@ -33,6 +33,17 @@ def test_a_glyph_with_a_superscript_is_put_in_parentheses():
     assert latex(x**2, {x: "x^*_1"}) == r"\left(x^*_1\right)^{2}"
 
 
+@pytest.mark.parametrize("glyph", [r"\|\bar x - x^*\|", "F(x^*)"])
+def test_what_has_its_own_brackets_gets_no_others(glyph):
+    assert latex(x**2, {x: glyph}) == f"{{{glyph}}}^{{2}}"
+
+
+def test_powers_with_symbolic_exponents_keep_their_places():
+    n = sp.Symbol("n", positive=True)
+    assert latex(k ** (-n) * x * sp.exp(-n * k), {}) == r"x k^{- n} e^{- k n}"
+    assert latex(x * k ** (-2), {}) == r"\frac{x}{k^{2}}"
+
+
 def test_every_part_has_its_line():
     assert len(lines(every(le(x, y), ge(x, 0), gt(k, 0)))) == 3
 

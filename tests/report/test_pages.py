@@ -158,6 +158,10 @@ def test_seconds_do_not_enter(derivation, verification, report):
     assert "77.7" not in html_page(compose(slower, derivation))
 
 
+def test_a_reader_is_told_where_both_sides_are_one_expression(report):
+    assert [claim.ref.id for claim in report.claims if claim.same] == ["b/wrong-expectation"]
+
+
 def test_notation_is_listed(page, text):
     assert "gain | rate" in page
     assert r"gain \| rate" in text
