@@ -25,8 +25,8 @@ def report(paths: tuple[str, ...], out: str, jobs: int | None, timeout: float, n
     """
     from ptproof.proof.load import load
     from ptproof.proof.run import verify as run
+    from ptproof.report.compose import compose
     from ptproof.report.letters import notation_of, title_of
-    from ptproof.report.model import compose
     from ptproof.report.pages import report_files
     from ptproof.report.versions import versions
     from ptproof.report.writing import check_place, write_report
@@ -56,10 +56,11 @@ def report(paths: tuple[str, ...], out: str, jobs: int | None, timeout: float, n
 
 def _drawn(derivation: Derivation) -> tuple[tuple[Figure, ...], tuple[Table, ...], tuple[str, ...]]:
     """The figures and tables of the derivation; one that fails is named in the report instead of ending it."""
-    from ptproof.report.figures import figures_of, tables_of
+    from ptproof.report.figures import figures_of, has_figures, tables_of
 
-    try:
+    if has_figures(derivation.claims):
         click.echo("drawing the figures", err=True)
+    try:
         return figures_of(derivation.claims), tables_of(derivation.claims), ()
     except Exception as error:
         return (), (), (f"The figures could not be drawn: {type(error).__name__}: {error}",)

@@ -8,7 +8,8 @@ return objects with the attributes of :class:`~ptproof.report.content.Figure` an
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
+from typing import Any
 
 from ptproof.proof.claim import Claim
 from ptproof.report.content import Figure, Table
@@ -30,6 +31,12 @@ def tables_of(claims: Iterable[Claim]) -> tuple[Table, ...]:
     )
 
 
-def _functions(claims: Iterable[Claim], name: str) -> list:  # type: ignore[type-arg]
+def has_figures(claims: Iterable[Claim]) -> bool:
+    """Whether there is anything to draw."""
+    claims = tuple(claims)
+    return bool(_functions(claims, "figures") or _functions(claims, "tables"))
+
+
+def _functions(claims: Iterable[Claim], name: str) -> list[Callable[[], Iterable[Any]]]:
     modules = (sys.modules.get(f"{package.__name__}.figures") for package in packages_of(claims))
     return [function for module in modules if callable(function := getattr(module, name, None))]

@@ -4,9 +4,9 @@ import pytest
 
 from ptproof.proof.load import load
 from ptproof.proof.run import Verification, conclude, run_one
+from ptproof.report.compose import compose
 from ptproof.report.content import Figure, Table
 from ptproof.report.letters import notation_of, title_of
-from ptproof.report.model import compose
 
 INIT = '"""A sample <derivation> & its $x$."""\n'
 NOTATION = """

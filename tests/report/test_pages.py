@@ -8,9 +8,9 @@ from xml.etree import ElementTree
 import pytest
 
 from ptproof.errors import InputError
+from ptproof.report.compose import compose
 from ptproof.report.content import Figure, Table
 from ptproof.report.graph import graph_svg, layout
-from ptproof.report.model import compose
 from ptproof.report.pages import html_page, markdown_page, report_files
 
 VOID = {"meta", "input", "img", "br", "hr", "link"}

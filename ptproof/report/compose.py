@@ -1,0 +1,203 @@
+"""From the results of a verification to the content of the report: links, sections, errata, index."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Mapping, Sequence
+
+from ptproof.proof.claim import Claim, Definition, Result
+from ptproof.proof.load import Derivation
+from ptproof.proof.run import Verification
+from ptproof.proof.statement import All, Exists, Prose, Relation, relations_of
+from ptproof.report import status
+from ptproof.report.content import Figure, Table
+from ptproof.report.formula import domain_of, statement_lines
+from ptproof.report.letters import Notation
+from ptproof.report.model import ClaimView, DefinitionView, Erratum, EvidenceView, Ref, Report, Section
+from ptproof.report.status import Status, status_of
+from ptproof.report.witness import witness_view
+
+
+def compose(
+    verification: Verification,
+    derivation: Derivation,
+    *,
+    title: str = "",
+    notation: Notation | None = None,
+    versions: Sequence[tuple[str, str]] = (),
+    figures: Sequence[Figure] = (),
+    appendix: Sequence[Table] = (),
+    notes: Sequence[str] = (),
+) -> Report:
+    """Put the content of the report together.
+
+    Parameters
+    ----------
+    verification
+        The results, whose claims the report shows.
+    derivation
+        Where the definitions come from.
+    title
+        The title of the derivation.
+    notation
+        The letters and glyphs.
+    versions
+        Of the libraries.
+    figures, appendix
+        Pictures and tables from elsewhere.
+    notes
+        What the reader has to know, such as figures that could not be drawn.
+    """
+    letters = notation or Notation()
+    results = {result.claim.id: result for result in verification.results}
+    refs = _refs(verification.results, derivation.definitions, results)
+    composer = _Composer(results, refs, letters.glyphs)
+    views = {result.claim.id: composer.claim(result) for result in verification.results}
+    sections = _sections(
+        [views[result.claim.id] for result in verification.results],
+        [result.claim.section for result in verification.results],
+        [composer.definition(item) for item in derivation.definitions],
+        [item.section for item in derivation.definitions],
+    )
+    shown = [claim for section in sections for claim in section.claims]
+    labels: dict[str, list[Ref]] = {}
+    for section in sections:
+        for defined in section.definitions:
+            for label in defined.labels:
+                labels.setdefault(label, []).append(defined.ref)
+        for claim in section.claims:
+            for label in claim.labels:
+                labels.setdefault(label, []).append(claim.ref)
+    return Report(
+        title=title or "Derivation",
+        sections=sections,
+        errata=tuple(
+            Erratum(claim, tuple(views[ref.id] for ref in claim.corrected_by))
+            for claim in shown
+            if claim.status is status.REFUTED or claim.corrected_by
+        ),
+        cited=tuple(claim for claim in shown if claim.status is status.CITED),
+        unexpected=tuple(claim for claim in shown if claim.expected),
+        labels=tuple((label, tuple(found)) for label, found in labels.items()),
+        counts=_counts(shown),
+        total=len(shown),
+        definitions=sum(len(section.definitions) for section in sections),
+        letters=letters.letters,
+        versions=tuple(versions),
+        figures=tuple(figures),
+        appendix=tuple(appendix),
+        notes=tuple(notes),
+    )
+
+
+class _Composer:
+    def __init__(self, results: Mapping[str, Result], refs: Mapping[str, Ref], glyphs: Mapping[object, str]) -> None:
+        self.results, self.refs, self.glyphs = results, refs, glyphs
+        self.users: dict[str, list[str]] = {}
+        self.corrections: dict[str, list[str]] = {}
+        for result in results.values():
+            for used in result.claim.uses:
+                self.users.setdefault(used.id, []).append(result.claim.id)
+            if result.claim.corrects is not None:
+                self.corrections.setdefault(result.claim.corrects.id, []).append(result.claim.id)
+
+    def links(self, ids: Sequence[str]) -> tuple[Ref, ...]:
+        return tuple(self.refs[id] for id in dict.fromkeys(ids) if id in self.refs)
+
+    def claim(self, result: Result) -> ClaimView:
+        claim = result.claim
+        witness = next((item.witness for item in result.evidence if item.witness is not None), None)
+        corrects = self.links([claim.corrects.id]) if claim.corrects is not None else ()
+        return ClaimView(
+            ref=self.refs[claim.id],
+            status=status_of(result, self.results),
+            expected="" if result.as_expected else str(claim.expected),
+            labels=claim.labels,
+            place=claim.place,
+            kind=claim.kind,
+            lines=statement_lines(claim.statement, self.glyphs),
+            words=claim.statement.text if isinstance(claim.statement, Prose) else "",
+            same=_same(claim),
+            domain=domain_of([claim.statement, *claim.assumptions], _bound(claim), self.glyphs),
+            given=tuple(statement_lines(item, self.glyphs) for item in claim.assumptions),
+            evidence=tuple(
+                EvidenceView(item.engine, str(item.verdict), _without_places(item.detail)) for item in result.evidence
+            ),
+            witness=None if witness is None else witness_view(witness, claim, self.glyphs),
+            uses=self.links([used.id for used in claim.uses]),
+            used_by=self.links(self.users.get(claim.id, [])),
+            rests_on=self.links([id for id in result.rests_on if id != claim.id]),
+            corrects=corrects[0] if corrects else None,
+            corrected_by=self.links(self.corrections.get(claim.id, [])),
+            prose=claim.prose,
+        )
+
+    def definition(self, item: Definition) -> DefinitionView:
+        words = item.statement.text if isinstance(item.statement, Prose) else ""
+        return DefinitionView(
+            self.refs[item.id], item.labels, statement_lines(item.statement, self.glyphs), words, item.prose
+        )
+
+
+def _same(claim: Claim) -> bool:
+    """Whether the two sides are one expression as they stand, which a reader should be told."""
+    if not isinstance(claim.statement, Relation | All):
+        return False
+    return all(part.sign == "=" and part.left == part.right for part in relations_of(claim.statement))
+
+
+def _bound(claim: Claim) -> tuple[object, ...]:
+    return claim.statement.variables if isinstance(claim.statement, Exists) else ()
+
+
+def _refs(results: Sequence[Result], definitions: Sequence[Definition], by_id: Mapping[str, Result]) -> dict[str, Ref]:
+    """A link for each id; two ids that would become one anchor are told apart by a number."""
+    taken: Counter[str] = Counter()
+    found: dict[str, Ref] = {}
+
+    def add(id: str, title: str, mark: Status | None) -> None:
+        anchor = "c-" + (re.sub(r"[^A-Za-z0-9]+", "-", id).strip("-").lower() or "claim")
+        taken[anchor] += 1
+        if taken[anchor] > 1:
+            anchor = f"{anchor}--{taken[anchor]}"
+        found[id] = Ref(id, anchor, title, mark)
+
+    for result in results:
+        add(result.claim.id, result.claim.title, status_of(result, by_id))
+    for item in definitions:
+        add(item.id, item.title, None)
+    return found
+
+
+def _sections(
+    claims: Sequence[ClaimView],
+    places: Sequence[str],
+    definitions: Sequence[DefinitionView],
+    definition_places: Sequence[str],
+) -> tuple[Section, ...]:
+    titles = list(dict.fromkeys([*places, *definition_places]))
+    if all(re.match(r"\d", title) for title in titles):
+        titles.sort(key=_numbered)
+    found = []
+    for number, title in enumerate(titles, start=1):
+        inside = tuple(claim for claim, place in zip(claims, places, strict=True) if place == title)
+        defined = tuple(item for item, place in zip(definitions, definition_places, strict=True) if place == title)
+        found.append(Section(title or "Claims", f"s-{number}", defined, inside, _counts(inside)))
+    return tuple(found)
+
+
+def _numbered(title: str) -> tuple[int, ...]:
+    number = re.match(r"\d+(\.\d+)*", title)
+    return tuple(map(int, number.group().split("."))) if number else ()
+
+
+def _counts(claims: Sequence[ClaimView]) -> tuple[tuple[Status, int], ...]:
+    counted = Counter(claim.status for claim in claims)
+    return tuple((mark, counted[mark]) for mark in status.ALL if counted[mark])
+
+
+def _without_places(text: str) -> str:
+    """The text without folders and addresses of memory, which differ from machine to machine and run to run."""
+    text = re.sub(r"(?<![\w/.])/(?:[\w.@+-]+/)+", "", text)
+    return re.sub(r"0x[0-9a-fA-F]{6,}", "0x…", text)
