@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import product
 from typing import Any
@@ -390,6 +390,8 @@ def _too_steep(quotients: Quotients, prosecutor: Prosecutor, order: int) -> Fiel
     signs = {d: form(d) for d in _wide_directions(quotients.n)}
     for direction, value in signs.items():
         if value < 0 and (found := prosecutor.not_lower_on_ray(direction, outward=False)):
+            if order == 1:
+                return replace(found, statement=f"the gradient at the source is not zero: {found.statement}")
             return found
     for direction, value in signs.items():
         if value > 0:
