@@ -2,23 +2,22 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import sympy as sp
 
+from ptproof.averaging.correction import Correction
 from ptproof.errors import InputError
 from ptproof.simulation.plan import Array, Outcome
 from ptproof.simulation.run import simulate
 from ptproof.simulation.setup import as_float, by_name
 from ptproof.simulation.trajectory import Trajectory
 from ptproof.system import DitherSystem, System
-
-if TYPE_CHECKING:
-    from ptproof.averaging.correction import Correction
 
 LADDER = (100.0, 200.0, 400.0, 800.0, 1600.0)
 _SLACK = 0.1
@@ -115,7 +114,7 @@ def gap_order(
         If states or parameters don't fit.
     """
     ladder = tuple(as_float(value, "omegas") for value in omegas)
-    if len(ladder) < 3 or any(b <= a for a, b in zip(ladder, ladder[1:], strict=False)) or ladder[0] <= 0:
+    if len(ladder) < 3 or any(b <= a for a, b in itertools.pairwise(ladder)) or ladder[0] <= 0:
         raise InputError("omegas: expected at least three positive numbers in increasing order")
     symbol = omega if omega is not None else getattr(system, "omega", None) or sp.Symbol("omega", positive=True)
     values = dict(values or {})
@@ -123,9 +122,9 @@ def gap_order(
     begin, stop = as_float(start, "start"), as_float(end, "end")
     names = [state.name for state in full.state]
     table = by_name(initial) if isinstance(initial, Mapping) else dict(zip(names, initial, strict=False))
-    plain = isinstance(average, System)
-    slow = _filled(average if plain else average.corrected_average, values)
-    correct = None if plain else _correction(average, values)
+    corrected = isinstance(average, Correction)
+    slow = _filled(average.corrected_average if isinstance(average, Correction) else average, values)
+    correct = _correction(average, values) if isinstance(average, Correction) else None
     shared = [state.name for state in slow.state]
     if missing := [name for name in shared if name not in names]:
         raise InputError(f"{slow.name}: {', '.join(missing)} is not a state of {full.name}")
@@ -147,7 +146,7 @@ def gap_order(
         expectation = mean.x if correct is None else correct.along(mean.t, mean.x, rung)
         rows = [names.index(name) for name in shared]
         gaps.append(float(np.max(np.linalg.norm(fast.x[rows] - expectation, axis=0))))
-    wanted = expected if expected is not None else (-0.5 if plain else -1.0)
+    wanted = expected if expected is not None else (-1.0 if corrected else -0.5)
     return fit_order(ladder, tuple(gaps), wanted, message)
 
 

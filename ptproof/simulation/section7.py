@@ -1,0 +1,253 @@
+"""The statements of the paper's Section 7, each as numbers over all headings, with the settings that repeat them.
+
+The paper leaves the initial heading and the filter's start open. Every statement is looked at for an even grid of
+headings with the filter at the measured field, and given as median and worst case. ``supported`` compares them with
+a criterion that is written out; none of this is a proof.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+
+from ptproof.problem import Problem, example
+from ptproof.simulation.ensembles import headings
+from ptproof.simulation.order import hover_radius
+from ptproof.simulation.plan import Array
+from ptproof.simulation.run import simulate
+from ptproof.simulation.trajectory import Ensemble, Trajectory
+
+HEADINGS = 72
+_RTOL = 1e-8
+# Two hover radii: the neighbourhood of the source that counts as having reached it.
+_NEAR = 2.0
+
+
+@dataclass(frozen=True)
+class Statement:
+    """One statement of Section 7, quantified.
+
+    Attributes
+    ----------
+    id, words
+        A name, and what the paper says, in short.
+    criterion
+        What has to hold for every heading for the numbers to support it.
+    supported
+        Whether it does.
+    data
+        The numbers, plain floats.
+    settings
+        What repeats them.
+    remark
+        What the numbers say beyond the words.
+    """
+
+    id: str
+    words: str
+    criterion: str
+    supported: bool
+    data: Mapping[str, float]
+    settings: Mapping[str, Any]
+    remark: str = field(default="")
+
+    def to_json(self) -> dict[str, Any]:
+        """The whole as data."""
+        return {
+            "id": self.id, "words": self.words, "criterion": self.criterion, "supported": self.supported,
+            "data": dict(self.data), "settings": dict(self.settings), "remark": self.remark,
+        }  # fmt: skip
+
+
+def statements(count: int = HEADINGS) -> tuple[Statement, ...]:
+    """All of them, over ``count`` headings; the saturated seekers, which need whole trajectories, over a third."""
+    return (
+        reaches_source("vanishing", count),
+        reaches_source("nonvanishing", count),
+        moves_away(count),
+        oscillates(max(4, count // 3)),
+        bounded_inputs("vanishing", max(4, count // 3)),
+        bounded_inputs("nonvanishing", max(4, count // 3)),
+        saturated_reaches(max(4, count // 3)),
+        three_times_longer(max(4, count // 3)),
+        acceleration_saturates(max(4, count // 3)),
+    )
+
+
+def reaches_source(name: str, count: int = HEADINGS) -> Statement:
+    """The prescribed-time seeker is near the source, and the field near its peak, at T (fig:trajectories)."""
+    problem, ends = example(name), _ensemble(name, "pt", count)
+    near, below = _near(problem), float(problem.peak) - _fields(problem, ends)
+    return Statement(
+        f"{name}-reaches", "the seeker reaches a small neighbourhood of the source, and the peak, in time T",
+        f"the distance at T is at most two hover radii, 2/sqrt(omega) = {near:.4g}, for every heading",
+        bool(np.all(ends.distances <= near)) and set(ends.counts) == {"reached T"},
+        _spread("distance", ends.distances) | _spread("field below peak", below) | {
+            "hover radius": float(hover_radius(float(problem.tuning.omega))), "initial distance": _start(problem),
+        },
+        _settings(name, "pt", count),
+        "the distance is that of the hover circle, 1/sqrt(omega); it does not go to zero at this omega",
+    )  # fmt: skip
+
+
+def moves_away(count: int = HEADINGS) -> Statement:
+    """The asymptotic seeker under the vanishing drift is further from the source at T than at the start."""
+    problem, ends = example("vanishing"), _ensemble("vanishing", "asymptotic", count)
+    return Statement(
+        "vanishing-asymptotic-away", "the asymptotic seeker moves away from the source",
+        "the distance at T is larger than at the start for every heading",
+        bool(np.all(ends.distances > _start(problem))),
+        _spread("distance", ends.distances) | {"initial distance": _start(problem)},
+        _settings("vanishing", "asymptotic", count),
+    )  # fmt: skip
+
+
+def oscillates(count: int = HEADINGS // 3) -> Statement:
+    """The asymptotic seeker under the nonvanishing drift stays bounded, off the source and below the peak."""
+    problem, until = example("nonvanishing"), 20.0
+    runs = _runs("nonvanishing", "asymptotic", count, until)
+    late = [run.t >= until / 2 for run in runs]
+    distance = np.array([np.linalg.norm(run.x[:2, m], axis=0) for run, m in zip(runs, late, strict=True)])
+    values = np.array([run["field"][m] for run, m in zip(runs, late, strict=True)])
+    x2 = np.array([run.x[1, m] for run, m in zip(runs, late, strict=True)])
+    return Statement(
+        "nonvanishing-asymptotic-oscillates",
+        "the asymptotic seeker is bounded and oscillates above the source, below the peak",
+        "from t = 10 to 20, for every heading: x2 > 0, the field below the peak by 0.1, the distance below 2",
+        bool(np.all(x2 > 0) and np.all(values < float(problem.peak) - 0.1) and np.all(distance < 2)),
+        {
+            "smallest distance": float(distance.min()), "largest distance": float(distance.max()),
+            "median of mean distance": float(np.median(distance.mean(axis=1))),
+            "largest field": float(values.max()), "peak": float(problem.peak),
+            "smallest x2": float(x2.min()), "largest x2": float(x2.max()),
+        },
+        _settings("nonvanishing", "asymptotic", count) | {"until": until},
+    )  # fmt: skip
+
+
+def bounded_inputs(name: str, count: int = HEADINGS // 3) -> Statement:
+    """The inputs of the clipped prescribed-time seeker are bounded (fig:inputs); u₁ by √ω/ν_min² exactly."""
+    problem, runs = example(name), _runs(name, "pt", count, None)
+    tuning = problem.tuning
+    assert tuning.nu_min is not None
+    cap = float(tuning.omega) ** 0.5 / float(tuning.nu_min) ** 2
+    u1 = np.array([np.abs(run["u1"]).max() for run in runs])
+    u2 = np.array([np.abs(run["u2"]).max() for run in runs])
+    return Statement(
+        f"{name}-inputs", "the inputs remain bounded, due to the clipping",
+        "u1 never exceeds sqrt(omega)/nu_min^2, and every run is finite up to T",
+        bool(np.all(u1 <= cap * (1 + 1e-9)) and np.all(np.isfinite(u2))),
+        {"u1 bound": cap} | _spread("largest |u1|", u1) | _spread("largest |u2|", u2), _settings(name, "pt", count),
+        "u2 also carries k/mu (y - z), which the clip alone does not bound; its size is what is observed here",
+    )  # fmt: skip
+
+
+def saturated_reaches(count: int = HEADINGS // 3) -> Statement:
+    """The saturated seeker with the clipped gain reaches the peak within T (fig:field_sat)."""
+    problem, times = example("saturated"), arrivals("saturated", count)
+    T = float(problem.tuning.T)
+    return Statement(
+        "saturated-reaches", "with the time-varying gain the saturated seeker reaches the peak in time T",
+        f"for every heading the distance falls to two hover radii, {_near(problem):.4g}, before T",
+        bool(np.all(times <= T)), _spread("arrival", times) | {"T": T}, _settings("saturated", "saturated", count),
+    )  # fmt: skip
+
+
+def three_times_longer(count: int = HEADINGS // 3) -> Statement:
+    """With the constant gain the saturated seeker takes longer (fig:field_sat); the paper says about three times T."""
+    problem = example("saturated")
+    fast, slow = arrivals("saturated", count), arrivals("saturated-constant", count)
+    T = float(problem.tuning.T)
+    ratio = slow / T
+    return Statement(
+        "saturated-three-times", "with the constant gain it reaches the peak in about three times T",
+        "the median time over T lies between 2.5 and 3.5",
+        bool(2.5 <= np.median(ratio) <= 3.5),
+        _spread("arrival over T", ratio) | {"smallest arrival over T": float(ratio.min())}
+        | {"median arrival over that of the time-varying gain": float(np.median(slow / fast))},
+        _settings("saturated", "saturated-constant", count),
+        f"it depends strongly on the heading; compared with the other seeker's own arrival the median is "
+        f"{np.median(slow / fast):.2g} times",
+    )  # fmt: skip
+
+
+def acceleration_saturates(count: int = HEADINGS // 3) -> Statement:
+    """The control effort of the saturated acceleration is higher with the constant gain (fig:acc_sat)."""
+    problem = example("saturated")
+    assert problem.saturation is not None
+    cap = float(problem.saturation.level / problem.saturation.epsilon)
+    effort = {}
+    for seeker in ("saturated", "saturated-constant"):
+        runs = _runs("saturated", seeker, count, None)
+        # The integral of |sat| over [0, T]: the angular acceleration times epsilon.
+        effort[seeker] = np.array(
+            [np.trapezoid(np.abs(run["a"]), run.t) for run in runs]
+        ) * float(problem.saturation.epsilon)  # fmt: skip
+    low, high = effort["saturated"], effort["saturated-constant"]
+    return Statement(
+        "saturated-effort", "the control effort is greater with the constant gain",
+        "the integral of |sat| over [0, T] is larger with the constant gain for every heading",
+        bool(np.all(high > low)),
+        _spread("effort, time-varying gain", low) | _spread("effort, constant gain", high)
+        | {"largest angular acceleration": cap, "saturation level": float(problem.saturation.level)},
+        _settings("saturated", "both", count),
+        "the level 4 bounds sat(.); the angular acceleration itself is sat(.)/epsilon, bounded by 10^4",
+    )  # fmt: skip
+
+
+@lru_cache(maxsize=8)
+def arrivals(seeker: str, count: int) -> Array:
+    """When the distance first falls to two hover radii (count), up to t = 12; infinity if it doesn't."""
+    problem = example("saturated")
+    times = []
+    for run in _runs("saturated", seeker, count, 12.0):
+        near = np.linalg.norm(run.x[:2], axis=0) <= _near(problem)
+        times.append(float(run.t[np.argmax(near)]) if near.any() else np.inf)
+    return np.array(times)
+
+
+@lru_cache(maxsize=8)
+def _ensemble(name: str, seeker: str, count: int) -> Ensemble:
+    result = simulate(name, seeker, ensemble=count, vary={"theta": headings(count)}, rtol=_RTOL, engine="casadi")
+    assert isinstance(result, Ensemble)
+    return result
+
+
+@lru_cache(maxsize=16)
+def _runs(name: str, seeker: str, count: int, until: float | None) -> tuple[Trajectory, ...]:
+    runs = []
+    for heading in headings(count):
+        run = simulate(name, seeker, until=until, initial={"theta": heading}, samples=3000, rtol=1e-7)
+        assert isinstance(run, Trajectory)
+        runs.append(run)
+    return tuple(runs)
+
+
+def _near(problem: Problem) -> float:
+    return _NEAR * float(hover_radius(float(problem.tuning.omega)))
+
+
+def _start(problem: Problem) -> float:
+    pairs = zip(problem.initial.x, problem.source, strict=True)
+    return float(np.linalg.norm([float(a - b) for a, b in pairs]))
+
+
+def _fields(problem: Problem, ends: Ensemble) -> Array:
+    from ptproof.simulation.setup import field_function
+
+    return field_function(problem)(ends.x[:2])
+
+
+def _spread(name: str, values: Array) -> dict[str, float]:
+    return {f"median {name}": float(np.median(values)), f"worst {name}": float(np.max(values))}
+
+
+def _settings(name: str, seeker: str, count: int) -> dict[str, Any]:
+    return {
+        "example": name, "seeker": seeker, "headings": f"{count}, even on the circle from 0", "z0": "F(x0)",
+        "u2(0)": 0, "engine": "casadi", "rtol": _RTOL,
+    }  # fmt: skip
