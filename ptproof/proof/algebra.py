@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
+from functools import lru_cache
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -59,8 +60,7 @@ class Generators:
     """The generators met so far, the symbols that stand for them, and their relations.
 
     One object must see all expressions that are to be compared: :meth:`read` first, :meth:`rational` then. With
-    ``real`` the generators will be taken for real numbers: a symbol that may be negative is then not written by its
-    root, and the relation of the root holds only where its base, kept in ``bases``, is not negative.
+    ``real`` the generators will be taken for real numbers, and the relation of the root holds only where its base, kept in ``bases``, is not negative.
     """
 
     real: bool = False
@@ -90,8 +90,10 @@ class Generators:
                 if pair is not None:
                     self._powers[pair[0]].append(pair[1])
         for base, exponents in self._powers.items():
-            # The base itself is one of its powers, so that it is written by the same generators.
-            self._choose_roots(base, exponents if base is sp.E else [*exponents, sp.S.One])
+            # A positive base is itself one of its powers, so that it is written by the same generators. A base that
+            # may be 0 is not: it could come out as a quotient of generators that vanish.
+            itself = [sp.S.One] if base.is_positive and base is not sp.E else []
+            self._choose_roots(base, [*exponents, *itself])
         return prepared
 
     def _mask(self, expression: sp.Expr) -> sp.Expr:
@@ -164,16 +166,23 @@ class Generators:
             return self.symbol(expression, positive=True)
         raise NotAlgebraic(f"no rule for {type(expression).__name__}: {expression}")
 
+    def split_bases(self) -> list[tuple[sp.Expr, sp.Expr]]:
+        """The positive symbols and numbers that are written as products of roots, each with its product."""
+        bases = [base for base in self._roots if (base.is_Symbol or base.is_Rational) and base.is_positive]
+        return [(base, self._product(base, sp.S.One)) for base in bases]
+
     def _power(self, base: sp.Expr, exponent: sp.Expr) -> sp.Expr:
         if base is not sp.E and not (base.is_Symbol and self._by_roots(base)):
-            own = [self._roots[base][monomial] for monomial, _ in _exponent_terms(sp.S.One, self._denominators[base])]
-            if len(own) == 1:  # a root of the base, such as √b: its power is the base
-                self._relate(own[0][0], self.rational(base), _degree(self._product(base, sp.S.One), own[0][0]))
+            own = _exponent_terms(sp.S.One, self._denominators[base])
+            if len(own) == 1 and own[0][0] in self._roots[base]:  # a root of the base, such as √b
+                monomial, coefficient = own[0]
+                generator, lcm = self._roots[base][monomial]
+                self._relate(generator, self.rational(base), int(coefficient * lcm))
         return self._product(base, exponent)
 
     def _by_roots(self, base: sp.Symbol) -> bool:
-        """Whether a symbol may be written as a power of its root: with a real root it could not be negative."""
-        return bool(not self.real or base.is_nonnegative)
+        """Whether a symbol is written by its own roots: of one that may be 0 or negative, they say less than it."""
+        return bool(base.is_positive)
 
     def _product(self, base: sp.Expr, exponent: sp.Expr) -> sp.Expr:
         """A power of the base as a product of powers of its roots."""
@@ -187,10 +196,6 @@ class Generators:
         entry = (generator, generator**degree - value)
         if entry not in self.relations:
             self.relations.append(entry)
-
-
-def _degree(product: sp.Expr, generator: sp.Symbol) -> int:
-    return int(sp.degree(product, generator))
 
 
 def _known_of(node: sp.Expr) -> dict[str, bool]:
@@ -211,13 +216,16 @@ def _symbolic_power(node: sp.Expr) -> tuple[sp.Expr, sp.Expr] | None:
     return None
 
 
-def _exponent_terms(exponent: sp.Expr, common: sp.Expr) -> list[tuple[sp.Expr, sp.Rational]]:
+@lru_cache(maxsize=4096)
+def _exponent_terms(exponent: sp.Expr, common: sp.Expr) -> tuple[tuple[sp.Expr, sp.Rational], ...]:
     numerator = sp.expand(sp.cancel(exponent * common))
-    terms = []
-    for term in sp.Add.make_args(numerator):
-        coefficient, monomial = term.as_coeff_Mul(rational=True)
-        terms.append((monomial, sp.Rational(coefficient)))
-    return terms
+    pairs = (term.as_coeff_Mul(rational=True) for term in sp.Add.make_args(numerator))
+    return tuple((monomial, sp.Rational(coefficient)) for coefficient, monomial in pairs)
+
+
+@lru_cache(maxsize=4096)
+def _factored(base: sp.Expr) -> sp.Expr:
+    return sp.factor(sp.together(base))
 
 
 def _split_powers(expression: sp.Expr) -> sp.Expr:
@@ -232,7 +240,7 @@ def _split_powers(expression: sp.Expr) -> sp.Expr:
         if isinstance(base, sp.exp) and base.args[0].is_real:
             return sp.exp(base.args[0] * exponent)
         if not base.is_Symbol and not base.is_number:
-            base = sp.factor(sp.together(base))
+            base = _factored(base)
         positive = [factor for factor in sp.Mul.make_args(base) if factor.is_positive]
         rest = sp.Mul(*(factor for factor in sp.Mul.make_args(base) if not factor.is_positive))
         factors: list[sp.Expr] = []
