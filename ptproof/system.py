@@ -212,10 +212,12 @@ class DitherSystem:
         """The equation itself, with the phase replaced by ω·time; what is Piecewise in it is extended periodically."""
         total = sp.Matrix(self.drift)
         now, inside = self.omega * self.time, sp.Dummy("phase", real=True)
+        # Not Mod: SymPy prints a multiple of it as Python code without the parentheses that it needs.
+        within = now - self.period * sp.floor(now / self.period)
         for field, dither in zip(self.fields, self.dithers, strict=True):
             pieces = [node for node in dither.atoms(sp.Piecewise) if self.phase in node.free_symbols]
             signal = dither.xreplace({node: node.subs(self.phase, inside) for node in pieces})
-            signal = signal.subs(self.phase, now).subs(inside, sp.Mod(now, self.period))
+            signal = signal.subs(self.phase, now).subs(inside, within)
             total += sp.sqrt(self.omega) * signal * sp.Matrix(field)
         return System(self.time, self.state, tuple(total), name=self.name if name is None else name)
 

@@ -57,7 +57,8 @@ class Signal:
         """The signal for all phases, extended periodically."""
         if self.is_trigonometric:
             return self.pieces[0].expression(phase)
-        inside = sp.Mod(phase, self.period)
+        # Not Mod: SymPy prints a multiple of it as Python code without the parentheses that it needs.
+        inside = phase - self.period * sp.floor(phase / self.period)
         branches = [
             (piece.expression(inside), inside < end) for end, piece in zip(self.points[1:], self.pieces, strict=True)
         ]
