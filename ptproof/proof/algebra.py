@@ -60,7 +60,8 @@ class Generators:
     """The generators met so far, the symbols that stand for them, and their relations.
 
     One object must see all expressions that are to be compared: :meth:`read` first, :meth:`rational` then. With
-    ``real`` the generators will be taken for real numbers, and the relation of the root holds only where its base, kept in ``bases``, is not negative.
+    ``real`` the generators will be taken for real numbers, and the relation of a root holds only where its base, kept
+    in ``bases``, is not negative.
     """
 
     real: bool = False

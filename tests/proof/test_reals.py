@@ -76,6 +76,7 @@ def test_equality_assumption_is_used() -> None:
     assert reals(Goal("t", le(x, 2), (eq(x, y), le(y, 1)))).verdict is Verdict.PROVED
 
 
-def test_contradictory_assumptions_prove_anything_and_so_are_visible() -> None:
-    # An implication with a false premise is true; a claim's assumptions are printed beside it for that reason.
-    assert reals(Goal("t", le(x, 0), (gt(y, 1), lt(y, 0)))).verdict is Verdict.PROVED
+def test_contradictory_assumptions_prove_nothing() -> None:
+    evidence = reals(Goal("t", le(x, 0), (gt(y, 1), lt(y, 0))))
+    assert evidence.verdict is Verdict.UNDECIDED
+    assert "contradict" in evidence.detail
