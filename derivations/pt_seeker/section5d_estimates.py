@@ -22,7 +22,7 @@ from . import chain
 from .notation import T, a1, a2, c, d, h2, k, kappa, nu, t, t0, tau
 from .section5c_proposition import constants_ordered, no_increase, u_bounds, u_inequality
 
-SECTION = "5.5 Proposition: the estimate in both times"
+SECTION = "5.4 Proposition: the estimate in both times"
 
 m = sp.Symbol("m", positive=True, integer=True)  # κ = m + 1 where κ ≥ 2
 start = sp.Symbol("p_t", real=True)  # the time p of eq:upper_bound
@@ -30,6 +30,7 @@ s = sp.Symbol("s", real=True)
 Z = sp.Symbol("Z", nonnegative=True)  # the supremum of ζ from p to τ
 first, second, elapsed = sp.symbols("s_1 s_2 varsigma", nonnegative=True)
 low = sp.Symbol("s_low", positive=True)
+middle_bound = sp.Symbol("X", nonnegative=True)  # what the first estimate gives for the distance at the middle
 distance = sp.Function("R", nonnegative=True)
 distance_in_t = sp.Function("R_t", nonnegative=True)
 U_at = sp.Function("U", nonnegative=True)
@@ -242,50 +243,52 @@ def estimates(order: sp.Expr, tag: str, words: str) -> tuple[Claim, ...]:
         """From the middle on, where ζ has become small."""
         return reals(goal, *specialise(goal, upper_bound, {start: half, Z: halved(tau, order)}))
 
-    def combined(at_start: sp.Expr, duration: sp.Expr, last: sp.Expr) -> sp.Expr:
-        inner = beta(at_start, duration / 2, order) + gamma(g * d, order)
-        return beta(inner, duration / 2, order) + gamma(last, order)
-
     everywhere = [*bounds_at(order, half, t0), *bounds_at(order, tau, half)]
+
+    def inner(duration: sp.Expr) -> sp.Expr:
+        return beta(distance(t0), duration / 2, order) + gamma(g * d, order)
 
     @claim(
         f"prop/finale-{tag}", f"Both halves together ({words})",
-        le(distance(tau), combined(distance(t0), tau - t0, halved(tau, order))),
-        given=[ge(tau, t0), whole, *known, *everywhere],
+        le(distance(tau), beta(middle_bound, (tau - t0) / 2, order) + gamma(halved(tau, order), order)),
+        given=[eq(middle_bound, inner(tau - t0)), ge(tau, t0), whole, *known, *everywhere],
         labels=["eq:finale"], uses=[upper_bound_1, upper_bound_2, decay_monotone],
     )  # fmt: skip
     def finale(goal: Goal) -> Evidence:
-        """β increases with its first argument, so the estimate at the middle may be put into it."""
-        inner = beta(distance(t0), (tau - t0) / 2, order) + gamma(g * d, order)
-        values = {first: a1**root * distance(half), second: a1**root * inner, elapsed: (tau - t0) / 2}
+        """β increases with its first argument, so the estimate at the middle may be put into it. X abbreviates what is
+        printed there: β of the initial distance plus the gain of the first half's input."""
+        low_end, high_end, duration = a1**root * distance(half), a1**root * middle_bound, (tau - t0) / 2
         return reals(
             goal, *specialise(goal, upper_bound_1, {}), *specialise(goal, upper_bound_2, {}),
-            *specialise(goal, decay_monotone, values), *regular(values[first], values[elapsed]),
-            *regular(values[second], values[elapsed]),
+            *specialise(goal, decay_monotone, {first: low_end, second: high_end, elapsed: duration}),
+            *regular(low_end, duration), *regular(high_end, duration),
         )  # fmt: skip
 
     input_in_t = g * d / (1 + (t - t0) / (2 * T * nu(t - t0))) ** 2
-    in_t = combined(distance(t0), (t - t0) / nu(t - t0), input_in_t)
-    same_signal = eq(distance_in_t(t), distance(end))
+    duration_in_t = (t - t0) / nu(t - t0)
 
     @claim(
-        f"prop/finale-in-t-{tag}", f"The estimate in the original time ({words})", le(distance_in_t(t), in_t),
+        f"prop/finale-in-t-{tag}", f"The estimate in the original time ({words})",
+        le(distance_in_t(t), beta(middle_bound, duration_in_t / 2, order) + gamma(input_in_t, order)),
         given=[
-            ge(t, t0), lt(t, t0 + T), same_signal, *known,
+            ge(t, t0), lt(t, t0 + T), *known,
+            eq(distance_in_t(t), distance(end)), eq(middle_bound, inner(duration_in_t)),
             falls(order, zeta_at(s, order), ge(s, t0), le(s, end)),
             *(part.map(lambda side: side.subs(tau, end)) for part in everywhere),
         ],
         labels=["eq:finale_t"], uses=[finale],
     )  # fmt: skip
     def finale_in_t(goal: Goal) -> Evidence:
-        """The same signal on the other clock: τ − t₀ is replaced by (t − t₀)/ν."""
+        """The same signal on the other clock: τ − t₀ is replaced by (t − t₀)/ν, also in X."""
         return reals(goal, *specialise(goal, finale, {tau: end}))
 
     if linear:
-        towards_zero, after_all, bounded_steps = in_t, combined(distance(t0), tau - t0, halved(tau, order)), []
+        after_all = beta(inner(tau - t0), (tau - t0) / 2, order) + gamma(halved(tau, order), order)
+        towards_zero = beta(inner(duration_in_t), duration_in_t / 2, order) + gamma(input_in_t, order)
+        bounded_steps: list[Claim] = []
     else:
-        uniform_in_t = fixed((t - t0) / nu(t - t0) / 2, order) + gamma(input_in_t, order)
-        towards_zero, after_all = uniform_in_t, fixed((tau - t0) / 2, order) + gamma(halved(tau, order), order)
+        after_all = fixed((tau - t0) / 2, order) + gamma(halved(tau, order), order)
+        towards_zero = fixed(duration_in_t / 2, order) + gamma(input_in_t, order)
 
         @claim(
             f"prop/beta-uniform-{tag}", f"β has a bound that does not depend on the distance ({words})",
@@ -330,8 +333,8 @@ def estimates(order: sp.Expr, tag: str, words: str) -> tuple[Claim, ...]:
             middle = half.subs(tau, end)
             points = instances(there, t0, middle, end, t)
             if linear:
-                return [*specialise(there, finale_in_t, {}), *points]
-            values = {second: distance(middle), low: (t - t0) / nu(t - t0) / 2}
+                return [*specialise(there, finale_in_t, {middle_bound: inner(duration_in_t)}), *points]
+            values = {second: distance(middle), low: duration_in_t / 2}
             last = specialise(there, upper_bound_2, {tau: end})
             return [*last, *specialise(there, bounded_steps[0], values), *points]
 

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 
 import sympy as sp
 
-from ptproof.proof.statement import Implication, ge, gt, le, lt
+from ptproof.proof.statement import Implication, Relation, eq, ge, gt, le, lt
 
 
 def power_monotone(lower: sp.Expr, upper: sp.Expr, exponent: sp.Expr) -> Implication:
@@ -72,3 +72,9 @@ def norm_below(entries: Sequence[sp.Expr], factor: sp.Expr, others: Sequence[sp.
     hypotheses = tuple(le(g**2, factor**2 * x**2) for g, x in zip(entries, others, strict=True))
     norms = [sp.sqrt(sp.Add(*(entry**2 for entry in column))) for column in (entries, others)]
     return Implication((ge(factor, 0), *hypotheses), le(norms[0], factor * norms[1]), "norm entry by entry")
+
+
+def power_of_root(value: sp.Expr, base: sp.Expr, exponent: sp.Expr) -> Implication:
+    """b > 0, p ≠ 0 and v = b^(1/p) give v^p = b: powers of a positive number multiply their exponents."""
+    hypotheses = (gt(base, 0), Relation(exponent, "!=", sp.S.Zero), eq(value, base ** (1 / exponent)))
+    return Implication(hypotheses, eq(value**exponent, base), "power of a root")

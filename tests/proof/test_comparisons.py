@@ -149,3 +149,10 @@ def test_a_witness_must_satisfy_a_quantified_assumption_everywhere():
     goal = Goal("test", le(x * F, -1), (ForAll((x,), le(F, 0)),))
     assert refute(goal, {x: -1, F: x}).verdict is Verdict.UNDECIDED
     assert refute(goal, {x: -1, F: -(x**2)}).verdict is Verdict.REFUTED
+
+
+def test_what_is_known_of_a_base_survives_its_roots():
+    order = sp.Symbol("order", positive=True, integer=True)
+    goal = Goal("test", le(1, order), (le(order ** (1 / (2 * order + 1)), w(s)),))
+    assert reals(goal).verdict is Verdict.PROVED
+    assert reals(Goal("test", le(2, order), goal.assumptions)).verdict is not Verdict.PROVED
