@@ -34,7 +34,8 @@ SECTION = "6.2 Discussion: vanishing drift and κ ≥ 2"
 
 order = n + 1
 q_printed = q(order)
-C1, C2 = c(1, order), c(2, order)
+# The constants c₁ and c₂ of κ as letters, as the paper prints them here: the claims hold for all positive values.
+C1, C2 = sp.symbols("c_kappa1 c_kappa2", positive=True)
 drift, feed = C2**2 * E_norm, k * C1**2 / 2
 V_dot = sp.Symbol("V_dot", real=True)
 s = sp.Symbol("s", real=True)
