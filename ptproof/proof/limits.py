@@ -89,6 +89,8 @@ def _at_zero(expression: sp.Expr, h: sp.Symbol) -> sp.Expr | None:
         case sp.exp():
             return _exponential(_at_zero(expression.args[0], h))
         case sp.Pow() if not expression.exp.has(h):
+            if expression.exp == -1:
+                return _reciprocal(_at_zero(expression.base, h))
             if expression.exp.is_negative:  # so that a base that falls to 0 is seen from its side
                 return _power(_at_zero(1 / expression.base, h), -expression.exp)
             return _power(_at_zero(expression.base, h), expression.exp)
@@ -128,6 +130,14 @@ def _rational(expression: sp.Expr, h: sp.Symbol) -> sp.Expr | None:
         return sp.cancel(a / b)
     ratio = sp.factor(a / b)
     return sp.oo if ratio.is_positive else -sp.oo if ratio.is_negative else None
+
+
+def _reciprocal(value: sp.Expr | None) -> sp.Expr | None:
+    if value is None:
+        return None
+    if value in _INFINITE:
+        return sp.S.Zero
+    return 1 / value if _nonzero(value) else None
 
 
 def _nonzero(value: sp.Expr) -> bool:

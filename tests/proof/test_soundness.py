@@ -55,3 +55,10 @@ def test_counterexample_family_stays_in_the_domain():
 def test_counterexample_family_works_for_every_choice():
     bounded = Exists((a,), (le(x, a),), over=(x,))
     assert defeats_every_choice(Goal("a", bounded, (le(a, 1),)), {x: 2}).verdict is Verdict.UNDECIDED
+
+
+def test_reciprocal_of_what_has_no_rule_is_undecided():
+    pole = sp.Limit(1 / sp.Max(half, 1 - x) ** 2, x, 1, "-")
+    assert limits(Goal("a", eq(pole, 4))).verdict is Verdict.UNDECIDED
+    assert limits(Goal("a", eq(sp.Limit(1 / (1 - sp.cos(x)), x, 0, "+"), sp.oo))).verdict is Verdict.UNDECIDED
+    assert limits(Goal("a", eq(sp.Limit(1 / (1 + sp.cos(x)), x, 0, "+"), half))).verdict is Verdict.PROVED
