@@ -13,7 +13,8 @@ from ptproof.proof.algebra import NotAlgebraic, is_zero
 def holds(difference: sp.Expr, what: str) -> None:
     """Raise unless ``difference`` has the normal form zero."""
     try:
-        holds = is_zero(difference)
+        # Products of surds are multiplied out by SymPy itself; both ways are exact, and zero is zero.
+        holds = sp.expand(sp.fraction(sp.together(difference))[0]) == 0 or is_zero(difference)
     except NotAlgebraic as error:
         raise InputError(f"comparison: cannot check that {what} ({error})") from None
     if not holds:

@@ -1,0 +1,165 @@
+"""What an engineer knows: the constants of the field, the drift, and the tuning; checked when put together."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import sympy as sp
+
+from ptproof.errors import InputError
+from ptproof.field import FieldBounds
+from ptproof.gains.numbers import NotApplicable, short, sign
+
+_POSITIVE = ("k", "T", "nu_min", "V0", "x0_norm", "residual", "omega", "mu")
+
+
+@dataclass(frozen=True)
+class GainData:
+    """The data of a question about gains; whatever is unknown is None.
+
+    Attributes
+    ----------
+    bounds
+        a₁, a₂, b₁, b₂ and κ of the field (eq:assumption2, eq:assumption3).
+    k, T, nu_min
+        Gain, prescribed time, and ν_min ∈ (0, 1] at which the gain 1/ν² is clipped (eq:kt).
+    drift_matrix, drift_norm
+        E (n × n) of a drift E∇F, and its largest singular value ‖E‖; the norm follows from the matrix.
+    drift_bound
+        sup d of a bounded drift ‖f‖ ≤ d. [length/time]
+    V0, x0_norm
+        V = F(x*) − F at the start, and ‖x₀ − x*‖; V₀ ≤ a₁‖x₀ − x*‖^(2κ) where only the distance is known.
+    t0, tau_star
+        The start, and a stretched time τ* > t₀.
+    residual
+        A distance to the source that is wanted at t₀ + T.
+    omega, mu
+        The seeker's frequency and filter constant, for the peak inputs.
+
+    Raises
+    ------
+    InputError
+        For numbers that contradict each other or the paper's assumptions, with the reason.
+    """
+
+    bounds: FieldBounds
+    k: sp.Expr | None = None
+    T: sp.Expr | None = None
+    nu_min: sp.Expr | None = None
+    drift_norm: sp.Expr | None = None
+    drift_matrix: sp.ImmutableDenseMatrix | None = None
+    drift_bound: sp.Expr | None = None
+    V0: sp.Expr | None = None
+    x0_norm: sp.Expr | None = None
+    t0: sp.Expr = sp.S.Zero
+    tau_star: sp.Expr | None = None
+    residual: sp.Expr | None = None
+    omega: sp.Expr | None = None
+    mu: sp.Expr | None = None
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.bounds.kappa, sp.Integer):
+            raise InputError("kappa must be a number here; symbolic formulas are in ptproof.comparison")
+        for name in (*_POSITIVE, "drift_norm", "drift_bound", "t0", "tau_star"):
+            value = getattr(self, name)
+            if value is None:
+                continue
+            value = _number(value, name)
+            if name in _POSITIVE and sign(value) <= 0:
+                raise InputError(f"{name} must be positive, got {short(value)}")
+            if name in ("drift_norm", "drift_bound") and sign(value) < 0:
+                raise InputError(f"{name} must not be negative, got {short(value)}")
+            object.__setattr__(self, name, value)
+        if self.nu_min is not None and sign(self.nu_min - 1) > 0:
+            raise InputError(f"nu_min must lie in (0, 1], got {short(self.nu_min)}")
+        if self.tau_star is not None and sign(self.tau_star - self.t0) <= 0:
+            raise InputError(f"tau_star must be later than t0 = {self.t0}, got {short(self.tau_star)}")
+        if self.drift_matrix is not None:
+            matrix = sp.ImmutableDenseMatrix(self.drift_matrix)
+            if matrix.rows != matrix.cols:
+                raise InputError(f"the drift matrix must be square, not {matrix.rows} × {matrix.cols}")
+            object.__setattr__(self, "drift_matrix", matrix)
+            norm = largest_singular_value(matrix)
+            if self.drift_norm is None:
+                object.__setattr__(self, "drift_norm", norm)
+            elif sign(self.drift_norm - norm) < 0:
+                raise InputError(f"drift_norm = {self.drift_norm} is less than the norm {short(norm)} of the matrix")
+        if self.V0 is not None and self.x0_norm is not None:
+            low, high = (a * self.x0_norm ** (2 * self.bounds.kappa) for a in (self.bounds.a2, self.bounds.a1))
+            if sign(self.V0 - high) > 0 or sign(self.V0 - low) < 0:
+                raise InputError(
+                    f"V0 = {short(self.V0)} contradicts x0_norm: V0 must lie in [a2, a1]·x0_norm^(2κ) "
+                    f"= [{float(low):.6g}, {float(high):.6g}]"
+                )
+
+    def known(self, *names: str) -> tuple[sp.Expr, ...]:
+        """The values of these fields; :class:`NotApplicable` names those that are None."""
+        if missing := [name for name in names if getattr(self, name) is None]:
+            raise NotApplicable(f"needs {' and '.join(missing)}")
+        return tuple(getattr(self, name) for name in names)
+
+    @property
+    def norm(self) -> sp.Expr:
+        """‖E‖, 0 without a gradient drift."""
+        return sp.S.Zero if self.drift_norm is None else self.drift_norm
+
+    @cached_property
+    def push(self) -> sp.Expr:
+        """The least m with −∇Fᵀ E ∇F ≤ m‖∇F‖²: −λ_min((E + Eᵀ)/2) for a known matrix, else ‖E‖.
+
+        It is negative for a drift that always helps.
+        """
+        return self.norm if self.drift_matrix is None else -smallest_eigenvalue(symmetric_part(self.drift_matrix))
+
+    @property
+    def start_value(self) -> sp.Expr:
+        """V₀, or its upper bound a₁‖x₀ − x*‖^(2κ)."""
+        if self.V0 is not None:
+            return self.V0
+        if self.x0_norm is None:
+            raise NotApplicable("needs V0 or x0_norm")
+        return self.bounds.a1 * self.x0_norm ** (2 * self.bounds.kappa)
+
+
+def _number(value: object, name: str) -> sp.Expr:
+    if isinstance(value, float | bool):
+        raise InputError(f"{name} must be exact, not {value!r}: give an integer, a fraction or decimal text")
+    number = sp.sympify(value)
+    if not isinstance(number, sp.Expr) or not number.is_number or number.has(sp.Float):
+        raise InputError(f"{name} must be an exact number, got {short(number)}")
+    if number.is_real is not True or not number.is_finite:
+        raise InputError(f"{name} must be a finite real number, got {short(number)}")
+    return number
+
+
+def symmetric_part(matrix: sp.ImmutableDenseMatrix) -> sp.ImmutableDenseMatrix:
+    """(E + Eᵀ)/2."""
+    return sp.ImmutableDenseMatrix((matrix + matrix.T) / 2)
+
+
+def smallest_eigenvalue(matrix: sp.ImmutableDenseMatrix) -> sp.Expr:
+    """The exact smallest eigenvalue of a symmetric matrix (n × n; entries rational, or n ≤ 2, or diagonal)."""
+    return _eigenvalues(matrix)[0]
+
+
+def largest_singular_value(matrix: sp.ImmutableDenseMatrix) -> sp.Expr:
+    """‖E‖ = √λ_max(EᵀE), exact."""
+    if matrix.is_diagonal():
+        return sp.Max(*(sp.Abs(matrix[i, i]) for i in range(matrix.rows)))
+    return sp.sqrt(_eigenvalues(sp.ImmutableDenseMatrix(matrix.T * matrix))[-1])
+
+
+def _eigenvalues(matrix: sp.ImmutableDenseMatrix) -> list[sp.Expr]:
+    n = matrix.rows
+    if matrix.is_diagonal():
+        values = [matrix[i, i] for i in range(n)]
+        return [sp.Min(*values), sp.Max(*values)]
+    if n == 2:
+        mean, gap = matrix.trace() / 2, (matrix[0, 0] - matrix[1, 1]) / 2
+        root = sp.sqrt(gap**2 + matrix[0, 1] ** 2)
+        return [mean - root, mean + root]
+    if all(entry.is_Rational for entry in matrix):
+        letter = sp.Symbol("lambda")
+        return list(matrix.charpoly(letter).as_expr().as_poly(letter).real_roots())
+    raise InputError(f"the eigenvalues of an irrational {n} × {n} matrix are not computed; give the drift's norm")

@@ -1,0 +1,260 @@
+"""Certified upper envelopes of the radial rate u·M∇F/r, cell by cell in the distance r from the source.
+
+With x = x* + r·u, ‖u‖ = 1, the distance of a solution of dx/ds = w·f + M∇F, M = wE + (k/2)I, satisfies
+dr/ds = w·u·f + u·M∇F. For each shell r ∈ [b_j, b_(j+1)] and each weight w of a grid, ball arithmetic over a cover of
+the shell encloses the largest u·M∇F/r. As a supremum of functions that are affine in w it is convex in w, so that
+chords between grid weights are upper bounds too. Near the source ∇F is written by the Hessian on the segment from
+the source, ∇F(x)/r = (mean of H over the segment)·u, which loses nothing where the quotient of two balls would.
+"""
+
+from __future__ import annotations
+
+import heapq
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any, TypeAlias
+
+import sympy as sp
+
+from ptproof.errors import InputError
+from ptproof.gains.pieces import Piece, down, exact, faces, up
+from ptproof.proof.algebra import NotAlgebraic, is_zero
+from ptproof.system import gradient
+
+BITS = 64
+_RATIO = 1.06  # of the radii that bound a shell
+_NEAR = 24  # shells from which on the Hessian form is used too
+_DEEPEST = 160  # shells below the first radius; the ball inside is one last cell
+_PIECES = 300
+_FINEST = 30
+_TOLERANCE = 0.02
+
+
+@dataclass
+class RadialEnvelope:
+    """Upper bounds G of u·(wE + (k/2)I)∇F/r on shells around the source, computed when asked for.
+
+    Parameters
+    ----------
+    variables, expression, source
+        The field F over n coordinates, and its critical point.
+    k
+        The gain.
+    matrix
+        E (n × n), or None for zero.
+    radius
+        The first radius: shells lie below and above it. A float, which is exact.
+    weights
+        Increasing grid of w = dt/dτ in (0, 1], exact floats.
+
+    Raises
+    ------
+    InputError
+        If the gradient is not zero at the source by exact algebra.
+    """
+
+    variables: tuple[sp.Symbol, ...]
+    expression: sp.Expr
+    source: tuple[sp.Expr, ...]
+    k: sp.Expr
+    matrix: sp.ImmutableDenseMatrix | None
+    radius: float
+    weights: tuple[float, ...]
+    evaluations: int = 0
+    _cells: dict[tuple[int, int], float] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        from ptproof.proof.ball import ball_from, precision
+        from ptproof.proof.tape import compile_tape
+
+        slope = gradient(self.expression, self.variables)
+        at_source = dict(zip(self.variables, self.source, strict=True))
+        for entry in slope:
+            try:
+                critical = is_zero(entry.subs(at_source, simultaneous=True))
+            except NotAlgebraic:
+                critical = False
+            if not critical:
+                raise InputError(f"the gradient of the field is not zero at the source {self.source}")
+        n = self.dimension
+        hessian = sp.hessian(self.expression, self.variables)
+        upper = [hessian[i, j] for i in range(n) for j in range(i, n)]
+        self._both = compile_tape([*slope, *upper], self.variables)
+        self._hessian = compile_tape(upper, self.variables)
+        with precision(BITS):
+            self._source = [ball_from(value) for value in self.source]
+            half = ball_from(self.k) / 2
+            entries = [
+                [ball_from(self.matrix[i, j] if self.matrix is not None else 0) for j in range(n)] for i in range(n)
+            ]
+            self._maps = [
+                [[exact(w) * entries[i][j] + (half if i == j else 0) for j in range(n)] for i in range(n)]
+                for w in self.weights
+            ]  # fmt: skip
+
+    @property
+    def dimension(self) -> int:
+        """The number n of coordinates."""
+        return len(self.variables)
+
+    @property
+    def enclosed(self) -> int:
+        """The number of pairs of a shell and a weight enclosed so far."""
+        return len(self._cells)
+
+    def boundary(self, index: int) -> float:
+        """b_index, the lower radius of the shell ``index``; 0 for the last ball inside."""
+        return 0.0 if index <= -_DEEPEST else self.radius * _RATIO**index
+
+    def shell(self, r: float) -> int:
+        """The index of a shell with b_index ≤ r ≤ b_(index + 1)."""
+        if r <= 0:
+            return -_DEEPEST
+        index = max(-_DEEPEST, math.floor(math.log(r / self.radius) / math.log(_RATIO)))
+        while index > -_DEEPEST and self.boundary(index) > r:
+            index -= 1
+        while self.boundary(index + 1) < r:
+            index += 1
+        return index
+
+    def rate(self, index: int, low: float, high: float) -> float:
+        """An upper bound of u·M∇F/r on the shell for every w in [low, high]; inf where the field has no value."""
+        if len(self.weights) == 1:
+            return self._column(index, 0)
+        return max(self._chord(index, low), self._chord(index, high))
+
+    def _chord(self, index: int, w: float) -> float:
+        from ptproof.proof.ball import precision
+
+        grid = self.weights
+        if not grid[0] <= w <= grid[-1]:
+            raise InputError(f"the weight {w} lies outside the grid")
+        if w in grid:
+            return self._column(index, grid.index(w))
+        i = next(i for i in range(1, len(grid)) if w <= grid[i])
+        first, second = self._column(index, i - 1), self._column(index, i)
+        if math.inf in (first, second):
+            return math.inf
+        with precision(BITS):
+            share = (exact(w) - exact(grid[i - 1])) / (exact(grid[i]) - exact(grid[i - 1]))
+            return up(exact(first) * (1 - share) + exact(second) * share)
+
+    def _column(self, index: int, column: int) -> float:
+        if (index, column) not in self._cells:
+            self._cells[index, column] = self._enclose(index, self._maps[column])
+        return self._cells[index, column]
+
+    def _enclose(self, index: int, M: _Matrix) -> float:
+        """Branch and bound over the shell: the piece with the largest upper bound is halved first."""
+        from ptproof.proof.ball import precision
+
+        low, high = self.boundary(index), self.boundary(index + 1)
+        near = index <= -_NEAR or low == 0 or self.dimension > 2
+        with precision(BITS):
+            best, counter = -math.inf, 0
+            heap: list[tuple[float, int, Piece]] = []
+            waiting: Sequence[Piece] = faces(self.dimension, low, high)
+            while True:
+                for piece in waiting:
+                    best = max(best, self._at_least(piece, M))
+                    heapq.heappush(heap, (-self._at_most(piece, near, M), counter, piece))
+                    counter += 1
+                top, worst = -heap[0][0], heap[0][2]
+                if (
+                    top <= best + _TOLERANCE * abs(best)
+                    or counter >= _PIECES * max(1, self.dimension - 1) ** 3
+                    or worst.level >= _FINEST
+                ):
+                    return top
+                heapq.heappop(heap)
+                waiting = worst.halves()
+
+    def _at_least(self, piece: Piece, M: _Matrix) -> float:
+        """What the middle of the piece certainly reaches, −inf where the field has no value."""
+        from ptproof.proof.ball import BALLS
+        from ptproof.proof.tape import Undefined
+
+        r, u = piece.middle()
+        try:
+            g = self._both.run([c + r * ui for c, ui in zip(self._source, u, strict=True)], BALLS)
+        except Undefined:
+            return -math.inf
+        return down(_pair(u, M, g, self.dimension) / r)
+
+    def _at_most(self, piece: Piece, near: bool, M: _Matrix) -> float:
+        """An upper bound of u·M∇F/r on the piece: the least of three enclosures; inf where the field has no value."""
+        from ptproof.proof.ball import BALLS, interval
+        from ptproof.proof.tape import Undefined
+
+        n, u = self.dimension, piece.direction()
+        self.evaluations += 1
+        result = math.inf
+        if piece.low > 0:
+            r = interval(exact(piece.low), exact(piece.high))
+            x = [r * ui for ui in u]
+            try:
+                values = self._both.run([c + xi for c, xi in zip(self._source, x, strict=True)], BALLS)
+                g, H = values[:n], _square(values[n:], n)
+                result = up(_pair(u, M, g, n) / r)
+                result = min(result, up(self._mean_value(piece, M, u, x, g, H)))
+            except Undefined:
+                pass
+        if near:
+            r = interval(exact(0.0), exact(piece.high))
+            try:
+                H = _square(self._hessian.run([c + r * ui for c, ui in zip(self._source, u, strict=True)], BALLS), n)
+            except Undefined:
+                return result
+            A = [[sum((M[i][m] * H[m][j] for m in range(1, n)), M[i][0] * H[0][j]) for j in range(n)] for i in range(n)]
+            common = sum((A[i][i].mid() for i in range(1, n)), A[0][0].mid()) / n  # u·u = 1 takes it out exactly
+            for i in range(n):
+                A[i][i] = A[i][i] - common
+            result = min(result, up(common + _pair(u, A, u, n)))
+        return result
+
+    def _mean_value(self, piece: Piece, M: _Matrix, u: list[Any], x: list[Any], g: list[Any], H: _Matrix) -> Any:
+        """φ(m) + ∇φ·(x − m) for φ(x) = x·M∇F/‖x‖² and the middle m of the piece; ``g``, ``H`` over the box ``x``."""
+        from ptproof.proof.ball import BALLS, interval
+
+        n = self.dimension
+        rm, um = piece.middle()
+        m = [rm * ui for ui in um]
+        gm = self._both.run([c + mi for c, mi in zip(self._source, m, strict=True)], BALLS)[:n]
+        centre = _pair(um, M, gm, n) / rm
+        # A chord of the piece keeps its directions, a convex cone, but comes closer to the source than its ends.
+        nearest = (piece.low * sum((a * b for a, b in zip(u, um, strict=True)), exact(0.0))).lower()
+        if not nearest > 0:
+            return exact(math.inf)
+        r = interval(nearest, exact(piece.high))
+        radial = _pair(u, M, g, n) / r
+        backward = [sum((M[i][j] * u[i] for i in range(1, n)), M[0][j] * u[0]) for j in range(n)]  # Mᵀu
+        total = centre
+        for j in range(n):
+            forward = sum((M[j][i] * g[i] for i in range(1, n)), M[j][0] * g[0])
+            curved = sum((H[j][i] * backward[i] for i in range(1, n)), H[j][0] * backward[0])
+            slope = (forward / r + curved - 2 * radial * u[j]) / r
+            total = total + slope * (x[j] - m[j])
+        return total
+
+
+_Matrix: TypeAlias = list[list[Any]]
+
+
+def _pair(u: list[Any], M: _Matrix, g: list[Any], n: int) -> Any:
+    """u·M·g, by (Mᵀu)·g."""
+    total = None
+    for j in range(n):
+        weight = sum((M[i][j] * u[i] for i in range(1, n)), M[0][j] * u[0])
+        total = weight * g[j] if total is None else total + weight * g[j]
+    return total
+
+
+def _square(entries: list[Any], n: int) -> _Matrix:
+    """The symmetric matrix whose upper triangle is given row by row."""
+    given = iter(entries)
+    H: _Matrix = [[None] * n for _ in range(n)]
+    for i in range(n):
+        for j in range(i, n):
+            H[i][j] = H[j][i] = next(given)
+    return H

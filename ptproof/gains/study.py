@@ -1,0 +1,177 @@
+"""A problem's own gains: constants certified on the ball that the average can reach, and how loose each bound is."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+import sympy as sp
+
+from ptproof.certify import FieldCertificate, certify_field
+from ptproof.errors import InputError
+from ptproof.gains.answer import Gains, gains
+from ptproof.gains.data import GainData
+from ptproof.gains.numbers import sign
+from ptproof.gains.tight import BoundCurve, distance_from_source, tight_bound
+from ptproof.problem import Problem
+from ptproof.problem.model import TIME
+from ptproof.proof.verdict import Verdict
+
+_DIGITS = 6
+_INTERVALS = 512
+
+
+@dataclass(frozen=True)
+class Study:
+    """What is certain about a problem.
+
+    Attributes
+    ----------
+    curve
+        The certified bound of the averaged distance; it also says which ball is never left.
+    certificate
+        The constants of the field on that ball, or on the whole space where no ball is certified.
+    answer
+        Every condition and bound with these constants; None where there are none.
+    """
+
+    problem: Problem
+    curve: BoundCurve
+    certificate: FieldCertificate
+    answer: Gains | None
+
+    @property
+    def condition(self) -> str:
+        """Under which condition the constants apply along the averaged system."""
+        if self.certificate.domain.outer is None:
+            return "everywhere"
+        where = f"within {float(self.certificate.domain.outer):.6g} of the source"
+        return where + (
+            ", which is certified" if self.curve.evidence.verdict is Verdict.PROVED else ", if it stays there"
+        )
+
+    @property
+    def bounds_at_end(self) -> Mapping[str, float | None]:
+        """The averaged distance at t₀ + T: ``printed``, ``closed_form`` and ``tight``, None where there is none."""
+        answer = self.answer
+        printed = None if answer is None else answer["clip.residual_bound_printed"]
+        split = None if answer is None else answer["clip.residual_bound"]
+        proved = self.curve.evidence.verdict is Verdict.PROVED
+        return {
+            "printed": None if printed is None else printed.value,
+            "closed_form": None if split is None else split.value,
+            "tight": self.curve.final if proved else None,
+        }
+
+    def looseness(self, worst: float) -> dict[str, float | None]:
+        """Each of :attr:`bounds_at_end` divided by the worst simulated distance."""
+        if not worst > 0:
+            return dict.fromkeys(self.bounds_at_end)
+        return {name: None if value is None else value / worst for name, value in self.bounds_at_end.items()}
+
+
+def study(problem: Problem, *, radius: sp.Expr | None = None, rtol: float = 1e-3, **known: Any) -> Study:
+    """Bound the averaged distance, certify the field's constants where it moves, and answer with them.
+
+    Parameters
+    ----------
+    problem
+        With a ν_min, or the curve cannot reach t₀ + T.
+    radius
+        Of the ball on which the constants are certified; left out, the largest certified distance.
+    rtol
+        Of the constants.
+    known
+        Further fields of :class:`GainData`, such as ``residual``, ``V0`` or ``tau_star``; they replace the problem's.
+
+    Raises
+    ------
+    InputError
+        If the problem has no ν_min, ``radius`` is smaller than the certified reach, or data contradict each other.
+    """
+    if problem.tuning.nu_min is None:
+        raise InputError(f"{problem.name}: seeker.nu_min is missing; without a clip nothing ends at t0 + T")
+    curve = tight_bound(problem, known.get("x0_norm"))
+    if curve.evidence.verdict is Verdict.PROVED:
+        reach = _rounded_up(max(curve.distances))
+        if radius is None:
+            radius = reach
+        elif sign(radius - reach) < 0:
+            raise InputError(
+                f"radius must be at least {float(reach):g}, the distance that may be reached, got {radius}"
+            )
+    certificate = certify_field(
+        problem.field, problem.variables, problem.source, problem.kappa, radius=radius, rtol=rtol
+    )
+    answer = None
+    if certificate.verdict is Verdict.PROVED:
+        answer = gains(gain_data(problem, certificate, **known))
+    return Study(problem, curve, certificate, answer)
+
+
+def gain_data(problem: Problem, certificate: FieldCertificate, **known: Any) -> GainData:
+    """The problem's numbers with certified constants on the safe side; ``known`` replaces any of them."""
+    tuning, drift = problem.tuning, problem.drift
+    data: dict[str, Any] = {
+        "bounds": certificate.field_bounds(), "k": tuning.k, "T": tuning.T, "nu_min": tuning.nu_min,
+        "t0": tuning.t0, "omega": tuning.omega, "mu": tuning.mu, "x0_norm": distance_from_source(problem),
+    }  # fmt: skip
+    if "V0" in known and "x0_norm" not in known:
+        data.pop("x0_norm")
+    if drift.kind == "gradient":
+        data["drift_matrix"] = drift.matrix
+    elif drift.kind == "bounded":
+        data["drift_bound"] = largest_drift(problem, certificate.domain.outer)
+    if known.get("drift_norm") is not None:
+        data.pop("drift_matrix", None)
+    data |= {name: value for name, value in known.items() if value is not None}
+    return GainData(**data)
+
+
+def largest_drift(problem: Problem, radius: sp.Expr | None) -> sp.Rational:
+    """A rational upper bound of ‖f‖ on [t₀, t₀ + T] and ‖x − x*‖ ≤ radius, from the drift itself.
+
+    The declared bound is used only where the drift has no finite enclosure there.
+    """
+    from ptproof.proof.ball import ball_from, enclose, interval
+    from ptproof.proof.tape import Undefined
+
+    t0, T = ball_from(problem.tuning.t0), ball_from(problem.tuning.T)
+    inside: dict[sp.Symbol, Any] = {}
+    if radius is not None and radius.is_finite:
+        reach = ball_from(radius)
+        inside = {
+            v: ball_from(c) + interval(-reach, reach)
+            for v, c in zip(problem.variables, problem.source, strict=True)
+        }  # fmt: skip
+    candidates = [sp.sqrt(sp.Add(*(entry**2 for entry in problem.drift.rate)))]
+    if problem.drift.bound is not None:
+        candidates.append(problem.drift.bound)
+    for norm in candidates:
+        try:
+            top = max(
+                _upper(
+                    enclose(norm, {TIME: interval(t0 + T * i / _INTERVALS, t0 + T * (i + 1) / _INTERVALS), **inside})
+                )
+                for i in range(_INTERVALS)
+            )
+        except Undefined:
+            continue
+        if math.isfinite(top):
+            return _rounded_up(top)
+    raise InputError(f"{problem.name}: the drift has no finite enclosure; give its bound")
+
+
+def _upper(ball: Any) -> float:
+    return math.nextafter(float(ball.upper()), math.inf)
+
+
+def _rounded_up(value: float) -> sp.Rational:
+    """A decimal of about six digits that is at least ``value``."""
+    if value == 0:
+        return sp.S.Zero
+    scale = Fraction(10) ** (_DIGITS - 1 - math.floor(math.log10(value)))
+    return sp.Rational(math.ceil(Fraction(value) * scale)) / sp.Rational(scale.numerator, scale.denominator)

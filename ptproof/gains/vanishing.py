@@ -1,0 +1,185 @@
+"""Gain conditions and bounds for a drift along the gradient, f = E∇F, and for no drift.
+
+Along the averaged system dx/dτ = ν²E∇F + (k/2)∇F with V = F(x*) − F, exactly
+dV/dτ = −∇Fᵀ(ν²E + k/2)∇F ≤ (mν² − k/2)‖∇F‖², where m = ‖E‖, or the sharper −λ_min((E + Eᵀ)/2) of a known E.
+c₁V^q ≤ ‖∇F‖ ≤ c₂V^q (eq:ass4) turns this into a scalar inequality in two ways: the paper estimates the push by
+c₂ and the gain by c₁, term by term; estimating the sum, by c₂ while it is positive and by c₁ while it is
+negative, gives the *split* bound, which is never larger.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import Literal
+
+import sympy as sp
+
+from ptproof.comparison import DilatedBound
+from ptproof.field import FieldBounds
+from ptproof.gains.clipped import Horizon
+from ptproof.gains.data import GainData
+from ptproof.gains.numbers import sign
+
+Chain = Literal["printed", "split"]
+STRETCHED = sp.Symbol("tau", real=True)
+# The comparison is checked once in these letters, and the numbers are put in afterwards.
+_INITIAL, _HORIZON, _GROWTH, _DECAY = sp.symbols("V0 T g h", positive=True)
+
+
+def smallest_gain_printed(bounds: FieldBounds, norm: sp.Expr) -> sp.Expr:
+    """2(c₂/c₁)²‖E‖, above which the paper's asymptotic seeker converges on average (eq:convergence_cond)."""
+    return 2 * (bounds.c2 / bounds.c1) ** 2 * norm
+
+
+def smallest_gain(push: sp.Expr) -> sp.Expr:
+    """max(0, 2m): the averaged asymptotic seeker converges for every k above it, whatever κ is.
+
+    dV/dt ≤ (m − k/2)‖∇F‖² is negative off the source, and V is proper. With m = ‖E‖ no smaller constant
+    serves all E of that norm: for E = −‖E‖I and k ≤ 2‖E‖ V does not decrease at all.
+    """
+    return sp.S.Zero if sign(push) <= 0 else 2 * push
+
+
+def overshoot(bounds: FieldBounds, norm: sp.Expr, T: sp.Expr) -> sp.Expr:
+    """√(a₁/a₂)·e^(c₂²‖E‖T/2), the factor of eq:x_bar_upper_bound (κ = 1)."""
+    return sp.sqrt(bounds.a1 / bounds.a2) * sp.exp(bounds.c2**2 * norm * T / 2)
+
+
+def decay_rate(bounds: FieldBounds, k: sp.Expr) -> sp.Expr:
+    """k·c₁²/4, the decay rate of ‖x̄ − x*‖ in τ (eq:x_bar_upper_bound, κ = 1)."""
+    return k * bounds.c1**2 / 4
+
+
+def rates(data: GainData, chain: Chain) -> tuple[sp.Expr, sp.Expr]:
+    """(g, h) of dV/dτ ≤ (g/(1 + (τ − t₀)/T)² − h)V^(1+σ) without a clip (eq:remark_inequality).
+
+    For the split chain this holds up to the turning point only, with c₂ for both terms.
+    """
+    bounds, (k,) = data.bounds, data.known("k")
+    push, lower = (data.norm, bounds.c1) if chain == "printed" else (data.push, bounds.c2)
+    return bounds.c2**2 * push, k * lower**2 / 2
+
+
+def escape_elapsed(data: GainData, chain: Chain, initial: sp.Expr) -> sp.Expr:
+    """The first τ − t₀ at which the bound from V₀ = ``initial`` is infinite; applies at or above the threshold."""
+    (T,), (g, h) = data.known("T"), rates(data, chain)
+    values = {_GROWTH: g, _DECAY: h, _HORIZON: T, _INITIAL: initial}
+    return _in_letters(data.bounds.sigma).escape_elapsed.subs(values, simultaneous=True)
+
+
+def critical_value_at(data: GainData, elapsed: sp.Expr) -> sp.Expr | None:
+    """The V₀ whose printed bound is infinite at τ − t₀ = ``elapsed`` (critical-V_0); None if there is none."""
+    (T,), (g, h) = data.known("T"), rates(data, "printed")
+    if sign(g - h * (1 + elapsed / T)) <= 0:
+        return None
+    values = {_GROWTH: g, _DECAY: h, _HORIZON: T}
+    return _in_letters(data.bounds.sigma).critical_initial_at(elapsed).subs(values, simultaneous=True)
+
+
+@lru_cache
+def _in_letters(sigma: sp.Expr) -> DilatedBound:
+    return DilatedBound(STRETCHED, sp.S.Zero, _INITIAL, _HORIZON, _GROWTH, _DECAY, sigma)
+
+
+def threshold_factor(data: GainData, chain: Chain) -> sp.Expr | None:
+    """(√g − √h)² of the chain, so that V₀ is critical when σT(√g − √h)²V₀^σ = 1; None if there is no threshold.
+
+    Printed: (k·c₁²/2)(ρ − 1)² with ρ = (c₂/c₁)√(2‖E‖/k). Split: (k·c₂²/2)(ρ₀ − 1)² with ρ₀ = √(2m/k).
+    There is none where ρ ≤ 1: then the bound decreases from the start.
+    """
+    bounds, (k,) = data.bounds, data.known("k")
+    if chain == "printed":
+        lower, ratio = bounds.c1, bounds.c2 / bounds.c1 * sp.sqrt(2 * data.norm / k)
+    else:
+        lower, ratio = bounds.c2, sp.sqrt(2 * data.push / k) if sign(data.push) > 0 else sp.S.Zero
+    if sign(ratio - 1) <= 0:
+        return None
+    return k * lower**2 / 2 * (ratio - 1) ** 2
+
+
+def critical_value(data: GainData, chain: Chain) -> sp.Expr | None:
+    """[σT(√g − √h)²]^(−1/σ): below it the bound is finite for all time (κ ≥ 2); None if every V₀ is below."""
+    factor = threshold_factor(data, chain)
+    if factor is None:
+        return None
+    (T,) = data.known("T")
+    return (data.bounds.sigma * T * factor) ** (-1 / data.bounds.sigma)
+
+
+def critical_horizon(data: GainData, chain: Chain, initial: sp.Expr) -> sp.Expr | None:
+    """The T below which the guarantee holds for V₀ = ``initial`` and this drift, whatever k > 0 (κ ≥ 2)."""
+    factor = threshold_factor(data, chain)
+    if factor is None:
+        return None
+    sigma = data.bounds.sigma
+    return initial ** (-sigma) / (sigma * factor)
+
+
+def growth(data: GainData, horizon: Horizon, elapsed: sp.Expr, chain: Chain) -> sp.Expr:
+    """A(e) with dV/dτ ≤ A'V^(2q): the integral of the scalar rate up to the elapsed time e."""
+    bounds, (k,) = data.bounds, data.known("k")
+    if chain == "printed":
+        return bounds.c2**2 * data.norm * elapsed - bounds.c1**2 * k / 2 * horizon.stretched(elapsed)
+    turning = horizon.turning(data.push, k)
+    if sign(elapsed - turning) <= 0:
+        return bounds.c2**2 * horizon.balance(elapsed, data.push, k)
+    top = horizon.balance(turning, data.push, k)
+    return bounds.c2**2 * top + bounds.c1**2 * (horizon.balance(elapsed, data.push, k) - top)
+
+
+def largest_growth(data: GainData, horizon: Horizon, elapsed: sp.Expr, chain: Chain) -> sp.Expr:
+    """The maximum of A over [0, e]; A rises up to one turning point and falls from there on."""
+    bounds, (k,) = data.bounds, data.known("k")
+    if chain == "printed":
+        turning = horizon.turning(bounds.c2**2 * data.norm, k * bounds.c1**2)
+    else:
+        turning = horizon.turning(data.push, k)
+    return growth(data, horizon, turning if sign(elapsed - turning) > 0 else elapsed, chain)
+
+
+def lyapunov_bound(
+    data: GainData, horizon: Horizon, elapsed: sp.Expr, chain: Chain, initial: sp.Expr
+) -> sp.Expr | None:
+    """The bound of V at the elapsed time from V₀ = ``initial``; None if it has escaped by then."""
+    sigma = data.bounds.sigma
+    amount = growth(data, horizon, elapsed, chain)
+    if sigma == 0:
+        return initial * sp.exp(amount)
+    if sign(1 - sigma * initial**sigma * largest_growth(data, horizon, elapsed, chain)) <= 0:
+        return None
+    return initial * (1 - sigma * initial**sigma * amount) ** (-1 / sigma)
+
+
+def distance_bound(data: GainData, horizon: Horizon, elapsed: sp.Expr, chain: Chain) -> sp.Expr | None:
+    """(V/a₂)^(1/2κ) with the bound of V: how far x̄ can be from the source; None if the bound has escaped."""
+    value = lyapunov_bound(data, horizon, elapsed, chain, data.start_value)
+    return None if value is None else (value / data.bounds.a2) ** (1 / (2 * data.bounds.kappa))
+
+
+def clip_for_residual(data: GainData, chain: Chain, residual: sp.Expr) -> sp.Expr | None:
+    """The largest ν_min ≤ 1 whose bound at t₀ + T is at most ``residual``; None if none is.
+
+    The bound at T falls with the stretched time s_T = T(2/ν_min − 1) that the clip allows, and A at T is linear in
+    s_T, so the condition is solved for s_T in closed form.
+    """
+    bounds, initial, (k, T) = data.bounds, data.start_value, data.known("k", "T")
+    sigma, target = bounds.sigma, bounds.a2 * residual ** (2 * bounds.kappa)
+    wanted = (
+        sp.log(target / initial) if sigma == 0 else (initial ** (-sigma) - target ** (-sigma)) / sigma
+    )  # A at T must not exceed this
+    if sigma != 0:  # the bound must survive its maximum, which no clip lowers once it lies behind the maximum
+        factor = threshold_factor(data, chain)
+        if factor is not None and sign(1 - sigma * T * factor * initial**sigma) <= 0:
+            return None
+
+    def clip(stretched: sp.Expr) -> sp.Expr:
+        nu = 2 * T / (stretched + T) if sign(stretched + T) > 0 else sp.S.One
+        return sp.S.One if sign(nu - 1) > 0 else nu
+
+    if chain == "printed":
+        return clip((bounds.c2**2 * data.norm * T - wanted) * 2 / (k * bounds.c1**2))
+    turning = Horizon(T).turning(data.push, k)
+    top = Horizon(T).balance(turning, data.push, k)
+    if sign(turning) == 0 or sign(wanted - bounds.c2**2 * top) <= 0:  # the gain wins before the clip
+        return clip((data.push * T - top - (wanted - bounds.c2**2 * top) / bounds.c1**2) * 2 / k)
+    return clip((data.push * T - wanted / bounds.c2**2) * 2 / k)

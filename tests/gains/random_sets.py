@@ -1,0 +1,152 @@
+"""Random fields, drifts and tunings with known constants, and the averaged system integrated beside the bounds.
+
+``python tests/gains/random_sets.py 10000 [first seed]`` checks that many sets and prints the worst ratio.
+"""
+
+import math
+import random
+import sys
+from dataclasses import dataclass
+
+import numpy as np
+import sympy as sp
+from scipy.integrate import solve_ivp
+
+from ptproof.field import FieldBounds
+from ptproof.gains import GainData, Horizon, nonvanishing, vanishing
+
+R = sp.Rational
+
+
+@dataclass(frozen=True)
+class Case:
+    data: GainData
+    gradient: object  # x - x* (array) -> grad F
+    drift: object  # (elapsed, x - x*, grad F) -> f
+    start: np.ndarray
+
+
+def rational(rng, low, high, denominator=20):
+    return R(rng.randint(round(low * denominator), round(high * denominator)), denominator)
+
+
+def field(rng):
+    """Constants that hold, and the gradient: -(x'Qx)^kappa, or a sum of powers; both around a source at 0."""
+    kappa = rng.choice([1, 1, 2, 2, 3])
+    low = rational(rng, 0.3, 1.5)
+    high = low * (1 + rational(rng, 0, 1))
+    if rng.random() < 0.5:
+        bounds = FieldBounds(kappa, high**kappa, low**kappa, 2 * kappa * low**kappa, 2 * kappa * high**kappa)
+        angle = rng.uniform(0, math.pi)
+        turn = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
+        Q = turn @ np.diag([float(low), float(high)]) @ turn.T
+        return bounds, lambda x: -2 * kappa * (x @ Q @ x) ** (kappa - 1) * (Q @ x)
+    shrink = R(1, 2 ** (kappa - 1))
+    bounds = FieldBounds(kappa, high, low * shrink, 2 * kappa * low * shrink, 2 * kappa * high)
+    weights = np.array([float(low), float(high)])
+    return bounds, lambda x: -2 * kappa * weights * x ** (2 * kappa - 1)
+
+
+def matrix(rng):
+    kind = rng.randrange(4)
+    if kind == 0:
+        return sp.ImmutableDenseMatrix([[-1, 0], [0, -1]]) * rational(rng, 0.1, 2.5)
+    if kind == 1:
+        return sp.ImmutableDenseMatrix([[0, 1], [-1, 0]]) * rational(rng, 0.1, 2.5)
+    if kind == 2:
+        return sp.ImmutableDenseMatrix([[0, 1], [0, 0]]) * rational(rng, 0.1, 2.5)
+    return sp.ImmutableDenseMatrix(2, 2, lambda i, j: rational(rng, -1.5, 1.5))
+
+
+def make(seed):
+    rng = random.Random(seed)
+    bounds, gradient = field(rng)
+    angle = rng.uniform(0, 2 * math.pi)
+    distance = rational(rng, 0.1, 2)
+    start = float(distance) * np.array([math.cos(angle), math.sin(angle)])
+    common = {
+        "k": rational(rng, 0.3, 4),
+        "T": rational(rng, 0.2, 3),
+        "nu_min": rational(rng, 0.15, 1),
+        "x0_norm": distance,
+    }
+    kind = rng.choice(["none", "norm", "matrix", "bounded"])
+    if kind == "none":
+        return Case(GainData(bounds, **common), gradient, lambda e, x, g: 0 * x, start)
+    if kind == "bounded":
+        d = rational(rng, 0.05, 2)
+        shape, speed = rng.randrange(2), rng.uniform(0, 6)
+
+        def push(e, x, g):
+            if shape:
+                return float(d) * x / (np.linalg.norm(x) + 1e-9)
+            return float(d) * np.array([math.cos(speed * e), math.sin(speed * e)])
+
+        return Case(GainData(bounds, drift_bound=d, **common), gradient, push, start)
+    E = matrix(rng)
+    data = GainData(bounds, drift_matrix=E, **common)
+    if kind == "norm":
+        data = GainData(bounds, drift_norm=data.drift_norm, **common)
+    array = np.array(E.tolist(), dtype=float)
+    return Case(data, gradient, lambda e, x, g: array @ g, start)
+
+
+class Escape(Exception):
+    """The averaged position has left every reasonable ball."""
+
+
+def distances(case, elapsed):
+    """The averaged distance at these elapsed times, integrated in the original time up to and from the corner."""
+    k, T, nu_min = (float(value) for value in (case.data.k, case.data.T, case.data.nu_min))
+
+    def rate(e, x):
+        if not np.linalg.norm(x) < 1e3:
+            raise Escape
+        g = case.gradient(x)
+        return case.drift(e, x, g) + k / 2 / max(nu_min, 1 - e / T) ** 2 * g
+
+    corner = T * (1 - nu_min)
+    grid = sorted({*map(float, elapsed), corner, T})
+    x, last, found = case.start, 0.0, {0.0: float(np.linalg.norm(case.start))}
+    for e in grid:
+        if e - last < 1e-12 * T:
+            found[e] = float(np.linalg.norm(x))
+            continue
+        try:
+            run = solve_ivp(rate, (last, e), x, method="LSODA", rtol=1e-9, atol=1e-12)
+        except Escape:
+            return found, True  # the averaged system itself escapes
+        assert run.success, run.message
+        x, last = run.y[:, -1], e
+        found[e] = float(np.linalg.norm(x))
+    return found, False
+
+
+def violations(seed):
+    """The largest distance/bound over chains and times for one set; more than 1 would be a false bound."""
+    case = make(seed)
+    data = case.data
+    horizon = Horizon(data.T, data.nu_min)
+    times = [data.T * share for share in (R(1, 5), R(1, 2), R(4, 5), R(1))]
+    found, escaped = distances(case, times)
+    worst = 0.0
+    for e in times:
+        distance = found.get(float(e), math.inf if escaped else None)
+        if distance is None:
+            continue
+        if data.drift_bound is not None:
+            bounds = [nonvanishing.distance_bound(data, horizon, e)]
+        else:
+            bounds = [vanishing.distance_bound(data, horizon, e, chain) for chain in ("printed", "split")]
+            if None not in bounds and bounds[1].evalf() > bounds[0].evalf() * (1 + R(1, 10**9)):
+                return math.inf
+        for bound in bounds:
+            if bound is not None:
+                worst = max(worst, (distance - 1e-9) / float(bound))
+    return worst
+
+
+if __name__ == "__main__":
+    count, first = int(sys.argv[1]), int(sys.argv[2]) if len(sys.argv) > 2 else 0
+    ratios = [violations(seed) for seed in range(first, first + count)]
+    print(f"{count} sets, largest distance/bound {max(ratios):.9f} at seed {first + ratios.index(max(ratios))}")

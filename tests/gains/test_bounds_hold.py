@@ -1,0 +1,94 @@
+"""Every closed-form bound lies above the averaged system, for random data; ``random_sets.py`` runs more of them."""
+
+import dataclasses
+
+import pytest
+import random_sets
+import sympy as sp
+
+from ptproof.gains import Horizon, nonvanishing, vanishing
+
+
+@pytest.mark.parametrize("first", range(0, 60, 10))
+def test_the_bounds_hold_along_the_averaged_system(first):
+    worst = max(random_sets.violations(seed) for seed in range(first, first + 10))
+    assert worst <= 1 + 1e-6
+
+
+def corrupt(case, **factors):
+    bounds = case.data.bounds
+    wrong = {name: getattr(bounds, name) * factor for name, factor in factors.items()}
+    data = dataclasses.replace(case.data, bounds=dataclasses.replace(bounds, **wrong))
+    return dataclasses.replace(case, data=data)
+
+
+def test_wrong_constants_give_a_bound_that_is_violated(monkeypatch):
+    """The check can fail: with b1 and b2 twice too large some bound is false."""
+    make = random_sets.make
+    monkeypatch.setattr(random_sets, "make", lambda seed: corrupt(make(seed), b1=2, b2=2))
+    assert max(random_sets.violations(seed) for seed in range(12)) > 1.01
+
+
+def test_a_gain_that_is_not_applied_gives_a_bound_that_is_violated(monkeypatch):
+    make = random_sets.make
+
+    def stronger(seed):
+        case = make(seed)
+        return dataclasses.replace(case, data=dataclasses.replace(case.data, nu_min=case.data.nu_min / 2))
+
+    distances = random_sets.distances
+    monkeypatch.setattr(random_sets, "make", stronger)
+    monkeypatch.setattr(
+        random_sets,
+        "distances",
+        lambda case, times: distances(
+            dataclasses.replace(case, data=dataclasses.replace(case.data, nu_min=case.data.nu_min * 2)), times
+        ),
+    )
+    assert max(random_sets.violations(seed) for seed in range(12)) > 1.01
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_the_ultimate_bound_is_not_left_by_the_clipped_seeker(seed):
+    """Started inside the ultimate bound's Lyapunov level, the averaged system stays within the bound."""
+    import numpy as np
+    from scipy.integrate import solve_ivp
+
+    case = next(
+        case
+        for case in (random_sets.make(s) for s in range(1000 * seed, 1000 * seed + 100))
+        if case.data.drift_bound is not None
+    )
+    data = case.data
+    gain = 1 / data.nu_min**2
+    bound = float(nonvanishing.ultimate_bound(data.bounds, data.k, data.drift_bound, gain))
+    rate = float(data.k * gain / 2)
+
+    def rhs(e, x):
+        g = case.gradient(x)
+        return case.drift(e, x, g) + rate * g
+
+    inner = float(data.bounds.a2 / data.bounds.a1) ** (1 / (2 * int(data.bounds.kappa))) * bound
+    run = solve_ivp(rhs, (0, 20 / rate), case.start / np.linalg.norm(case.start) * inner, rtol=1e-8, atol=1e-12)
+    assert np.linalg.norm(run.y, axis=0).max() <= bound * (1 + 1e-6)
+
+
+@pytest.mark.parametrize("seed", range(15))
+def test_the_residual_is_met_at_the_clip_that_is_named_and_not_above_it(seed):
+    case = next(
+        case
+        for case in (random_sets.make(s) for s in range(500 * seed, 500 * seed + 100))
+        if case.data.drift_bound is None and case.data.bounds.kappa < 3
+    )
+    data = case.data
+    residual = data.x0_norm / 3
+    for chain in ("printed", "split"):
+        nu = vanishing.clip_for_residual(data, chain, residual)
+        if nu is None:
+            assert vanishing.distance_bound(data, Horizon(data.T, sp.Rational(1, 1000)), data.T, chain) is None
+            continue
+        at = vanishing.distance_bound(data, Horizon(data.T, nu), data.T, chain)
+        assert float(at) <= float(residual) * (1 + 1e-9)
+        if float(nu) < 0.95:
+            above = vanishing.distance_bound(data, Horizon(data.T, nu * sp.Rational(101, 100)), data.T, chain)
+            assert above is None or float(above) > float(residual)

@@ -1,0 +1,156 @@
+"""``ptproof gains``: numbers or a problem file in, a table or JSON out, and the exit status."""
+
+import functools
+import json
+
+import pytest
+from click.testing import CliRunner
+
+from ptproof.commands.gains import gains
+from ptproof.errors import InputError
+
+TWO = ["--kappa", "2", "--a1", "3/2", "--a2", "1/2", "--b1", "1.4", "--b2", "3.3"]
+ONE = ["--kappa", "1", "--a1", "1.5", "--a2", "0.5", "--b1", "0.5", "--b2", "3.25"]
+KEYS = {
+    "constants": {"q", "sigma", "c1", "c2"},
+    "asymptotic": {"k_min_printed", "k_min"},
+    "prescribed_time": {"overshoot", "rate"},
+    "critical": {"V0_at_tau_star", "V0_threshold_printed", "V0_threshold", "T_threshold_printed", "T_threshold",
+                 "escape_time"},
+    "nonvanishing": {"h1", "h2", "gamma", "ultimate_bound"},
+    "clip": {"tau_end", "k_effective", "u1_peak", "residual_bound"},
+}  # fmt: skip
+
+
+def run(arguments):
+    result = CliRunner().invoke(gains, arguments, standalone_mode=False)
+    if result.exception is not None:
+        raise result.exception
+    return result
+
+
+def answer(arguments):
+    return json.loads(run([*arguments, "--json"]).stdout)
+
+
+def leaves(content):
+    for section in KEYS:
+        yield from content[section].values()
+
+
+CRITICAL = [*TWO, "--drift-norm", "1.5", "--k", "1.8", "--T", "1", "--V0", "0.5"]
+QUADRATIC = [*ONE, "--drift-norm", "1", "--k", "1.8", "--T", "1", "--nu-min", "0.3", "--x0-norm", "2"]
+
+
+@pytest.mark.parametrize("numbers", [ONE, [*CRITICAL, "--tau-star", "0.1"]])
+def test_the_keys_of_the_answer(numbers):
+    content = answer(numbers)
+    for section, keys in KEYS.items():
+        assert keys <= set(content[section])
+    for leaf in leaves(content):
+        assert leaf is None or set(leaf) == {"exact", "value"}
+
+
+def test_an_empty_key_says_why():
+    content = answer(ONE)
+    assert content["clip"]["tau_end"] is None
+    assert content["why"]["clip.tau_end"] == "needs T and nu_min"
+
+
+def test_exact_text_gives_exact_text():
+    content = answer([*ONE, "--k", "1.8", "--T", "pi", "--nu-min", "3/10"])
+    assert content["clip"]["k_effective"] == {"exact": "20", "value": 20.0}
+    assert content["clip"]["tau_end"]["exact"] == "17*pi/3"
+
+
+def test_the_table_reads_like_an_answer():
+    text = run(CRITICAL).stdout
+    assert "safe V₀ below, as printed" in text
+    assert "0.00349272" in text
+    assert "never: V0 is below the threshold" in text
+
+
+@pytest.mark.parametrize(
+    ("residual", "status", "word"), [("4", 0, "guaranteed"), ("1/1000", 1, "not guaranteed by these bounds")]
+)
+def test_a_residual_that_is_not_guaranteed_is_status_one(residual, status, word):
+    result = run([*QUADRATIC, "--residual", residual])
+    assert result.return_value == status
+    assert word in result.stdout
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ([], "--kappa, --a1, --a2, --b1, --b2"),
+        (["--kappa", "1", "--a1", "1", "--a2", "2", "--b1", "1", "--b2", "1"], "a2 must not exceed a1"),
+        (["--kappa", "1", "--a1", "2", "--a2", "1", "--b1", "3", "--b2", "1"], "b1 must not exceed b2"),
+        (["--kappa", "1.5", "--a1", "2", "--a2", "1", "--b1", "1", "--b2", "1"], "kappa must be a positive integer"),
+        (["--kappa", "0", "--a1", "2", "--a2", "1", "--b1", "1", "--b2", "1"], "kappa must be a positive integer"),
+        (["--kappa", "1", "--a1", "2", "--a2", "-1", "--b1", "1", "--b2", "1"], "a2 must be a positive number"),
+        ([*ONE, "--nu-min", "1.01"], "nu_min must lie in"),
+        ([*ONE, "--nu-min", "0"], "nu_min must be positive"),
+        ([*ONE, "--k", "x"], "--k: unknown name 'x'"),
+        ([*ONE, "--k", "__import__('os')"], "--k"),
+        ([*ONE, "--radius", "1"], "only a problem file"),
+        (["vanishing", *ONE], "has its own field"),
+        (["nowhere.toml"], "nowhere.toml: cannot be read"),
+    ],
+)
+def test_bad_input_is_one_sentence(arguments, message):
+    with pytest.raises(InputError, match=message.replace("(", r"\(")):
+        run(arguments)
+
+
+@functools.cache
+def example(name):
+    return answer([name])
+
+
+@pytest.mark.parametrize("name", ["vanishing", "nonvanishing"])
+def test_the_paper_s_examples_have_a_tight_bound(name):
+    content = example(name)
+    assert content["certificate"]["verdict"] == "proved"
+    assert content["tight"]["verdict"] == "proved"
+    assert 1 <= content["looseness"]["tight"] <= 3
+    assert content["worst_simulated"] <= content["tight"]["distance_at_end"]
+
+
+def test_the_printed_chain_of_the_first_example_says_nothing():
+    content = example("vanishing")
+    assert content["bounds_at_end"]["printed"] / 2.8284 == pytest.approx(3.1e4, rel=0.05)
+    assert content["asymptotic"]["k_min"]["value"] == 2
+    assert content["looseness"]["printed"] > 1e6 > content["looseness"]["closed_form"]
+
+
+def test_options_replace_the_problem_s_tuning():
+    content = answer(["saturated", "--nu-min", "1/2", "--k", "2"])
+    assert content["clip"]["k_effective"]["exact"] == "8"
+    assert content["clip"]["tau_end"]["exact"] == "3"
+    assert content["worst_simulated"] == pytest.approx(8**0.5 * 2.718281828**-3, rel=1e-4)
+
+
+def test_a_radius_below_the_reach_is_refused():
+    with pytest.raises(InputError, match=r"radius must be at least 2\.8"):
+        run(["saturated", "--radius", "1"])
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        [*TWO, *["--drift-norm", "1.5", "--k", "1.8", "--T", "1", "--V0", "0.5"]],
+        [*ONE, *["--drift-norm", "1", "--k", "1.8", "--T", "1", "--nu-min", "0.3", "--x0-norm", "2"]],
+        [*ONE, *["--drift-bound", "1", "--k", "1.8", "--T", "1", "--nu-min", "0.3", "--x0-norm", "2"]],
+        ["saturated"],
+    ],
+    ids=["critical", "time", "bounded", "problem"],
+)
+def test_a_picture_is_written(arguments, tmp_path):
+    file = tmp_path / "bounds.svg"
+    run([*arguments, "--plot", str(file)])
+    assert file.stat().st_size > 10_000
+
+
+def test_a_picture_that_cannot_be_written_is_bad_input(tmp_path):
+    with pytest.raises(InputError, match="cannot write"):
+        run([*ONE, *["--k", "1", "--T", "1"], "--plot", str(tmp_path / "missing" / "x.png")])

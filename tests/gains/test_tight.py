@@ -1,0 +1,234 @@
+"""The certified bound of the averaged distance: above every simulated start, tight for the paper's examples."""
+
+import dataclasses
+import functools
+
+import numpy as np
+import pytest
+import sympy as sp
+from scipy.integrate import solve_ivp
+
+from ptproof.drift import bounded_drift, gradient_drift
+from ptproof.errors import InputError
+from ptproof.gains.envelope import RadialEnvelope
+from ptproof.gains.pieces import Piece, faces
+from ptproof.gains.tight import distance_from_source, tight_bound
+from ptproof.problem import example
+from ptproof.problem.model import TIME
+from ptproof.proof.verdict import Verdict
+from ptproof.system import gradient
+
+R = sp.Rational
+
+
+@functools.cache
+def curve(name):
+    return tight_bound(example(name))
+
+
+def averaged(problem, starts, times):
+    """‖x̄ − x*‖ for each start at each elapsed time, by integration of the averaged system in t."""
+    x = problem.variables
+    slope = sp.lambdify(x, list(gradient(problem.field, x)))
+    drift = sp.lambdify((TIME, *x), list(problem.drift.rate))
+    tuning = problem.tuning
+    k, T, nu_min = float(tuning.k), float(tuning.T), float(tuning.nu_min)
+    source = np.array([float(value) for value in problem.source])
+
+    def rate(e, y):
+        return np.array(drift(e, *y), dtype=float) + k / 2 / max(nu_min, 1 - e / T) ** 2 * np.array(slope(*y))
+
+    found = []
+    for start in starts:
+        run = solve_ivp(rate, (0, T), source + start, t_eval=times, method="LSODA", rtol=1e-8, atol=1e-11)
+        found.append(np.linalg.norm(run.y.T - source, axis=1))
+    return np.array(found)
+
+
+def circle(radius, count=48):
+    angles = np.linspace(0, 2 * np.pi, count, endpoint=False)
+    return radius * np.column_stack([np.cos(angles), np.sin(angles)])
+
+
+@pytest.mark.parametrize("name", ["vanishing", "nonvanishing", "saturated"])
+def test_the_bound_is_proved_and_tight_for_the_paper_s_examples(name):
+    found = curve(name)
+    assert found.evidence.verdict is Verdict.PROVED
+    problem = example(name)
+    worst = averaged(problem, circle(float(found.initial)), [float(problem.tuning.T)]).max()
+    assert worst <= found.final <= 3 * worst
+
+
+@pytest.mark.parametrize("name", ["vanishing", "nonvanishing", "saturated"])
+def test_the_bound_lies_above_every_start_at_every_time(name):
+    found = curve(name)
+    problem = example(name)
+    keep = range(0, len(found.times), 20)
+    distances = averaged(problem, circle(float(found.initial), 24), [found.times[i] for i in keep])
+    bounds = np.array([found.distances[i] for i in keep])
+    assert (distances <= bounds * (1 + 1e-6)).all()
+
+
+def test_the_grid_ends_at_the_prescribed_time():
+    found = curve("vanishing")
+    assert found.times[0] == 0
+    assert found.times[-1] == pytest.approx(1)
+    assert found.stretched[-1] == pytest.approx(17 / 3)
+
+
+def test_the_initial_distance_is_exact():
+    assert distance_from_source(example("vanishing")) == 2 * sp.sqrt(2)
+
+
+@pytest.mark.parametrize(
+    "matrix",
+    [[["0", "-2"], ["2", "0"]], [["1", "3"], ["0", "-1"]], [["-2", "1"], ["1", "-1/2"]]],
+    ids=["skew", "not normal", "repulsive"],
+)
+def test_the_bound_holds_for_a_drift_that_is_not_a_multiple_of_the_identity(matrix):
+    base = example("vanishing")
+    E = sp.ImmutableDenseMatrix(2, 2, lambda i, j: R(matrix[i][j]))
+    problem = dataclasses.replace(base, drift=gradient_drift(E.tolist(), base.field, base.variables))
+    found = tight_bound(problem, sp.Integer(1), steps=80)
+    assert found.evidence.verdict is Verdict.PROVED
+    keep = range(0, len(found.times), 8)
+    distances = averaged(problem, circle(1.0, 16), [found.times[i] for i in keep])
+    assert (distances <= np.array([found.distances[i] for i in keep]) * (1 + 1e-6)).all()
+
+
+def test_the_bound_holds_for_a_source_away_from_the_origin():
+    base = example("nonvanishing")
+    a, b = base.variables
+    shift = {a: a - R(3, 2), b: b + sp.sqrt(2)}
+    problem = dataclasses.replace(
+        base,
+        field=base.field.subs(shift, simultaneous=True),
+        source=(R(3, 2), -sp.sqrt(2)),
+        drift=bounded_drift([sp.sin(TIME) / 2, sp.cos(a) / 3]),
+        initial=dataclasses.replace(base.initial, x=(R(2), sp.Integer(0))),
+    )
+    found = tight_bound(problem, sp.Integer(1), steps=80)
+    worst = averaged(problem, circle(1.0, 24), [2.0]).max()
+    assert worst <= found.final <= 3 * worst
+
+
+def test_a_field_of_order_four_is_covered():
+    base = example("saturated")
+    a, b = base.variables
+    problem = dataclasses.replace(base, field=-(a**4 + 2 * b**4), kappa=2)
+    found = tight_bound(problem, sp.Integer(1), steps=60)
+    assert found.evidence.verdict is Verdict.PROVED
+    worst = averaged(problem, circle(1.0, 24), [1.0]).max()
+    assert worst <= found.final <= 1.2 * worst
+
+
+def test_a_drift_that_wins_is_bounded_or_given_up_but_never_proved_small():
+    base = example("vanishing")
+    problem = dataclasses.replace(base, drift=gradient_drift([[-30, 0], [0, -30]], base.field, base.variables))
+    found = tight_bound(problem, sp.Rational(1, 10), steps=60)
+    worst = averaged(problem, circle(0.1, 8), [1.0]).max()
+    assert found.final >= worst
+    if found.evidence.verdict is not Verdict.PROVED:
+        assert found.final == np.inf
+
+
+def test_a_field_that_ends_is_given_up_with_the_reason():
+    base = example("saturated")
+    a, b = base.variables
+    problem = dataclasses.replace(
+        base,
+        field=sp.log(4 - a**2 - b**2),
+        drift=bounded_drift([sp.Integer(20), sp.Integer(0)]),
+        initial=dataclasses.replace(base.initial, x=(R(1), R(1))),
+    )
+    found = tight_bound(problem, steps=40)
+    assert found.evidence.verdict is Verdict.UNDECIDED
+    assert found.final == np.inf
+    assert "given up" in found.evidence.detail
+
+
+def test_a_source_that_is_no_critical_point_is_refused():
+    base = example("saturated")
+    with pytest.raises(InputError, match="not zero at the source"):
+        tight_bound(dataclasses.replace(base, source=(R(1, 2), R(0))))
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"x0_norm": sp.Integer(0)}, "must be positive"),
+        ({"steps": 0}, "steps"),
+        ({"until": sp.Integer(2)}, "until"),
+        ({"until": sp.Integer(0)}, "until"),
+    ],
+)
+def test_bad_requests_are_refused(options, message):
+    with pytest.raises(InputError, match=message):
+        tight_bound(example("saturated"), **options)
+
+
+def test_without_a_clip_the_bound_stops_before_the_end():
+    base = example("saturated")
+    problem = dataclasses.replace(base, tuning=dataclasses.replace(base.tuning, nu_min=None))
+    with pytest.raises(InputError, match="below T"):
+        tight_bound(problem)
+    found = tight_bound(problem, until=R(9, 10), steps=50)
+    assert found.final == pytest.approx(2 * np.sqrt(2) * np.exp(-0.7 * 9), rel=0.3)
+    assert found.final >= 2 * np.sqrt(2) * np.exp(-0.7 * 9)
+
+
+@pytest.mark.parametrize("index", [-120, -30, -5, 0, 3])
+@pytest.mark.parametrize("weight", [0, 1])
+def test_the_envelope_lies_above_samples_and_close_to_them(index, weight):
+    problem = example("vanishing")
+    E = sp.ImmutableDenseMatrix([[R(-1), R(1, 2)], [R(0), R(1)]])
+    envelope = RadialEnvelope(problem.variables, problem.field, problem.source, problem.tuning.k, E, 2.0, (0.25, 1.0))
+    w = envelope.weights[weight]
+    M = w * np.array(E.tolist(), dtype=float) + 0.9 * np.eye(2)
+    slope = sp.lambdify(problem.variables, list(gradient(problem.field, problem.variables)))
+    low, high = envelope.boundary(index), envelope.boundary(index + 1)
+    samples = [u @ M @ np.array(slope(*(r * u))) / r for r in np.linspace(low, high, 5) for u in circle(1.0, 180)]
+    bound = envelope.rate(index, w, w)
+    assert max(samples) <= bound <= max(samples) + 0.1 * abs(max(samples)) + 0.02
+
+
+def test_between_two_weights_the_envelope_is_bounded_by_the_chord():
+    problem = example("vanishing")
+    E = -sp.eye(2)
+    coarse = RadialEnvelope(problem.variables, problem.field, problem.source, problem.tuning.k, E, 2.0, (0.1, 1.0))
+    fine = RadialEnvelope(problem.variables, problem.field, problem.source, problem.tuning.k, E, 2.0, (0.1, 0.5, 1.0))
+    assert coarse.rate(0, 0.5, 0.5) >= fine.rate(0, 0.5, 0.5) - 0.05
+    with pytest.raises(InputError, match="outside the grid"):
+        coarse.rate(0, 0.05, 0.5)
+
+
+@pytest.mark.parametrize("dimension", [1, 2, 3])
+def test_the_pieces_cover_every_direction(dimension):
+    rng = np.random.default_rng(1)
+    pieces = faces(dimension, 1.0, 1.0)
+    for _ in range(50):
+        u = rng.normal(size=dimension)
+        u /= np.linalg.norm(u)
+        assert any(
+            all(
+                abs(float(ball.mid()) - value) <= float(ball.rad()) + 1e-12
+                for ball, value in zip(p.direction(), u, strict=True)
+            )
+            for p in pieces
+        )
+
+
+def test_the_halves_of_a_piece_make_up_the_piece():
+    first, second = Piece(1.0, 2.0, 0, 1, ((0.0, 0.25),)).halves()
+    assert (first.low, first.high, second.low, second.high) == (1.0, 1.5, 1.5, 2.0)
+    first, second = Piece(1.0, 1.1, 0, 1, ((0.0, 0.25),)).halves()
+    assert first.box + second.box == ((0.0, 0.125), (0.125, 0.25))
+
+
+@pytest.mark.parametrize("dimension", [1, 3])
+def test_other_dimensions(dimension):
+    variables = sp.symbols(f"y1:{dimension + 1}", real=True)
+    field = -sp.Add(*(v**2 for v in variables)) / 2
+    envelope = RadialEnvelope(variables, field, (sp.S.Zero,) * dimension, sp.Integer(2), None, 1.0, (1.0,))
+    for index in (-160, -40, 0):
+        assert -1 <= envelope.rate(index, 1.0, 1.0) <= -0.9
