@@ -337,9 +337,6 @@ def assumption_a(goal: Goal) -> Evidence:
     return smooth(goal)
 
 
-drift_norm = sp.Symbol("f_norm", nonnegative=True)
-
-
 @claim(
     "5/assumption-b-fields", "Assumption 1B: the dithered fields are bounded, with derivatives bounded by k‖∇F‖",
     every(
@@ -370,7 +367,7 @@ def assumption_b_drift_printed(goal: Goal) -> Evidence:
 
 @claim(
     "5/assumption-b-drift", "Assumption 1B on I_τ: the drift term is at most the drift",
-    every(le(drift_norm / stretch**2, drift_norm), ge(drift_norm / stretch**2, 0)), given=[ge(tau, t0)],
+    every(le(f_norm / stretch**2, f_norm), ge(f_norm / stretch**2, 0)), given=[ge(tau, t0)],
     place="Assumption 1B", corrects=assumption_b_drift_printed,
 )  # fmt: skip
 def assumption_b_drift(goal: Goal) -> Evidence:
