@@ -23,6 +23,7 @@ from .notation import (
     T,
     drift_at,
     f,
+    f_norm,
     k,
     mu,
     nu,
