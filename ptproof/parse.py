@@ -38,6 +38,8 @@ _COMPARISONS: Mapping[type[ast.cmpop], Callable[[Any, Any], Any]] = {
 }
 _LONGEST = 10_000
 _LARGEST_EXPONENT = 10_000
+_LARGEST_DECIMAL_EXPONENT = 400
+_LARGEST_BITS = 100_000
 
 
 def parse(
@@ -112,8 +114,7 @@ class _Reader:
             case ast.Constant(value=int() as number):
                 return sp.Integer(number)
             case ast.Constant(value=float()):
-                literal = ast.get_source_segment(self.source, node) or ""
-                return sp.Rational(literal.replace("_", ""))
+                return self.decimal((ast.get_source_segment(self.source, node) or "").replace("_", ""))
             case ast.Name(id=name):
                 return self.name(name)
             case ast.UnaryOp(op=ast.USub(), operand=operand):
@@ -135,6 +136,12 @@ class _Reader:
         segment = ast.get_source_segment(self.source, node) or type(node).__name__
         raise self.fail(f"{_short(segment)} is not arithmetic")
 
+    def decimal(self, literal: str) -> sp.Rational:
+        _, _, exponent = literal.lower().partition("e")
+        if exponent and abs(int(exponent)) > _LARGEST_DECIMAL_EXPONENT:
+            raise self.fail(f"{_short(literal)} is out of range")
+        return sp.Rational(literal)
+
     def name(self, name: str) -> Any:
         if name in self.names:
             value = self.names[name]
@@ -149,11 +156,20 @@ class _Reader:
     def arithmetic(self, op: ast.operator, left: Any, right: Any) -> Any:
         if not (isinstance(left, sp.Expr) and isinstance(right, sp.Expr)):
             raise self.fail("a condition stands where a number should")
-        if isinstance(op, ast.Pow) and right.is_number and abs(right) > _LARGEST_EXPONENT:
-            raise self.fail(f"an exponent over {_LARGEST_EXPONENT}")
+        if isinstance(op, ast.Pow) and right.is_number:
+            self.check_power(left, right)
         if isinstance(op, ast.Div) and right.is_zero:
             raise self.fail("a division by zero")
         return _ARITHMETIC[type(op)](left, right)
+
+    def check_power(self, base: sp.Expr, exponent: sp.Expr) -> None:
+        """Refuse powers that would fill the memory before anybody could look at them."""
+        if exponent.is_comparable and abs(exponent) > _LARGEST_EXPONENT:
+            raise self.fail(f"an exponent over {_LARGEST_EXPONENT}")
+        if base.is_Rational and exponent.is_Integer:
+            bits = max(abs(int(base.p)), int(base.q)).bit_length()
+            if bits * abs(int(exponent)) > _LARGEST_BITS:
+                raise self.fail("a number that is too large")
 
     def compare(self, left: Any, ops: list[ast.cmpop], right: list[Any]) -> Any:
         parts = []
