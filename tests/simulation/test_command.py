@@ -1,0 +1,96 @@
+"""``ptproof simulate``: the JSON contract, exit status, one sentence for bad input."""
+
+import json
+
+import pytest
+from click.testing import CliRunner
+
+from ptproof.commands.simulate import simulate
+
+
+def call(*arguments):
+    return CliRunner().invoke(simulate, list(arguments))
+
+
+def test_one_trajectory_as_json():
+    result = call("vanishing", "--json")
+    assert result.exit_code == 0
+    data = json.loads(result.stdout)
+    assert data["example"] == "vanishing"
+    assert (data["seeker"], data["frame"], data["engine"], data["outcome"]) == ("pt", "t", "casadi", "reached T")
+    assert set(data["final"]) == {"t", "x", "theta", "z", "field", "distance"}
+    assert data["final"]["distance"] == pytest.approx(0.178750991, abs=1e-7)
+    assert data["seconds"] > 0
+
+
+def test_an_ensemble_as_json_repeats_from_its_seed():
+    results = [json.loads(call("vanishing", "--ensemble", "20", "--seed", "4", "--json").stdout) for _ in range(2)]
+    assert results[0]["N"] == 20
+    assert results[0]["outcomes"] == {"reached T": 20}
+    assert results[0]["distance"] == results[1]["distance"]
+    assert set(results[0]["distance"]) == {"median", "q95", "max"}
+
+
+def test_the_example_named_saturated_runs_the_saturated_seeker():
+    assert json.loads(call("saturated", "--json").stdout)["seeker"] == "saturated"
+
+
+ESCAPES = """
+[field]
+variables = ["x1", "x2"]
+expression = "-(x1**2 + x2**2)**2/4"
+source = [0, 0]
+kappa = 2
+[drift]
+kind = "gradient"
+E = [[-10, 0], [0, -10]]
+[seeker]
+k = 1
+omega = 30
+mu = "0.001"
+T = 1
+[initial]
+x = [2, 2]
+"""
+
+
+def test_a_run_that_escapes_has_status_one(tmp_path):
+    (tmp_path / "p.toml").write_text(ESCAPES)
+    result = call(str(tmp_path / "p.toml"), "--seeker", "asymptotic", "--model", "average", "--json")
+    assert result.exit_code == 1
+    assert json.loads(result.stdout)["outcome"] == "escaped"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (("nope",), "not an example"),
+        (("nowhere.toml",), "cannot be read"),
+        (("vanishing", "--seeker", "saturated"), "[saturation]"),
+        (("vanishing", "--rtol", "nan"), "rtol"),
+        (("vanishing", "--plot", "x.gif"), "--plot"),
+        (("vanishing", "--until", "inf"), "until"),
+        (("vanishing", "--seeker", "best"), "best"),
+    ],
+)
+def test_bad_input_is_one_sentence_and_status_two(arguments, message):
+    result = call(*arguments)
+    assert result.exit_code == 2
+    assert message in result.stderr
+    assert result.stdout == ""
+    assert "Traceback" not in result.stderr
+
+
+@pytest.mark.parametrize("suffix", ["png", "svg"])
+def test_plots_are_the_same_bytes_each_time(tmp_path, suffix):
+    files = [tmp_path / f"{i}.{suffix}" for i in range(2)]
+    for file in files:
+        assert call("vanishing", "--plot", str(file)).exit_code == 0
+    assert files[0].read_bytes() == files[1].read_bytes()
+    assert len(files[0].read_bytes()) > 5000
+
+
+def test_people_get_sentences():
+    text = call("vanishing").stdout
+    assert "reached T at t = 1" in text
+    assert "distance from the source 0.17875" in text

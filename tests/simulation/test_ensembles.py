@@ -1,0 +1,80 @@
+"""Ensembles: reproducible from a seed, independent of workers, an outcome for each member."""
+
+import numpy as np
+import pytest
+import sympy as sp
+
+from ptproof.simulation.ensembles import headings, members
+from ptproof.simulation.plan import Outcome
+from ptproof.simulation.run import simulate
+from ptproof.system import System
+
+t, x = sp.symbols("t x", real=True)
+
+
+@pytest.mark.parametrize("engine", ["casadi", "heyoka"])
+def test_the_number_of_workers_changes_nothing(engine):
+    runs = [simulate("vanishing", ensemble=70, seed=3, engine=engine, workers=w, rtol=1e-6) for w in (1, 2, 3)]
+    assert np.array_equal(runs[0].x, runs[1].x)
+    assert np.array_equal(runs[0].x, runs[2].x)
+
+
+def test_a_seed_repeats_and_another_differs():
+    one, same, other = (members(50, seed, {"k": (1, 2), "theta": (0, 1)}, ["k", "theta"]) for seed in (1, 1, 2))
+    assert np.array_equal(one["k"], same["k"])
+    assert not np.array_equal(one["k"], other["k"])
+
+
+def test_a_member_does_not_depend_on_how_many_there_are():
+    few, many = (members(n, 5, {"k": (1, 2), "theta": (0, 1)}, ["k", "theta"]) for n in (10, 1000))
+    assert np.array_equal(few["theta"], many["theta"][:10])
+
+
+def test_a_member_is_the_run_of_its_own_values():
+    ensemble = simulate("nonvanishing", ensemble=6, seed=1, vary={"theta": (0, 6.28), "x1": (-1, 1), "k": (1, 2)})
+    for i in (0, 5):
+        values = {name: row[i] for name, row in ensemble.varied.items()}
+        one = simulate("nonvanishing", initial={n: values[n] for n in ("theta", "x1")}, parameters={"k": values["k"]})
+        assert ensemble.distances[i] == pytest.approx(one.final_distance, abs=1e-6)
+
+
+@pytest.mark.parametrize("coordinates", ["full", "reduced"])
+def test_the_engines_agree(coordinates):
+    runs = [
+        simulate(
+            "vanishing", ensemble=9, vary={"theta": headings(9)}, engine=engine, coordinates=coordinates, frame="tau"
+        )
+        for engine in ("casadi", "heyoka", "lsoda")
+    ]
+    for run in runs[1:]:
+        assert np.max(np.abs(runs[0].distances - run.distances)) < 1e-6
+
+
+@pytest.mark.parametrize("engine", ["casadi", "heyoka"])
+def test_members_that_escape_do_not_take_the_others_with_them(engine):
+    system = System(t, (x,), (x**2 - x,))
+    starts = np.array([0.5, 2.0, -1.0, 0.9, 3.0])
+    result = simulate(system, initial=[0], span=(0, 2), ensemble=5, vary={"x": starts}, engine=engine)
+    assert result.outcomes == tuple(Outcome.ESCAPED if s > 1.2 else Outcome.REACHED for s in starts)
+    # x = 1/(1 - (1 - 1/x0) e^t), which is infinite at t = log(x0/(x0 - 1)).
+    assert result.t[1] == pytest.approx(np.log(2), abs=1e-5)
+    assert result.x[0, 0] == pytest.approx(1 / (1 + np.exp(2)), rel=1e-6)
+    assert result.counts == {"escaped": 2, "reached T": 3}
+
+
+def test_times_may_vary_too():
+    result = simulate("saturated", ensemble=4, vary={"T": np.array([0.5, 1, 1.5, 2])}, model="average")
+    assert result.t == pytest.approx([0.5, 1, 1.5, 2])
+
+
+def test_progress_counts_every_member():
+    seen = []
+    simulate("vanishing", ensemble=300, model="average", engine="heyoka", progress=seen.append)
+    assert sum(seen) == 300
+
+
+def test_an_ensemble_shows_itself():
+    result = simulate("vanishing", ensemble=12, model="average")
+    assert result.q95 <= result.max
+    assert result._repr_png_()[:4] == b"\x89PNG"
+    assert "reached T" in result._repr_html_()
