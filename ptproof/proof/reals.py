@@ -20,6 +20,8 @@ from ptproof.proof.statement import Implication, Relation, relations_of
 from ptproof.proof.verdict import Evidence, Verdict
 
 SECONDS = 20.0
+_SECONDS_TO_CONTRADICT = 0.5
+_ABSURD = Relation(sp.S.One, "<", sp.S.Zero)
 
 
 def reals(goal: Goal, *lemmas: Implication, seconds: float | None = None) -> Evidence:
@@ -34,6 +36,9 @@ def reals(goal: Goal, *lemmas: Implication, seconds: float | None = None) -> Evi
         if not outcome:
             tried = Evidence("z3", Verdict.UNDECIDED, f"{part}: {detail}", time.perf_counter() - start)
             return or_refute(goal, tried)
+    if goal.relations and follows(_ABSURD, goal.relations, seconds=_SECONDS_TO_CONTRADICT)[0]:
+        detail = "the assumptions contradict each other, so that everything follows from them"
+        return Evidence("z3", Verdict.UNDECIDED, detail, time.perf_counter() - start)
     names = sorted({fact.source for fact in facts if fact.source})
     told = f" with {', '.join(names)}" if names else ""
     detail = f"the negation is unsatisfiable over the reals{told}"
@@ -156,6 +161,11 @@ class _Problem:
                 solver.add(symbol >= value if operation is sp.Max else symbol <= value)
         undefined = [z3.Not(relation(item)) for item in self.domain]
         solver.add(z3.Or(z3.Not(relation(self.conclusion)), *undefined))
+        for base, product in self.generators.split_bases():
+            value = number(product)
+            facts = [value == number(base)] if base.is_Rational else _known(base, value, None, z3)
+            for fact in facts:
+                solver.add(fact)
         for symbol, variable in list(variables.items()):
             for fact in _known(symbol, variable, self.generators.meaning.get(symbol), z3):
                 solver.add(fact)

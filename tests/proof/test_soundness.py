@@ -62,3 +62,10 @@ def test_reciprocal_of_what_has_no_rule_is_undecided():
     assert limits(Goal("a", eq(pole, 4))).verdict is Verdict.UNDECIDED
     assert limits(Goal("a", eq(sp.Limit(1 / (1 - sp.cos(x)), x, 0, "+"), sp.oo))).verdict is Verdict.UNDECIDED
     assert limits(Goal("a", eq(sp.Limit(1 / (1 + sp.cos(x)), x, 0, "+"), half))).verdict is Verdict.PROVED
+
+
+@pytest.mark.parametrize("assumptions", [(gt(x, 1), le(x, 0)), (le(a, 0),), (gt(sp.sin(x), 1),)])
+def test_contradicting_assumptions_prove_nothing(assumptions):
+    found = reals(Goal("a", ge(x, y), assumptions))
+    assert found.verdict is Verdict.UNDECIDED
+    assert "contradict" in found.detail
