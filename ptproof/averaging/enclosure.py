@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import functools
 import itertools
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -103,7 +103,7 @@ def enclose_coefficients(system: DitherSystem, readers: Sequence[_Reader], hints
     return total * (1 / enclose(system.period, bits=_BITS))
 
 
-def _panels(system: DitherSystem, hints: Sequence[sp.Expr], readers: Sequence[_Reader]) -> list[tuple[Any, Any]]:
+def _panels(system: DitherSystem, hints: Sequence[sp.Expr], readers: Sequence[_Reader]) -> Iterator[tuple[Any, Any]]:
     """Consecutive panels on each of which every dither is well interpolated, or that are slivers."""
     from flint import arb
 
@@ -117,19 +117,19 @@ def _panels(system: DitherSystem, hints: Sequence[sp.Expr], readers: Sequence[_R
     if any(reader.switches for reader in readers):
         cuts += [cut for cut in [(end - gap).mid()] if cut > cuts[-1]]
     cuts.append(end)
-    done: list[tuple[Any, Any]] = []
+    done = 0
     todo = list(reversed(list(itertools.pairwise(cuts))))
     while todo:
         left, right = todo.pop()
         half, middle = (right - left) / 2, (right + left) / 2
         if half < gap or all(reader.fits(middle, half) for reader in readers):
-            done.append((left, right))
+            done += 1
+            yield left, right
         else:
             centre = middle.mid()
             todo += [(centre, right), (left, centre)]
-        if len(done) + len(todo) > _MOST_PANELS:
+        if done + len(todo) > _MOST_PANELS:
             raise ArithmeticError("the check of the coefficients needs too many panels")
-    return done
 
 
 class _Reader:
@@ -139,6 +139,7 @@ class _Reader:
         from flint import arb
 
         self.phase, self.symbols, self.dither = system.phase, dict(symbols), dither
+        self.last: tuple[tuple[Any, Any], Any] | None = None
         self.switches = switching.has_switch(dither, system.phase)
         whole = enclose(system.period, bits=_BITS) / 2
         self.scale = self.largest(arb(whole.mid(), whole.abs_upper()))
@@ -151,9 +152,13 @@ class _Reader:
 
         if not self.switches:
             return self.compiled(self.dither)
-        callbacks = switching.decide_on_ball(self.phase, arb(middle.mid(), _radius(middle, half)), self.symbols)
-        resolved = switching.resolve(self.dither, self.phase, *callbacks)
-        return None if resolved is None else self.compiled(resolved)
+        # A panel is asked about twice, once whether it fits and once for its values.
+        place = (middle.mid(), half.mid())
+        if self.last is None or self.last[0] != place:
+            callbacks = switching.decide_on_ball(self.phase, arb(middle.mid(), _radius(middle, half)), self.symbols)
+            resolved = switching.resolve(self.dither, self.phase, *callbacks)
+            self.last = (place, None if resolved is None else self.compiled(resolved))
+        return self.last[1]
 
     def fits(self, middle: Any, half: Any) -> bool:
         function = self.smooth(middle, half)

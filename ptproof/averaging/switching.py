@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import functools
 import itertools
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any
 
 import sympy as sp
 from sympy.core.relational import Relational
@@ -20,6 +21,7 @@ from ptproof.proof.ball import enclose
 _SIMPLE = (sp.Piecewise, sp.Abs, sp.sign, sp.Max, sp.Min, sp.Mod, sp.floor, sp.Heaviside)
 _WAVES = {(sp.asin, sp.sin), (sp.acos, sp.cos), (sp.atan, sp.tan)}
 _MOST_PIECES = 4096
+_BITS = 96
 
 SignOf = Callable[[sp.Expr], int | None]
 FloorOf = Callable[[sp.Expr], int | None]
@@ -237,17 +239,34 @@ def zeros(side: sp.Expr, variable: sp.Symbol, start: sp.Expr, end: sp.Expr, wher
     return [sp.expand((shift + sign * half + 2 * sp.pi * k) / rate) for k in range(low, high + 1) for sign in (1, -1)]
 
 
-def decide_on_ball(variable: sp.Symbol, ball: object, values: dict[sp.Symbol, object]) -> tuple[SignOf, FloorOf]:
+def decide_on_ball(variable: sp.Symbol, ball: Any, values: Mapping[sp.Symbol, Any]) -> tuple[SignOf, FloorOf]:
     """Callbacks for :func:`resolve` that answer only what holds on the whole ``ball``."""
-    everything = {**values, variable: ball}
+
+    def at(expression: sp.Expr, where: Any) -> Any:
+        return enclose(expression, {**values, variable: where}, bits=_BITS)
 
     def sign_of(side: sp.Expr) -> int | None:
-        enclosure = enclose(side, everything, bits=96)
-        return 1 if enclosure > 0 else -1 if enclosure < 0 else None
+        if (sign := _sign(at(side, ball))) is not None:
+            return sign
+        # A monotone function has on the whole ball the sign that it has at both ends.
+        if variable not in side.free_symbols or _sign(at(_slope(side, variable), ball)) is None:
+            return None
+        first, last = (_sign(at(side, end)) for end in (ball.lower(), ball.upper()))
+        return first if first == last else None
 
     def floor_of(level: sp.Expr) -> int | None:
-        enclosure = enclose(level, everything, bits=96).floor()
-        number = enclosure.unique_fmpz()
-        return None if number is None else int(number)
+        ends = [at(level, end).floor().unique_fmpz() for end in (ball.lower(), ball.upper())]
+        if linear_part(level, variable) is None or ends[0] is None or ends[0] != ends[1]:
+            return None
+        return int(ends[0])
 
     return sign_of, floor_of
+
+
+def _sign(ball: Any) -> int | None:
+    return 1 if ball > 0 else -1 if ball < 0 else None
+
+
+@functools.lru_cache(maxsize=1024)
+def _slope(side: sp.Expr, variable: sp.Symbol) -> sp.Expr:
+    return sp.diff(side, variable)

@@ -36,7 +36,7 @@ def interval(low: Any, high: Any) -> arb:
     return arb(low).union(arb(high))
 
 
-def _finite(ball: arb, what: str) -> arb:
+def _finite(ball: arb, what: object) -> arb:
     if not ball.is_finite():
         raise Undefined(f"{what} has no finite value there")
     return ball
@@ -158,7 +158,7 @@ def ball_from(value: Any) -> arb:
         raise Undefined(f"{value!r} is not exact; give an integer, a fraction or a ball")
     if isinstance(value, flint.fmpq | flint.fmpz):
         return arb(value)
-    return _finite(_tape(sp.sympify(value), ()).run((), BALLS)[0], str(value))
+    return _finite(_tape(sp.sympify(value), ()).run((), BALLS)[0], value)
 
 
 def enclose(expression: sp.Expr, values: Mapping[sp.Symbol, Any] | None = None, *, bits: int = 128) -> arb:
@@ -192,12 +192,12 @@ def enclose(expression: sp.Expr, values: Mapping[sp.Symbol, Any] | None = None, 
         inputs = [ball_from(table[symbol]) for symbol in symbols]
         for symbol, ball in zip(symbols, inputs, strict=True):
             _respect(symbol, ball)
-        return _finite(_tape(sp.sympify(expression), symbols).run(inputs, BALLS)[0], str(expression))
+        return _finite(_tape(sp.sympify(expression), symbols).run(inputs, BALLS)[0], expression)
 
 
 def _respect(symbol: sp.Symbol, ball: arb) -> None:
     # SymPy has already simplified under the assumptions of the symbol, for example sqrt(x**2) to x.
-    _finite(ball, str(symbol))
+    _finite(ball, symbol)
     wrong = (symbol.is_positive and ball <= 0) or (symbol.is_nonnegative and ball < 0)
     if wrong or (symbol.is_negative and ball >= 0) or (symbol.is_nonpositive and ball > 0):
         raise Undefined(f"the value of {symbol} contradicts its declaration")
