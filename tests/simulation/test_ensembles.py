@@ -42,7 +42,7 @@ def test_a_member_is_the_run_of_its_own_values():
 def test_the_engines_agree(coordinates):
     runs = [
         simulate(
-            "vanishing", ensemble=9, vary={"theta": headings(9)}, engine=engine, coordinates=coordinates, frame="tau"
+            "vanishing", ensemble=5, vary={"theta": headings(5)}, engine=engine, coordinates=coordinates, frame="tau"
         )
         for engine in ("casadi", "heyoka", "lsoda")
     ]

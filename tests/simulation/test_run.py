@@ -82,7 +82,8 @@ def test_every_frame_and_engine_ends_where_an_independent_code_does(vanishing_tr
 
 def test_the_asymptotic_seeker_ends_where_an_independent_code_does(vanishing_truth):
     run = simulate("vanishing", "asymptotic", rtol=1e-9)
-    assert np.max(np.abs(run.x[:2, -1] - vanishing_truth[1][:2])) < 5e-9
+    # The repulsive drift amplifies every error by a factor of about a hundred on the way.
+    assert np.max(np.abs(run.x[:2, -1] - vanishing_truth[1][:2])) < 2e-8
 
 
 def test_the_frames_agree_along_the_whole_way():

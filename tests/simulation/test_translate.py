@@ -12,11 +12,13 @@ k = sp.Symbol("k", positive=True)
 POINTS = [(0.3, -0.7, 1.9, 2.5), (1.7, 0.4, -0.2, 0.8)]
 
 EXPRESSIONS = [
-    x + y * k - sp.Rational(1, 3), x**3, x**-2, sp.sqrt(x**2 + 1), 1 / sp.sqrt(k), k**x, x**20, sp.exp(x), sp.exp(-(x**2)),
+    x + y * k - sp.Rational(1, 3), x**3, x**-2, sp.sqrt(x**2 + 1), 1 / sp.sqrt(k), k**x, x**20, sp.exp(x),
+    sp.exp(-(x**2)),
     sp.log(k), sp.sin(x) + sp.cos(y), sp.tan(x), sp.asin(x / 3), sp.acos(x / 3), sp.atan(x), sp.sinh(x), sp.cosh(x),
     sp.tanh(x), sp.Abs(x), sp.sign(y), sp.Max(x, y, 0), sp.Min(x, y), sp.floor(3 * x), sp.ceiling(3 * y), sp.Mod(x, 2),
     sp.Mod(y, sp.Rational(3, 2)), sp.atan2(y, x), sp.Heaviside(x), sp.erf(x), sp.pi * x, sp.E * y, t * x,
-    sp.Piecewise((x, t < 1), (y**2, True)), sp.Piecewise((1, sp.And(x > 0, y < 0)), (2, sp.Or(x < -1, y > 1)), (3, True)),
+    sp.Piecewise((x, t < 1), (y**2, True)),
+    sp.Piecewise((1, sp.And(x > 0, y < 0)), (2, sp.Or(x < -1, y > 1)), (3, True)),
     sp.Piecewise((1, sp.Not(x > 0)), (2, True)), sp.Piecewise((x, sp.Mod(t, 1) < sp.Rational(1, 2)), (-x, True)),
 ]  # fmt: skip
 

@@ -44,6 +44,11 @@ def integrator(system: System, intervals: int, rtol: float, atol: float, max_ste
     return ca.integrator("run", "cvodes", dae, 0.0, grid, options)
 
 
+def local_tolerances(plan: Plan) -> tuple[float, float]:
+    """CVODES keeps each step's error below its tolerance; a fiftieth keeps the whole near what was asked (measured)."""
+    return max(plan.rtol / 50, 1e-14), max(plan.atol / 50, 1e-18)
+
+
 @dataclass(frozen=True)
 class _Solver:
     """The integrators of one plan for one parameter vector; a call that fails returns None."""
@@ -53,8 +58,7 @@ class _Solver:
 
     def __call__(self, x: Array, grid: Array, max_steps: int = _STEPS_A_CALL) -> Array | None:
         """The states at ``grid[1:]``, evenly spaced, from ``x`` at ``grid[0]``."""
-        # CVODES keeps its local error below the tolerance; a tenth of it keeps the global error near what was asked.
-        rtol, atol = max(self.plan.rtol / 10, 1e-14), max(self.plan.atol / 10, 1e-18)
+        rtol, atol = local_tolerances(self.plan)
         run = integrator(self.plan.system, len(grid) - 1, rtol, atol, max_steps)
         try:
             result = np.array(run(x0=x, p=[*self.parameters, grid[0], grid[-1] - grid[0]])["xf"])
@@ -119,7 +123,7 @@ class _CVODES:
         x = batch.initial
         if batch.size == 1 or batch.edges.shape[0] > 4:
             return one_by_one(self, plan, batch)
-        rtol, atol = max(plan.rtol / 10, 1e-14), max(plan.atol / 10, 1e-18)
+        rtol, atol = local_tolerances(plan)
         for a, b in zip(batch.edges[:-1], batch.edges[1:], strict=True):
             if not np.all(b > a):
                 return one_by_one(self, plan, batch)
