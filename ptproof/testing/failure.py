@@ -1,0 +1,80 @@
+"""Failing the way an assertion fails: a message for a person, and a traceback that ends in the user's line.
+
+pytest and IPython leave out frames that hold ``__tracebackhide__``, unittest leaves out modules that hold
+``__unittest``. A plain script has no such word, so the first failure puts a hook before ``sys.excepthook`` that cuts
+the same frames off, from the exceptions raised here and from no others.
+"""
+
+from __future__ import annotations
+
+import functools
+import sys
+from collections.abc import Callable
+from types import TracebackType
+from typing import ParamSpec
+
+from ptproof.errors import InputError
+
+__unittest = True
+Arguments = ParamSpec("Arguments")
+_MARK = "_ptproof_ends_in_the_users_line"
+
+
+def assertion(check: Callable[Arguments, str | None]) -> Callable[Arguments, None]:
+    """Make a check, which returns None or why it fails, a function that raises ``AssertionError`` with that text."""
+
+    @functools.wraps(check)
+    def assert_it(*args: Arguments.args, **kwargs: Arguments.kwargs) -> None:
+        __tracebackhide__ = True
+        error: Exception
+        try:
+            reason = check(*args, **kwargs)
+            if reason is None:
+                return
+            error = AssertionError(reason)
+        except InputError as bad_use:
+            error = bad_use.with_traceback(None)
+        setattr(error, _MARK, True)
+        _install_hook()
+        raise error from None
+
+    assert_it.__annotations__ = {**check.__annotations__, "return": None}
+    return assert_it
+
+
+def _install_hook() -> None:
+    if not hasattr(sys.excepthook, _MARK):
+        sys.excepthook = _shortening(sys.excepthook)
+
+
+Hook = Callable[[type[BaseException], BaseException, TracebackType | None], object]
+
+
+def _shortening(show: Hook) -> Hook:
+    @functools.wraps(show)
+    def shorten(kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> object:
+        if getattr(error, _MARK, False):
+            trace = users_part(trace)
+            error = error.with_traceback(trace)
+        return show(kind, error, trace)
+
+    setattr(shorten, _MARK, True)
+    return shorten
+
+
+def users_part(trace: TracebackType | None) -> TracebackType | None:
+    """The traceback without the frames at its end that ask to be hidden; all of it if nothing else is there."""
+    frames = []
+    step = trace
+    while step is not None:
+        frames.append(step)
+        step = step.tb_next
+    keep = len(frames)
+    while keep and frames[keep - 1].tb_frame.f_locals.get("__tracebackhide__"):
+        keep -= 1
+    if keep in (0, len(frames)):
+        return trace
+    shortened: TracebackType | None = None
+    for step in reversed(frames[:keep]):
+        shortened = TracebackType(shortened, step.tb_frame, step.tb_lasti, step.tb_lineno)
+    return shortened

@@ -1,0 +1,161 @@
+"""Conditions on gains, initial values and horizons, as an assertion."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import fields
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from ptproof.errors import InputError
+from ptproof.testing.failure import assertion
+from ptproof.testing.wording import lines
+from ptproof.time_limit import OutOfTime, within
+
+if TYPE_CHECKING:
+    from ptproof.gains import GainData
+
+__unittest = True
+SECONDS = 60.0
+_RELATION = re.compile(r"^([^<>=]+)(<=|>=|<|>)([^<>=]+)$")
+_KEY = re.compile(r"\b([a-z_]+)\.([A-Za-z]\w*)")
+_NUMBERS = (
+    "k",
+    "T",
+    "nu_min",
+    "drift_norm",
+    "drift_bound",
+    "V0",
+    "x0_norm",
+    "t0",
+    "tau_star",
+    "residual",
+    "omega",
+    "mu",
+)
+
+
+@assertion
+def assert_gain_condition(data: GainData, condition: str, *, seconds: float = SECONDS) -> str | None:
+    """Assert a condition between the data and the quantities that follow from them, decided on exact numbers.
+
+    Parameters
+    ----------
+    data
+        The constants of the field, the drift and the tuning.
+    condition
+        One of <, <=, > or >= between two expressions in the numbers of ``data`` (``k``, ``T``, ``V0``, …), its
+        constants (``kappa``, ``a1``, …) and the keys of :func:`ptproof.gains.gains`: ``"k > asymptotic.k_min"``,
+        ``"V0 < critical.V0_threshold"``, ``"clip.residual_bound <= 1/10"``. A threshold that does not exist, since
+        the bound holds for every value, counts as infinite.
+    seconds
+        The time limit. [s]
+
+    Raises
+    ------
+    AssertionError
+        If the condition is false, with the exact value of both sides; or if it is undecided, as where a quantity
+        does not apply to these data.
+    InputError, TypeError
+        For a condition that cannot be read, or a name that is unknown or not given in ``data``.
+    """
+    from ptproof.gains import GainData
+
+    if not isinstance(data, GainData):
+        raise TypeError(f"data: expected GainData, got {type(data).__name__}")
+    if not isinstance(condition, str):
+        raise TypeError(f"condition: expected text such as 'k > asymptotic.k_min', got {type(condition).__name__}")
+    match = _RELATION.match(condition.strip())
+    if match is None:
+        raise InputError(f"condition: {condition!r} is not one of <, <=, > or >= between two expressions")
+    try:
+        return within(seconds, lambda: _decide(data, condition, *match.groups()))
+    except OutOfTime:
+        return f"the condition {condition} could not be decided: no answer in {seconds:g} s"
+
+
+def _decide(data: GainData, condition: str, left: str, symbol: str, right: str) -> str | None:
+    from ptproof.gains import gains
+    from ptproof.gains.numbers import sign
+
+    answer = gains(data)
+    keys: dict[str, sp.Expr] = {}
+    for section, name in _KEY.findall(condition):
+        try:
+            found = answer[f"{section}.{name}"]
+        except KeyError:
+            raise InputError(f"condition: {section}.{name} is not a quantity; see ptproof.gains.gains") from None
+        key = f"{section}.{name}"
+        if found is not None:
+            keys[key] = found.exact
+        elif _unlimited(data, key):
+            keys[key] = sp.oo
+        else:
+            return lines(f"the condition {condition} could not be decided: undecided",
+                         [(key, f"does not apply: {answer.why[key]}")])  # fmt: skip
+    sides = [_value(text, data, keys) for text in (left, right)]
+    for text, value in zip((left, right), sides, strict=True):
+        if value.free_symbols:
+            raise InputError(f"condition: {text.strip()} is a formula in {value.free_symbols}, not a number")
+    try:
+        if sp.oo in sides:
+            order = (1 if sides[0] is sp.oo else 0) - (1 if sides[1] is sp.oo else 0)
+        else:
+            order = sign(sides[0] - sides[1])
+    except InputError as undecided:
+        return lines(f"the condition {condition} could not be decided: undecided", [("reason", str(undecided))])
+    if {"<": order < 0, "<=": order <= 0, ">": order > 0, ">=": order >= 0}[symbol]:
+        return None
+    gap = sides[0] - sides[1]
+    return lines(f"the condition {condition} does not hold: refuted", [
+        (left.strip(), _shown(sides[0])), (right.strip(), _shown(sides[1])),
+        ("difference", f"{_shown(gap)}  (left - right)" if gap.is_finite else ""),
+    ])  # fmt: skip
+
+
+def _unlimited(data: GainData, key: str) -> bool:
+    """Whether a threshold is missing because every value is below it."""
+    from ptproof.gains import vanishing
+    from ptproof.gains.numbers import NotApplicable
+
+    section, _, name = key.partition(".")
+    if section != "critical" or not name.startswith(("V0_threshold", "T_threshold")):
+        return False
+    if data.drift_bound is not None and data.drift_norm is None:
+        return False
+    if data.bounds.kappa == 1:
+        return True
+    try:
+        return vanishing.threshold_factor(data, "printed" if name.endswith("printed") else "split") is None
+    except NotApplicable:
+        return False
+
+
+def _value(text: str, data: GainData, keys: Mapping[str, sp.Expr]) -> sp.Expr:
+    """A side of the condition: its keys are masked by names that the parser can read."""
+    from ptproof.parse import parse
+
+    masks = {key: sp.Symbol(key.replace(".", "__"), real=True) for key in keys}
+    masked = _KEY.sub(lambda m: masks[f"{m[1]}.{m[2]}"].name, text)
+    values = {masks[key]: value for key, value in keys.items()}
+    names = {mask.name: mask for mask in masks.values()}
+    for name in _NUMBERS:
+        if getattr(data, name) is not None:
+            names[name] = sp.Symbol(name, real=True)
+            values[names[name]] = getattr(data, name)
+    for item in fields(data.bounds):
+        names[item.name] = sp.Symbol(item.name, real=True)
+        values[names[item.name]] = getattr(data.bounds, item.name)
+    value = parse(masked, names, where="condition").subs(values, simultaneous=True)
+    if value.has(sp.oo, -sp.oo, sp.nan, sp.zoo) and value is not sp.oo:
+        raise InputError(f"condition: {text.strip()} has no finite value")
+    return value
+
+
+def _shown(value: sp.Expr) -> str:
+    if value.is_Rational or not value.is_finite:
+        return str(value)
+    exact = str(value)
+    return f"{exact} = {sp.N(value, 8)}" if len(exact) <= 80 else str(sp.N(value, 8))
