@@ -16,7 +16,7 @@ import sympy as sp
 from ptproof.proof.algebra import Generators, NotAlgebraic
 from ptproof.proof.claim import Goal
 from ptproof.proof.refute import or_refute
-from ptproof.proof.statement import Implication, Relation, relations_of
+from ptproof.proof.statement import Implication, Relation, free_symbols, relations_of
 from ptproof.proof.verdict import Evidence, Verdict
 
 SECONDS = 20.0
@@ -98,6 +98,9 @@ class _Problem:
         relations = [conclusion, *assumptions]
         for fact in facts:
             relations += [*fact.hypotheses, fact.conclusion]
+        if unknown := {symbol for symbol in free_symbols([conclusion, *assumptions]) if not symbol.is_real}:
+            names = ", ".join(sorted(map(str, unknown)))
+            raise NotAlgebraic(f"not declared real: {names}")
         self.generators = Generators(real=True)
         prepared = self.generators.read([side for relation in relations for side in (relation.left, relation.right)])
         sides = iter([self.generators.rational(side) for side in prepared])

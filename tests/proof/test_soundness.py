@@ -4,11 +4,12 @@ import pytest
 import sympy as sp
 
 from ptproof.proof.claim import Goal
+from ptproof.proof.exact import exact
 from ptproof.proof.existence import defeats_every_choice
 from ptproof.proof.lemmas import power_monotone
 from ptproof.proof.limits import limits
 from ptproof.proof.reals import reals
-from ptproof.proof.statement import Exists, eq, ge, gt, le
+from ptproof.proof.statement import Exists, Relation, eq, ge, gt, le
 from ptproof.proof.verdict import Verdict
 
 x, y, p = sp.symbols("x y p", real=True)
@@ -69,3 +70,14 @@ def test_contradicting_assumptions_prove_nothing(assumptions):
     found = reals(Goal("a", ge(x, y), assumptions))
     assert found.verdict is Verdict.UNDECIDED
     assert "contradict" in found.detail
+
+
+def test_symbol_that_may_be_complex_is_not_taken_for_real():
+    s = sp.Symbol("s")
+    assert reals(Goal("a", Relation(s**2 + 1, "!=", sp.S.Zero))).verdict is not Verdict.PROVED
+
+
+def test_assumed_value_of_a_function_is_not_differentiated():
+    F = sp.Function("F", real=True)(x)
+    found = exact(Goal("a", eq(sp.Derivative(F, x), 2 * x), (eq(F, x**2),)))
+    assert found.verdict is Verdict.REFUTED
