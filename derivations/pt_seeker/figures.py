@@ -50,8 +50,12 @@ def figures() -> Iterator[Drawn]:
 
     for name, title in EXAMPLES.items():
         for kind, figure in gallery.figures(example(name)).items():
-            how = f"Repeat: `ptproof simulate {name}`."
-            yield Drawn(f"{name}-{kind.removeprefix(f'{name}-')}", f"{title}: {CAPTIONS[kind]}. {how}", png(figure))
+            how = (
+                "Repeat: `ptproof report`"
+                if kind in ("phase-portrait", "order")
+                else (f"See also: `ptproof simulate {name} --plot run.png`")
+            )
+            yield Drawn(f"{name}-{kind.removeprefix(f'{name}-')}", f"{title}: {CAPTIONS[kind]}. {how}.", png(figure))
 
 
 def tables() -> Iterator[Listed]:

@@ -59,7 +59,7 @@ def _drawn(derivation: Derivation) -> tuple[tuple[Figure, ...], tuple[Table, ...
     from ptproof.report.figures import figures_of, has_figures, tables_of
 
     if has_figures(derivation.claims):
-        click.echo("drawing the figures", err=True)
+        click.echo("simulating and drawing the figures", err=True)
     try:
         return figures_of(derivation.claims), tables_of(derivation.claims), ()
     except Exception as error:

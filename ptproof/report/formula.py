@@ -114,7 +114,7 @@ def domain_of(
     groups: dict[str, list[str]] = {}
     symbols = free_symbols(statements) - set(bound)
     order = {symbol: place for place, symbol in enumerate(names)}
-    for symbol in sorted(symbols, key=lambda item: (order.get(item, len(order)), item.name)):
+    for symbol in sorted(symbols, key=lambda item: (order.get(item, len(order)), sp.default_sort_key(item))):
         groups.setdefault(_kind(symbol), []).append(latex(symbol, names))
     found = [", ".join(letters) + kind for kind, letters in groups.items()]
     functions = {sp.Symbol(applied.func.__name__) for applied in undefined_functions(statements)}
