@@ -16,11 +16,11 @@ from ptproof.parse import CONSTANTS, FUNCTIONS, parse
 from ptproof.system import DitherSystem
 
 _TOP = ("system", "expected", "region")
-_SYSTEM = ("state", "parameters", "functions", "drift", "period", "dither", "fast", "start", "name")
+_SYSTEM = ("state", "parameters", "functions", "bounded", "drift", "period", "dither", "fast", "start", "name")
 _DITHER = ("field", "signal")
 _FAST = ("state", "rate", "quasi_steady_state")
 _FIXED = {symbol.name: symbol for symbol in (TIME, PHASE, OMEGA)}
-_RESERVED = {*_FIXED, MU.name, "Piecewise", "Derivative", *FUNCTIONS, *CONSTANTS}
+_RESERVED = {*_FIXED, "Piecewise", "Derivative", *FUNCTIONS, *CONSTANTS}
 _LARGEST_FILE = 1_000_000
 _MOST = 512
 
@@ -30,7 +30,8 @@ def load_dither_system(path: str | Path) -> DitherProblem:
 
     The table ``[system]`` has ``state``, ``drift``, ``period`` and one ``[[system.dither]]`` (``field``,
     ``signal``) per dither, and may have ``parameters`` (positive), ``functions`` (unknown smooth functions with
-    their arguments), ``start`` (the earliest τ asked about, 0 if left out), ``name`` and ``[system.fast]``
+    their arguments), ``bounded`` (those functions of ``tau`` that are assumed bounded in it, with their
+    derivatives), ``start`` (the earliest τ asked about, 0 if left out), ``name`` and ``[system.fast]``
     (``state``, ``rate``, and ``quasi_steady_state`` where the author knows it). ``[region]`` gives the interval
     of a state (``x1 = ["-1", "1"]``), ``[expected]`` the ``average`` that the author claims. In expressions
     ``tau`` is the slow time, ``theta`` the phase ωτ and ``omega`` the frequency.
@@ -74,6 +75,8 @@ def _problem(data: Mapping[str, Any], name: str) -> DitherProblem:
     fast_state = _symbols(fast["state"], "system.fast.state", taken, real=True) if fast else ()
     parameters = _symbols(system.get("parameters", []), "system.parameters", taken, empty=True, positive=True)
     functions = _functions(system.get("functions", {}), taken)
+    if fast and MU.name in {*taken, *functions}:
+        raise InputError(f"system: {MU.name!r} is the small parameter of the fast states here; choose another name")
     everything = {**taken, **{key: entry[0] for key, entry in functions.items()}}
 
     def vector(value: Any, where: str, length: int) -> tuple[sp.Expr, ...]:
@@ -119,6 +122,7 @@ def _problem(data: Mapping[str, Any], name: str) -> DitherProblem:
         ),
         fast=problem_fast,
         functions=tuple(function(*arguments) for function, arguments in (e[1] for e in functions.values())),
+        bounded=_bounded(system.get("bounded", []), {key: entry[1] for key, entry in functions.items()}),
         region=_region(data.get("region", {}), {symbol.name: symbol for symbol in (*state, *fast_state)}),
         start=_number(system.get("start", 0), "system.start"),
         expected=expected,
@@ -211,6 +215,17 @@ def _functions(value: Any, taken: dict[str, Any]) -> dict[str, tuple[Callable[..
         function = sp.Function(name, real=True)
         result[name] = (_of_arity(function, len(symbols)), (function, tuple(symbols)))
     return result
+
+
+def _bounded(value: Any, functions: Mapping[str, Any]) -> tuple[Any, ...]:
+    result = []
+    for name in _list(value, "system.bounded"):
+        if name not in functions:
+            hint = _hint(str(name), tuple(functions))
+            raise InputError(f"system.bounded: {name!r} is not declared in system.functions{hint}")
+        function, arguments = functions[name]
+        result.append(function(*arguments))
+    return tuple(result)
 
 
 def _of_arity(function: Any, count: int) -> Callable[..., Any]:

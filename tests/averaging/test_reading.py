@@ -64,6 +64,22 @@ def test_the_name_is_that_of_the_file(tmp_path: Path) -> None:
     assert load_dither_system(path).system.name == "unicycle"
 
 
+def test_bounded_functions_of_time_are_read() -> None:
+    text = TEXT.replace('{ F = ["x1", "x2"] }', '{ F = ["x1", "x2"], d = ["tau"] }\nbounded = ["d"]').replace(
+        'drift      = ["0", "0"]', 'drift = ["d(tau)", "0"]'
+    )
+    problem = read_dither_system(text)
+    assert problem.bounded == (problem.system.drift[0],)
+
+
+def test_mu_is_free_without_fast_states() -> None:
+    text = TEXT.replace('["k"]', '["k", "mu"]')
+    with pytest.raises(InputError, match="small parameter"):
+        read_dither_system(text)
+    before, after = text.split("[system.fast]")
+    assert read_dither_system(before + "[expected]" + after.split("[expected]")[1]).fast is None
+
+
 WRONG = [
     ("[system]", "[sytem]", "unknown table: 'sytem' (did you mean 'system'?)"),
     ("period ", "periode ", "'periode' (did you mean 'period'?)"),
@@ -95,6 +111,7 @@ WRONG = [
     ('["z"]', '["x1"]', "system.fast.state: 'x1' is declared twice"),
     ("[expected]", '[region]\nx1 = ["1", "0"]\n[expected]', "region.x1: the interval [1, 0] is empty"),
     ("[expected]", '[region]\nx3 = ["0", "1"]\n[expected]', "unknown state in [region]: 'x3'"),
+    ("parameters", 'bounded = ["G"]\nparameters', "system.bounded: 'G' is not declared in system.functions"),
     ("[system]", "[system", "not TOML"),
 ]
 
