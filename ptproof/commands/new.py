@@ -1,0 +1,33 @@
+"""``ptproof new``."""
+
+from __future__ import annotations
+
+import json
+
+import click
+
+
+@click.command()
+@click.argument("folder", metavar="DIR")
+@click.option("--json", "as_json", is_flag=True, help="Print JSON on standard output.")
+def new(folder: str, as_json: bool) -> int:
+    """Write a small derivation into the new or empty folder DIR: letters, three claims, tests and two problem files.
+
+    One of the claims is false, and recorded as false: it shows what a witness looks like.
+    """
+    from ptproof.starter import write_starter
+
+    files = write_starter(folder)
+    if as_json:
+        click.echo(json.dumps({"folder": folder, "files": [file.name for file in files]}, indent=2))
+        return 0
+    click.echo(f"{folder} holds {', '.join(file.name for file in files)}. Next:")
+    for command, purpose in (
+        (f"ptproof verify {folder}", "decide its three claims"),
+        (f"ptproof report {folder} --out {folder}/report", "write them up"),
+        (f"pytest --ptproof {folder}", "the claims and the tests, in pytest"),
+        (f"ptproof average {folder}/dither.toml", "average a dither system"),
+        (f"ptproof simulate {folder}/seeker.toml", "let the vehicle drive"),
+    ):
+        click.echo(f"  {command:<48} {purpose}")
+    return 0
