@@ -53,6 +53,14 @@ class _Printer(LatexPrinter):
     def parenthesize_super(self, s: str) -> str:
         return f"{{{s}}}" if re.fullmatch(r"\\\|.*\\\||.*\)", s) else str(super().parenthesize_super(s))
 
+    def _print_Symbol(self, expr: sp.Symbol, style: str = "plain") -> str:
+        names = self._settings["symbol_names"]
+        if expr not in names and expr.name.endswith("_dot"):  # the value of a derivative
+            letter = sp.Symbol(expr.name.removesuffix("_dot"), **expr._assumptions_orig)
+            known = next((glyph for other, glyph in names.items() if getattr(other, "name", "") == letter.name), "")
+            return rf"\dot{{{known or super()._print_Symbol(letter)}}}"
+        return str(super()._print_Symbol(expr, style=style))
+
     def _print_Mul(self, expr: sp.Expr) -> str:
         # SymPy asks of each power with a negative symbolic exponent whether it is constant, which takes seconds on a
         # page. None is, so letters that are printed like the powers stand in for them.

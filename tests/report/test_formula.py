@@ -38,6 +38,11 @@ def test_what_has_its_own_brackets_gets_no_others(glyph):
     assert latex(x**2, {x: glyph}) == f"{{{glyph}}}^{{2}}"
 
 
+def test_the_value_of_a_derivative_has_a_dot():
+    assert latex(sp.Symbol("V_dot", real=True), {}) == r"\dot{V}"
+    assert latex(sp.Symbol("V_dot", real=True), {sp.Symbol("V", positive=True): r"\bar V"}) == r"\dot{\bar V}"
+
+
 def test_powers_with_symbolic_exponents_keep_their_places():
     n = sp.Symbol("n", positive=True)
     assert latex(k ** (-n) * x * sp.exp(-n * k), {}) == r"x k^{- n} e^{- k n}"

@@ -113,6 +113,13 @@ def test_errata_come_before_the_claims_and_name_the_correction(page, text):
     assert "fully proved" in row
 
 
+def test_errata_state_the_assumptions(page, text):
+    errata = page[page.index('id="errata"') : page.index('id="graph"')]
+    assert errata.count("<dt>for all</dt>") == 3
+    assert errata.count("<dt>given</dt>") == 1
+    assert "- given" in text[text.index("## Errata") : text.index("## Graph")]
+
+
 def test_errata_without_correction_are_listed(report, page):
     assert [(item.printed.ref.id, [c.ref.id for c in item.corrections]) for item in report.errata] == [
         ("a/printed", ["a/corrected"]),
