@@ -19,11 +19,12 @@ from ptproof.proof.verdict import Verdict
 FOLDER = Path(__file__).parents[2] / "derivations" / "pt_seeker"
 FILES = (
     "section4_figure1", "section7_clipping", "section7a_vanishing", "section7b_nonvanishing", "section7c_saturated",
+    "section7d_examples", "section7e_averages",
 )  # fmt: skip
 FOUND = {claim.id: claim for claim in load([FOLDER / f"{name}.py" for name in FILES]).claims}
 MODULES = {claim.prove.__module__.rpartition(".")[2]: sys.modules[claim.prove.__module__] for claim in FOUND.values()}
 CLAIMS = {id: claim for id, claim in FOUND.items() if claim.prove.__module__.rpartition(".")[2] in FILES}
-fig, clip, one, two, three = (MODULES[name] for name in FILES)
+fig, clip, one, two, three, _, mean = (MODULES[name] for name in FILES)
 R, pi = sp.Rational, sp.pi
 REFUTED, UNDECIDED = Verdict.REFUTED, Verdict.UNDECIDED
 
@@ -125,6 +126,10 @@ TWINS = [
     (given("7.2/drift-pauses", eq(t, pi / 6)), REFUTED),
     (says("7.2/drift-instants", lt(2 * pi / 3, 2)), REFUTED),
     (smooth_after(two, "7.2/drift-smooth"), REFUTED),
+    (given("7.1/asymptotic-average-leaves"), REFUTED),
+    (says("7.1/asymptotic-average-leaves", gt(mean.prescribed.derivative_along(one.peak - one.field), 0)), REFUTED),
+    (given("7.1/pt-average-climbs", *CLAIMS["7.1/pt-average-climbs"].assumptions[:-1]), REFUTED),
+    (says("7.1/pt-average-climbs", lt(mean.asymptotic.derivative_along(one.peak - one.field), 0)), REFUTED),
     # 7.3
     (says("7.3/saturated-seeker", eq(three.seeker.vector, [*three.seeker.vector[:3], wrong_law, 0])), REFUTED),
     (sides("7.3/saturation", {S: S / 2}), REFUTED),
@@ -142,6 +147,8 @@ TWINS = [
     (smooth_after(three, "7.3/smooth"), REFUTED),
     (given("7.3/radially-unbounded", ge(square, three.level)), REFUTED),
 ]
+for name in ("7.1/as-simulated", "7.2/as-simulated", "7.3/as-simulated"):
+    TWINS += [(sides(name, {clip.minimum: R("0.2")}), REFUTED), (sides(name, {x1: x1 / 2}), REFUTED)]
 EXISTENCE = ["7.1/assumption-2", "7.3/assumption-2"]
 
 
