@@ -61,7 +61,8 @@ def simulate(
     model
         For a problem: ``closed loop``, ``reduced model`` or ``average``.
     rtol, atol
-        The error asked for; the local tolerances are tighter (CVODES: 50 times, the others: 10). ``atol`` is ``rtol``/10 if left out.
+        The error asked for; the local tolerances are tighter (CVODES: 50 times, the others: 10). ``atol`` is
+        ``rtol``/10 if left out.
     engine
         ``casadi``, ``lsoda``, ``radau``, ``dop853`` or ``heyoka``. Left out: CasADi; for an ensemble, and for a run
         of thousands of dither periods, heyoka where it is installed and the system has no kink in its states.
