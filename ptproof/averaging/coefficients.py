@@ -11,7 +11,7 @@ from sympy.simplify.fu import TR10i
 from ptproof.averaging.enclosure import check_coefficients, sample
 from ptproof.averaging.quasipolynomial import exact_sign
 from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided
-from ptproof.averaging.signal import Signal, common_pieces, read_signal
+from ptproof.averaging.signal import Signal, common_pieces, period_of, rates_of, read_signal
 from ptproof.proof.algebra import NotAlgebraic, is_zero
 from ptproof.proof.ball import separated
 from ptproof.system import DitherSystem
@@ -34,10 +34,26 @@ def signals(system: DitherSystem) -> tuple[Signal, ...]:
     result = []
     for i, dither in enumerate(system.dithers, start=1):
         where = f"dither {i}"
-        signal = read_signal(dither, system.phase, system.period, where)
+        try:
+            signal = read_signal(dither, system.phase, system.period, where)
+        except AveragingRefused as refusal:
+            if "is not a period" not in refusal.reason:
+                raise
+            raise AveragingRefused("D", where, refusal.reason + _period_hint(system)) from None
         mean_is_zero(signal.mean, where, system)
         result.append(signal)
     return tuple(result)
+
+
+def _period_hint(system: DitherSystem) -> str:
+    rates = set().union(*(rates_of(dither, system.phase) for dither in system.dithers))
+    if not rates:
+        return ""
+    common = period_of(rates)
+    if common is not None:
+        return f"; the smallest common period is {common}"
+    names = ", ".join(sorted(map(str, rates)))
+    return f"; the frequencies {names} have an irrational ratio, so that there is no common period"
 
 
 def mean_is_zero(mean: sp.Expr, where: str, system: DitherSystem) -> None:

@@ -4,16 +4,20 @@ from __future__ import annotations
 
 import functools
 import itertools
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 import sympy as sp
+from sympy.core.function import AppliedUndef
 
 from ptproof.averaging.average import derive
 from ptproof.averaging.brackets import SparseField, sparse_bracket, tidy
 from ptproof.averaging.coefficients import signals, tidy_constant
 from ptproof.averaging.signal import Signal
+from ptproof.proof.smoothness import smoothness
+from ptproof.proof.statement import Relation
+from ptproof.proof.verdict import Evidence, Verdict
 from ptproof.system import DitherSystem, System
 
 Vector = tuple[sp.Expr, ...]
@@ -74,9 +78,21 @@ class Correction:
         """x̄ at the initial time in terms of x there: x̄ = x − (1/√ω) Σ b_i(τ, x) U_i(τ, ωτ)."""
         return tuple(2 * symbol - entry for symbol, entry in zip(self.system.state, self.expressions, strict=True))
 
-    def at(self, values: Mapping[Any, Any]) -> Vector:
-        """``initial_state`` with symbols replaced."""
-        return tuple(entry.subs(values, simultaneous=True) for entry in self.initial_state)
+    def hypotheses(self, domain: Sequence[Relation] = ()) -> Evidence:
+        """Whether the fields are C³ and the drift is C² (undefined functions taken as smooth), on ``domain``.
+
+        This is one order more than the average itself needs; where it is not proved, neither is the order 1/ω.
+        """
+        system = self.system
+        groups = [("drift", 2, system.drift)]
+        groups += [(f"field {i}", 3, entries) for i, entries in enumerate(system.fields, start=1)]
+        for place, order, entries in groups:
+            for entry in entries:
+                assumed = dict.fromkeys(entry.atoms(AppliedUndef), sp.oo)
+                evidence = smoothness(entry, (system.time, *system.state), order, assumed, domain)
+                if evidence.verdict is not Verdict.PROVED:
+                    return replace(evidence, detail=f"{place}: {evidence.detail}")
+        return Evidence("smoothness", Verdict.PROVED, "the fields are C^3 and the drift is C^2")
 
     def _repr_latex_(self) -> str:
         rows = [

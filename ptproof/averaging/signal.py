@@ -9,7 +9,7 @@ import sympy as sp
 
 from ptproof.averaging import switching
 from ptproof.averaging.quasipolynomial import QuasiPolynomial, exact_sign, read
-from ptproof.averaging.refusal import AveragingRefused
+from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided
 
 
 @dataclass(frozen=True)
@@ -119,21 +119,32 @@ def _check_period(terms: QuasiPolynomial, dither: sp.Expr, phase: sp.Symbol, per
         )
     for _, rate in terms.terms:
         number = turns(rate, period)
-        if number.is_integer:
-            continue
-        if number.is_Rational:
+        if not number.is_integer:
             raise AveragingRefused(
                 "D",
                 where,
-                f"{period} is not a period of {dither}: its part of frequency {rate} makes {number} turns in it; "
-                f"{sp.simplify(number.q * period)} would be a common period",
+                f"{period} is not a period of {dither}: its part of frequency {rate} makes {number} turns in it, "
+                "not a whole number",
             )
-        raise AveragingRefused(
-            "D",
-            where,
-            f"{period} is not a period of {dither}: its part of frequency {rate} makes {number} turns in it, "
-            "and with an irrational ratio of frequencies there is no common period",
-        )
+
+
+def rates_of(dither: sp.Expr, phase: sp.Symbol) -> set[sp.Expr]:
+    """The frequencies of a dither that is a trigonometric polynomial; none for others."""
+    if switching.has_switch(dither, phase):
+        return set()
+    try:
+        return {rate for _, rate in read(dither, phase, "dither").terms} - {sp.S.Zero}
+    except (AveragingRefused, AveragingUndecided):
+        return set()
+
+
+def period_of(rates: set[sp.Expr]) -> sp.Expr | None:
+    """The smallest common period of sinusoids with these frequencies, or None where there is none."""
+    ordered = sorted(rates, key=str)
+    ratios = [sp.radsimp(sp.simplify(rate / ordered[0])) for rate in ordered]
+    if not all(ratio.is_Rational for ratio in ratios):
+        return None
+    return sp.simplify(2 * sp.pi / (ordered[0] * sp.gcd_list(ratios)))
 
 
 def _check_period_of_switches(dither: sp.Expr, phase: sp.Symbol, period: sp.Expr, where: str) -> None:

@@ -104,14 +104,14 @@ NOT_COVERED = [
     (sp.Abs(s(theta)), 2 * sp.pi, "mean 2/pi"),
     (a * (1 + c(theta)), 2 * sp.pi, "mean"),
     (sp.Piecewise((1, theta < sp.pi), (-1, True)), 3 * sp.pi, "mean"),
-    (s(theta), 3 * sp.pi, "6\\*pi would be a common period"),
-    (s(theta / 3), 2 * sp.pi, "6\\*pi would be a common period"),
+    (s(theta), 3 * sp.pi, "smallest common period is"),
+    (s(theta / 3), 2 * sp.pi, "smallest common period is"),
     (s(theta) + s(sp.sqrt(2) * theta), 2 * sp.pi, "no common period"),
     (s(theta) + s(sp.sqrt(2) * theta), 2 * sp.sqrt(2) * sp.pi, "no common period"),
     (theta - sp.pi, 2 * sp.pi, "Mod"),
     (s(a * theta), 2 * sp.pi, "depends on a symbol"),
     (sp.sign(s(theta)), 3 * sp.pi, "not a period"),
-    (SQUARE + s(theta / 2), 2 * sp.pi, "4\\*pi would be a common period"),
+    (SQUARE + s(theta / 2), 2 * sp.pi, "not a whole number"),
 ]
 
 
@@ -121,6 +121,13 @@ def test_not_covered(dither: sp.Expr, period: sp.Expr, reason: str) -> None:
         v_matrix(system(c(2 * sp.pi * theta / period), dither, period=period))
     assert caught.value.assumption == "D"
     assert caught.value.place == "dither 2"
+
+
+def test_the_smallest_common_period_is_named() -> None:
+    with pytest.raises(AveragingRefused, match=r"smallest common period is 12\*pi$"):
+        v_matrix(system(c(theta / 2), s(theta / 3), period=2 * sp.pi))
+    with pytest.raises(AveragingRefused, match=r"smallest common period is 2\*pi$"):
+        v_matrix(system(c(theta), s(theta), period=R(62831, 10000)))
 
 
 @pytest.mark.parametrize(

@@ -144,6 +144,29 @@ SEEKERS = [
         {"amplitude squared": along(0, b * c(tau) ** 2 * k * F1 / (2 * (1 + tau)))},
     ),
     Seeker(
+        "stabilisation with unknown control direction",
+        (along(0, b * sp.sqrt(a) * c(k * x1**2)), along(0, -b * sp.sqrt(a) * s(k * x1**2))),
+        (c(theta), s(theta)),
+        along(0, x1 - k * a * b**2 * x1),
+        {"factor": along(0, x1 - 2 * k * a * b**2 * x1), "direction": along(0, x1 - k * a * b * x1)},
+        drift=along(0, x1),
+    ),
+    Seeker(
+        "two measurements, each on its own harmonic, with filter states in the drift",
+        (along(0, sp.sqrt(2) * c(F)), along(0, -sp.sqrt(2) * s(F)), along(1, F), along(1, sp.S.One)),
+        (c(3 * theta), s(3 * theta), c(5 * theta), s(5 * theta)),
+        (x2 - F1 / 3, -x2 - F2 / 10),
+        {"frequency": (x2 - F1, -x2 - F2 / 2), "swapped": (x2 - F1 / 3, -x2 + F2 / 10)},
+        drift=(x2, -x2),
+    ),
+    Seeker(
+        "a triangle wave against a sine",
+        (along(0, sp.S.One), along(0, k * F)),
+        (2 * sp.asin(s(theta)) / sp.pi, c(theta)),
+        along(0, -4 / sp.pi**2 * k * F1),
+        {"amplitude squared": along(0, -32 / sp.pi**4 * k * F1)},
+    ),
+    Seeker(
         "a concrete quadratic field",
         (
             (c(k * (x1**2 + 3 * x2**2)), -s(k * (x1**2 + 3 * x2**2))),
