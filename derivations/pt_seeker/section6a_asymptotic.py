@@ -6,7 +6,7 @@ import sympy as sp
 
 from ptproof.averaging import average, split_dithers
 from ptproof.clock import change_variable, solve_state
-from ptproof.proof.claim import Goal, claim, instance
+from ptproof.proof.claim import Goal, claim
 from ptproof.proof.comparisons import comparison
 from ptproof.proof.exact import exact
 from ptproof.proof.lemmas import exp_monotone
@@ -128,7 +128,7 @@ coefficient = C2**2 * E_norm - k * C1**2 / 2
 )  # fmt: skip
 def asymptotic_inequality(goal: Goal) -> Evidence:
     """For κ = 1 and f = E∇F."""
-    return reals(goal, *instance(gradient_bounds, {kappa: ONE}))
+    return reals(goal, *specialise(goal, gradient_bounds, {kappa: ONE}))
 
 
 condition = gt(k, 2 * (C2 / C1) ** 2 * E_norm)

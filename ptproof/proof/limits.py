@@ -63,7 +63,9 @@ def limit_of(expression: sp.Expr, variable: sp.Symbol, point: sp.Expr, side: str
     >>> limit_of(s / (1 - s / T), s, T, "-"), limit_of(s / (1 + s / T), s, sp.oo, "-")
     (oo, T)
     """
-    expression = expression.doit(limits=False, integrals=False)
+    if expression.has(sp.Limit):
+        return None  # ``doit`` would ask SymPy for the inner one
+    expression = expression.doit(integrals=False)
     # One variable h that falls to 0 from above stands for every kind of approach.
     h = sp.Dummy("h", positive=True)
     if point is sp.oo:

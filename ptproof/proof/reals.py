@@ -16,12 +16,13 @@ import sympy as sp
 from ptproof.proof.algebra import Generators, NotAlgebraic
 from ptproof.proof.claim import Goal
 from ptproof.proof.refute import or_refute
-from ptproof.proof.statement import Implication, Relation, free_symbols, relations_of
+from ptproof.proof.statement import Implication, Relation, free_symbols, relations_of, undefined_functions
 from ptproof.proof.verdict import Evidence, Verdict
 
 SECONDS = 20.0
 _SECONDS_TO_CONTRADICT = 0.5
 _ABSURD = Relation(sp.S.One, "<", sp.S.Zero)
+_REAL_ON_REALS = (sp.exp, sp.log, sp.sin, sp.cos, sp.atan, sp.Abs, sp.sign, sp.floor, sp.Max, sp.Min, sp.Piecewise)
 
 
 def reals(goal: Goal, *lemmas: Implication, seconds: float | None = None) -> Evidence:
@@ -98,7 +99,9 @@ class _Problem:
         relations = [conclusion, *assumptions]
         for fact in facts:
             relations += [*fact.hypotheses, fact.conclusion]
-        if unknown := {symbol for symbol in free_symbols([conclusion, *assumptions]) if not symbol.is_real}:
+        spoken_of = [conclusion, *assumptions]
+        values = free_symbols(spoken_of) | undefined_functions(spoken_of)
+        if unknown := {value for value in values if not value.is_real}:
             names = ", ".join(sorted(map(str, unknown)))
             raise NotAlgebraic(f"not declared real: {names}")
         self.generators = Generators(real=True)
@@ -128,6 +131,8 @@ class _Problem:
                     yield Relation(self.generators.rational(node.base), ">=", sp.S.Zero)
                 elif isinstance(node, sp.log) and not node.args[0].is_positive:
                     yield Relation(self.generators.rational(node.args[0]), ">", sp.S.Zero)
+                elif isinstance(node, sp.Function) and not node.is_real and not isinstance(node, _REAL_ON_REALS):
+                    yield _ABSURD  # such as an arc cosine, of which it is not known that it is real
 
     def solver(self, z3: Any, tactic: str, milliseconds: int) -> Any:
         if tactic == "default":

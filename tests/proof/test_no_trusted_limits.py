@@ -33,6 +33,17 @@ def test_a_limit_among_the_claims_used_does_no_harm():
     assert reals(Goal("test", le(x, x + 1), (), (a_limit,))).verdict is Verdict.PROVED
 
 
+def test_a_limit_inside_a_limit_has_no_value():
+    inner = sp.Limit(sp.sin(end) / end, end, 0, "-")
+    assert limits(Goal("test", eq(sp.Limit(inner + 1 / x, x, sp.oo, "-"), 1))).verdict is not Verdict.PROVED
+
+
+def test_z3_takes_only_functions_that_are_declared_real():
+    unknown, known = sp.Function("f")(x), sp.Function("g", real=True)(x)
+    assert reals(Goal("test", ge(unknown**2, 0))).verdict is not Verdict.PROVED
+    assert reals(Goal("test", ge(known**2, 0))).verdict is Verdict.PROVED
+
+
 def below(bound, near, given=True):
     assumed = ForAll((x,), le(R(x), 1 / x), (ge(x, 1),))
     goal = Goal("test", eq(sp.Limit(R(x), x, sp.oo, "-"), 0), (assumed,) if given else ())
