@@ -31,6 +31,8 @@ def worst_distance(problem: Problem, distance: sp.Expr, *, starts: int = 64, dra
 
     if len(problem.variables) != 2:
         return Simulated(None, (), "simulated in the plane only")
+    if problem.tuning.nu_min is None:
+        return Simulated(None, (), "without a clip no run reaches t0 + T")
     radius = float(distance)
     source = np.array([float(value) for value in problem.source])
     names = [symbol.name for symbol in problem.variables]

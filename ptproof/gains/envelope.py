@@ -28,7 +28,8 @@ _NEAR = 24  # shells from which on the Hessian form is used too
 _DEEPEST = 160  # shells below the first radius; the ball inside is one last cell
 _PIECES = 300
 _FINEST = 30
-_TOLERANCE = 0.02
+_TOLERANCE = 0.02  # of the largest rate of a shell, or of this fraction of any rate there
+_SMALL = 0.1
 
 
 @dataclass
@@ -155,14 +156,18 @@ class RadialEnvelope:
             best, counter = -math.inf, 0
             heap: list[tuple[float, int, Piece]] = []
             waiting: Sequence[Piece] = faces(self.dimension, low, high)
+            scale = 0.0
             while True:
                 for piece in waiting:
                     best = max(best, self._at_least(piece, M))
-                    heapq.heappush(heap, (-self._at_most(piece, near, M), counter, piece))
+                    bound = self._at_most(piece, near, M)
+                    if counter < len(waiting) and math.isfinite(bound):
+                        scale = max(scale, abs(bound))
+                    heapq.heappush(heap, (-bound, counter, piece))
                     counter += 1
                 top, worst = -heap[0][0], heap[0][2]
                 if (
-                    top <= best + _TOLERANCE * abs(best)
+                    top <= best + _TOLERANCE * max(abs(best), _SMALL * scale)
                     or counter >= _PIECES * max(1, self.dimension - 1) ** 3
                     or worst.level >= _FINEST
                 ):

@@ -72,6 +72,7 @@ def exact_bound(data: GainData) -> sp.Expr:
     k, T, d = data.known("k", "T", "drift_bound")
     if bounds.kappa != 1:
         raise NotApplicable("the scalar inequality is solved in closed form for kappa = 1 only")
+    _without_logarithms(bounds.a1, bounds.a2, bounds.b1, bounds.b2, k, T, d, data.start_value, data.t0)
     values = {
         _START: data.t0, _INITIAL: sp.sqrt(data.start_value), _DAMPING: damping(bounds, k), _HORIZON: T,
         _INPUT: input_factor(bounds) * d,
@@ -88,6 +89,7 @@ def distance_bound(data: GainData, horizon: Horizon, elapsed: sp.Expr) -> sp.Exp
     bounds, initial, (k, T, d) = data.bounds, data.start_value, data.known("k", "T", "drift_bound")
     root = 1 / (2 * bounds.kappa)
     level = input_factor(bounds) * d
+    _without_logarithms(elapsed, horizon.T, horizon.nu_min or sp.S.One)
     after = horizon.nu_min is not None and sign(elapsed - horizon.corner) > 0
     first = horizon.stretched(horizon.corner if after else elapsed)
     if bounds.kappa == 1:
@@ -106,6 +108,12 @@ def distance_bound(data: GainData, horizon: Horizon, elapsed: sp.Expr) -> sp.Exp
     else:
         final = _undriven(bounds, k, early, remaining) + _rest(bounds, k, late)
     return bounds.a2 ** (-root) * final
+
+
+def _without_logarithms(*numbers: sp.Expr) -> None:
+    # In an exponent SymPy turns them into powers, of hundreds of digits where the coefficients are not simple.
+    if any(number.has(sp.log) for number in numbers):
+        raise NotApplicable("not evaluated for numbers with logarithms; give them as decimals")
 
 
 def _undriven(bounds: FieldBounds, k: sp.Expr, start: sp.Expr, elapsed: sp.Expr) -> sp.Expr:

@@ -22,6 +22,7 @@ from ptproof.proof.verdict import Verdict
 
 _DIGITS = 6
 _INTERVALS = 512
+_UNCLIPPED = sp.Rational(19, 20)
 
 
 @dataclass(frozen=True)
@@ -49,9 +50,9 @@ class Study:
         if self.certificate.domain.outer is None:
             return "everywhere"
         where = f"within {float(self.certificate.domain.outer):.6g} of the source"
-        return where + (
-            ", which is certified" if self.curve.evidence.verdict is Verdict.PROVED else ", if it stays there"
-        )
+        if self.curve.evidence.verdict is not Verdict.PROVED:
+            return where + ", if it stays there"
+        return where + f", which is certified up to t = {self.curve.times[-1]:.6g}"
 
     @property
     def bounds_at_end(self) -> Mapping[str, float | None]:
@@ -59,7 +60,7 @@ class Study:
         answer = self.answer
         printed = None if answer is None else answer["clip.residual_bound_printed"]
         split = None if answer is None else answer["clip.residual_bound"]
-        proved = self.curve.evidence.verdict is Verdict.PROVED
+        proved = self.curve.evidence.verdict is Verdict.PROVED and self.problem.tuning.nu_min is not None
         return {
             "printed": None if printed is None else printed.value,
             "closed_form": None if split is None else split.value,
@@ -79,7 +80,7 @@ def study(problem: Problem, *, radius: sp.Expr | None = None, rtol: float = 1e-3
     Parameters
     ----------
     problem
-        With a ν_min, or the curve cannot reach t₀ + T.
+        Without a ν_min the curve ends at 19/20 of the prescribed time, and nothing is said of its end.
     radius
         Of the ball on which the constants are certified; left out, the largest certified distance.
     rtol
@@ -90,11 +91,10 @@ def study(problem: Problem, *, radius: sp.Expr | None = None, rtol: float = 1e-3
     Raises
     ------
     InputError
-        If the problem has no ν_min, ``radius`` is smaller than the certified reach, or data contradict each other.
+        If ``radius`` is smaller than the certified reach, or data contradict each other.
     """
-    if problem.tuning.nu_min is None:
-        raise InputError(f"{problem.name}: seeker.nu_min is missing; without a clip nothing ends at t0 + T")
-    curve = tight_bound(problem, known.get("x0_norm"))
+    until = None if problem.tuning.nu_min is not None else problem.tuning.T * _UNCLIPPED
+    curve = tight_bound(problem, known.get("x0_norm"), until=until)
     if curve.evidence.verdict is Verdict.PROVED:
         reach = _rounded_up(max(curve.distances))
         if radius is None:

@@ -144,14 +144,24 @@ def lyapunov_bound(
     sigma = data.bounds.sigma
     amount = growth(data, horizon, elapsed, chain)
     if sigma == 0:
-        return initial * sp.exp(amount)
+        return _times_exponential(initial, amount)
     if sign(1 - sigma * initial**sigma * largest_growth(data, horizon, elapsed, chain)) <= 0:
         return None
     return initial * (1 - sigma * initial**sigma * amount) ** (-1 / sigma)
 
 
+def _times_exponential(factor: sp.Expr, exponent: sp.Expr) -> sp.Expr:
+    # SymPy turns logarithms in an exponent into powers, of hundreds of digits where the coefficients are not simple.
+    if exponent.has(sp.log):
+        return sp.Mul(factor, sp.exp(exponent, evaluate=False), evaluate=False)
+    return factor * sp.exp(exponent)
+
+
 def distance_bound(data: GainData, horizon: Horizon, elapsed: sp.Expr, chain: Chain) -> sp.Expr | None:
     """(V/a₂)^(1/2κ) with the bound of V: how far x̄ can be from the source; None if the bound has escaped."""
+    if data.bounds.sigma == 0:
+        factor = sp.sqrt(data.start_value / data.bounds.a2)
+        return _times_exponential(factor, growth(data, horizon, elapsed, chain) / 2)
     value = lyapunov_bound(data, horizon, elapsed, chain, data.start_value)
     return None if value is None else (value / data.bounds.a2) ** (1 / (2 * data.bounds.kappa))
 

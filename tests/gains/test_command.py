@@ -130,6 +130,57 @@ def test_options_replace_the_problem_s_tuning():
     assert content["worst_simulated"] == pytest.approx(8**0.5 * 2.718281828**-3, rel=1e-4)
 
 
+PROBLEM = """
+[field]
+variables = ["x1", "x2"]
+expression = "EXPRESSION"
+source = ["1", "0"]
+kappa = KAPPA
+[drift]
+kind = "gradient"
+E = [["-1/4", "0"], ["1/2", "0"]]
+[seeker]
+k = "1.5"
+omega = "30"
+mu = "0.001"
+T = "1"
+[initial]
+x = ["2", "0"]
+"""
+
+
+def problem_file(tmp_path, expression, kappa, more=""):
+    text = PROBLEM.replace("EXPRESSION", expression).replace("KAPPA", str(kappa)).replace('T = "1"', f'T = "1"{more}')
+    file = tmp_path / "problem.toml"
+    file.write_text(text)
+    return [str(file)]
+
+
+def test_a_problem_without_a_clip_has_conditions_but_nothing_at_the_end(tmp_path):
+    content = answer(problem_file(tmp_path, "-(x1 - 1)**2 - x2**2", 1))
+    assert content["asymptotic"]["k_min"]["value"] == pytest.approx(1 / 4 + (1 / 16 + 1 / 4) ** 0.5)
+    assert content["tight"]["distance_at_end"] is None
+    assert content["clip"]["tau_end"] is None
+    assert "up to t = 0.95" in content["valid"]
+
+
+def test_a_field_of_another_order_has_no_constants_and_status_one(tmp_path):
+    file = problem_file(tmp_path, "-(x1 - 1)**4 - x2**4", 1, '\nnu_min = "1/2"')
+    result = run([*file, "--json"])
+    assert result.return_value == 1
+    content = json.loads(result.stdout)
+    assert content["certificate"]["verdict"] == "refuted"
+    assert content["constants"]["c1"] is None
+    assert content["why"]["constants.c1"] == "the field's constants are refuted"
+
+
+def test_a_field_of_order_four_in_a_file(tmp_path):
+    content = answer(problem_file(tmp_path, "-(x1 - 1)**4 - x2**4", 2, '\nnu_min = "1/2"'))
+    assert content["constants"]["q"]["exact"] == "3/4"
+    assert content["critical"]["V0_threshold"] is None
+    assert 1 <= content["looseness"]["tight"] <= 3
+
+
 def test_a_radius_below_the_reach_is_refused():
     with pytest.raises(InputError, match=r"radius must be at least 2\.8"):
         run(["saturated", "--radius", "1"])
