@@ -29,6 +29,7 @@ def test_power_with_even_coefficient_is_not_a_square_of_a_real_number():
 
 @pytest.mark.parametrize("statement", [
     ge(sp.sqrt(x), 0), ge(2 * sp.sqrt(x - 1) + 1, 0), ge(sp.log(x) ** 2, 0), gt(sp.sin(sp.sqrt(x)) + 2, 0),
+    ge(sp.asin(x) ** 2, 0), ge(sp.acosh(x) ** 2, 0),
 ])  # fmt: skip
 def test_statement_has_to_be_defined(statement):
     assert reals(Goal("a", statement)).verdict is not Verdict.PROVED
