@@ -1,0 +1,114 @@
+"""The tutorial, followed literally: its commands in a shell, its Python in one session, and what both are shown to say."""
+
+import ast
+import os
+import re
+import subprocess
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+from ptproof.starter import write_starter
+
+TUTORIAL = Path(__file__).resolve().parents[1] / "TUTORIAL.md"
+BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+STATUS = re.compile(r"  # exit status (\d)$")
+
+
+@dataclass(frozen=True)
+class Step:
+    """A block that is run, and the block after it that says what comes out."""
+
+    code: str
+    shown: str
+    kind: str
+
+
+def steps(language):
+    blocks = BLOCK.findall(TUTORIAL.read_text("utf-8"))
+    for i, (kind, code) in enumerate(blocks):
+        if kind == language:
+            after = blocks[i + 1] if i + 1 < len(blocks) and blocks[i + 1][0] in ("text", "math") else ("", "")
+            yield Step(code, after[1], after[0])
+
+
+def assert_shown(shown, output):
+    """Every line of ``shown`` occurs in the output, in this order; spaces count as one, and … as anything."""
+    lines = [" ".join(line.split()) for line in output.splitlines()]
+    position = 0
+    for line in shown.splitlines():
+        pattern = re.escape(" ".join(line.split())).replace("…", ".*")
+        found = next((i for i in range(position, len(lines)) if re.fullmatch(pattern, lines[i])), None)
+        assert found is not None, f"the tutorial shows {line!r}, but the output is\n{output}"
+        position = found + 1
+
+
+def run(command, folder):
+    environment = {name: value for name, value in os.environ.items() if not name.startswith(("PYTEST_", "COLUMNS"))}
+    environment["PATH"] = f"{Path(sys.executable).parent}{os.pathsep}{environment['PATH']}"
+    environment["COLUMNS"] = "120"
+    return subprocess.run(command, shell=True, cwd=folder, env=environment, capture_output=True, text=True, check=False)
+
+
+def test_every_block_is_run_or_says_what_came_out():
+    kinds = [kind for kind, _ in BLOCK.findall(TUTORIAL.read_text("utf-8"))]
+    assert set(kinds) == {"sh", "python", "text", "math"}
+    assert TUTORIAL.read_text("utf-8").count("```") == 2 * len(kinds)
+    for before, kind in zip(kinds, kinds[1:], strict=False):
+        assert kind in ("sh", "python") or before in ("sh", "python")
+
+
+def test_the_commands(tmp_path):
+    for step in steps("sh"):
+        output = ""
+        for line in step.code.splitlines():
+            status = STATUS.search(line)
+            done = run(STATUS.sub("", line), tmp_path)
+            assert done.returncode == (int(status[1]) if status else 0), f"{line}\n{done.stdout}{done.stderr}"
+            assert "Traceback" not in done.stdout + done.stderr
+            output += done.stdout
+        assert_shown(step.shown, output)
+    for name in ("report/index.html", "report/report.md", "path.png"):
+        assert (tmp_path / name).stat().st_size > 1000
+
+
+def test_the_notebook(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    write_starter("my_seeker")
+    session = {}
+    for step in steps("python"):
+        if re.match(r"\w+Error:", step.shown):
+            with pytest.raises(Exception) as caught:  # noqa: PT011 - the tutorial says which
+                evaluate(step.code, session)
+            assert_shown(step.shown, f"{type(caught.value).__name__}: {caught.value}")
+            continue
+        value = evaluate(step.code, session)
+        if step.kind == "text":
+            assert_shown(step.shown, repr(value))
+        elif step.kind == "math":
+            assert "".join(step.shown.split()) == "".join(value.latex().split())
+            assert value.latex() in value._repr_latex_()
+        else:
+            assert rich(value), f"{step.code} shows nothing in a notebook"
+
+
+def evaluate(code, session):
+    """Run a cell and return the value of its last line, as a notebook does."""
+    tree = ast.parse(code)
+    *before, last = tree.body
+    exec(compile(ast.Module(before, []), "cell", "exec"), session)
+    if not isinstance(last, ast.Expr):
+        exec(compile(ast.Module([last], []), "cell", "exec"), session)
+        return None
+    return eval(compile(ast.Expression(last.value), "cell", "eval"), session)
+
+
+def rich(value):
+    """What a notebook shows instead of the text: a formula, a picture or a table."""
+    for name, opening in (("_repr_png_", b"\x89PNG"), ("_repr_latex_", "$"), ("_repr_html_", "<")):
+        method = getattr(value, name, None)
+        if method is not None:
+            return method().startswith(opening)
+    return False
