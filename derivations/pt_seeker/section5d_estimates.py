@@ -196,7 +196,8 @@ def estimates(order: sp.Expr, tag: str, words: str) -> tuple[Claim, ...]:
     def u_estimate(goal: Goal) -> Evidence:
         """This replaces the step that does not follow. Let w decay by w' = −h₁w^r and let u* be the level with
         h₁u*^r = Z. Powers of at least 1 are superadditive, so w + u* falls no faster than the inequality for U asks,
-        and the comparison lemma puts U below it."""
+        and the comparison lemma puts U below it. At the source U = 0 has no derivative, but nothing to show either:
+        after a visit there the estimate starts again from 0."""
         level = (Z / h) ** (1 / exponent)
         falling = decay(U_at(start), s - start, order)
         denominators = [] if linear else [denominator(U_at(start), s - start, order)]

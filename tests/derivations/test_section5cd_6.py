@@ -99,6 +99,7 @@ TWINS = [
     ("decrease-below-the-threshold", without("prop/decrease", 2), REFUTED),
     ("no-increase-strictly", says("prop/decrease-at-the-printed-threshold", lt(prop.U_dot, 0)), None),
     ("no-increase-below", without("prop/decrease-at-the-printed-threshold", 1), REFUTED),
+    ("gain-without-its-share", scaled("prop/gain-of-the-cited-theorem", theta), REFUTED),
     ("zeta-second-half", scaled("prop/zeta-suprema", half, 1), REFUTED),
     ("zeta-before-the-start", without("prop/zeta-suprema", 1), REFUTED),
     ("input-stays", says("prop/input-vanishes", eq(FOUND["prop/input-vanishes"].statement.left, 1)), REFUTED),
