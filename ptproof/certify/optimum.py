@@ -278,30 +278,34 @@ def _is_tiny(box: Box) -> bool:
 
 
 def positive_everywhere(
-    quotients: Quotients, slope: bool, boxes: Sequence[Box], *, deadline: float, max_boxes: int = 20_000
-) -> bool | None:
-    """Whether a quotient is certainly positive on all of ``boxes``; False where a value is certainly not, else None."""
-    evaluator = Evaluator(quotients, Goal(slope, largest=False))
+    evaluators: Sequence[Evaluator], boxes: Sequence[Box], *, deadline: float, max_boxes: int = 50_000
+) -> Place | None:
+    """None if on each box of a cover one of the quotients is certainly positive; else where that was not shown.
+
+    The evaluators are those of smallest values; each box is tried with one after the other. Where the first one's
+    quotient is certainly not positive, the search ends at once.
+    """
     stack = list(boxes)
     looked = 0
     while stack:
         looked += 1
-        if time.perf_counter() > deadline or looked > max_boxes:
-            return None
         box = stack.pop()
-        split: int | None = None
-        try:
-            bound = evaluator.bound(box, 0.0)
-            if bound.upper < 0:
+        splits: list[int] = []
+        hopeless = False
+        for evaluator in evaluators:
+            try:
+                bound = evaluator.bound(box, 0.0)
+                if bound.upper < 0:
+                    break
+                if bound.split is not None:
+                    splits.append(bound.split)
+                if evaluator is evaluators[0]:
+                    hopeless = bool(evaluator.value(box, bound.point) >= 0)
+            except Undefined:
                 continue
-            split = bound.split
-            if evaluator.value(box, bound.point) >= 0:
-                return False
-        except Undefined:
-            pass
-        if split is None:
-            split = _widest(box)
-        if split is None or _is_tiny(box):
-            return None
-        stack.extend(box.split(split))
-    return True
+        else:
+            split = splits[0] if splits else _widest(box)
+            if hopeless or split is None or _is_tiny(box) or looked > max_boxes or time.perf_counter() > deadline:
+                return Place(box, tuple(side[0] if side[0] is side[1] else middle(side) for side in box.sides))
+            stack.extend(box.split(split))
+    return None

@@ -113,6 +113,14 @@ class Quotients:
         """The faces that remain when the symmetries of V are used: reflections, permutations, rotations, y → −y."""
         return reduced_faces(self.drop, self.offsets)
 
+    def radial(self) -> Quotients:
+        """The same for y·∇V instead of V: where its value quotient is positive, ∇V is not zero."""
+        drop = sum((y * sp.diff(self.drop, y) for y in self.offsets), sp.Integer(0))
+        quotients = Quotients(drop, self.offsets, self.kappa)
+        # Each homogeneous part of V is multiplied by its degree, so that no lower order comes up.
+        quotients.vanishing_is_proved = self.vanishing_is_proved
+        return quotients
+
     # The defining form, for t > 0.
 
     def direct(self, face: Face, outer: bool, slope: bool, *, rest: bool = True) -> Function:
@@ -288,15 +296,44 @@ class Quotients:
         slopes = [sp.diff(self.rest, y) for y in self.offsets]
         return compile_tape([self.rest], self.offsets), compile_tape(slopes, self.offsets)
 
+    @cached_property
+    def _rest_terms(self) -> tuple[list[list[tuple[Tape, arb | None]]], ...]:
+        """For the rest and for its derivatives: each term with a bound of it, if it has one for all y."""
+        groups = []
+        for outputs in ([self.rest], [sp.diff(self.rest, y) for y in self.offsets]):
+            sums = [sp.Add.make_args(sp.expand_mul(output)) for output in outputs]
+            groups.append(
+                [[(compile_tape([term], self.offsets), bound_everywhere(term)) for term in terms] for terms in sums]
+            )
+        return tuple(groups)
+
+    def _growths(self, w: Sequence[arb], reach: arb, slope: bool) -> list[Growth]:
+        """The rest, or its derivatives, far out; a term that seems to grow too fast is replaced by its bound."""
+        far = coordinates(w, reach)
+        top = 2 * self.kappa - slope
+        results = []
+        for terms in self._rest_terms[slope]:
+            total: Any = Growth({}, reach)
+            for tape, bound in terms:
+                try:
+                    growth: Any = tape.run(far, GROWTHS)[0]
+                except Undefined:
+                    if bound is None:
+                        raise
+                    growth = bound
+                if bound is not None and isinstance(growth, Growth) and max(growth.terms, default=0) > top:
+                    growth = bound
+                total = total + growth
+            results.append(total)
+        return results
+
     def _outer_tails(self, box: Box, w: Sequence[arb], slope: bool) -> list[arb]:
         low, high = box.sides[0]
         # At infinity itself the enclosure on a small neighbourhood serves: its decaying terms vanish there.
         reach = high if high > 0 else arb(1) / 2**20
-        outputs = self._rest_tapes[slope].run(coordinates(w, reach), GROWTHS)
         top = 2 * self.kappa - slope
         results = []
-        for output in outputs:
-            growth = output if isinstance(output, Growth) else Growth({}, reach).lift(output)
+        for growth in self._growths(w, reach, slope):
             total = arb(0)
             for exponent, value in growth.terms.items():
                 ends = [power_of(end, top - exponent) for end in (low, high)]
@@ -345,6 +382,21 @@ def _run_parts(parts: Sequence[Nested], values: Sequence[Any], size: Any, outer:
     t = values[0]
     radial = t * size if outer else t * _inverse(size, arithmetic)
     return [part.run([radial, *values[1:]]) for part in parts]
+
+
+def bound_everywhere(term: sp.Expr) -> arb | None:
+    """A ball of all values of an expression in one variable over the whole line; None if none is found."""
+    if len(term.free_symbols) != 1:
+        return None
+    tape = compile_tape([term], tuple(term.free_symbols))
+    try:
+        pieces = [tape.run([interval(k, k + 1)], BALLS)[0] for k in range(-16, 16)]
+        for sign in (1, -1):
+            values = Growth({}, arb(1) / 16).lift(tape.run(coordinates([arb(sign)], arb(1) / 16), GROWTHS)[0]).range()
+            pieces.append(values.ball())
+        return BALLS.hull(pieces)
+    except Undefined:
+        return None
 
 
 def split_polynomial(drop: sp.Expr, offsets: Sequence[sp.Symbol]) -> tuple[sp.Poly, sp.Expr]:

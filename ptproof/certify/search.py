@@ -6,6 +6,7 @@ import math
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import sympy as sp
@@ -14,6 +15,7 @@ from ptproof.certify.certificate import FieldCertificate, FieldWitness, Range
 from ptproof.certify.domain import Domain
 from ptproof.certify.optimum import (
     BITS,
+    Evaluator,
     Extremum,
     Goal,
     Optimum,
@@ -133,6 +135,16 @@ class _Search:
     def deadline(self) -> float:
         return self.began + self.seconds
 
+    @cached_property
+    def evaluators(self) -> tuple[Evaluator, Evaluator, Evaluator]:
+        """Those of the smallest (y·∇V)/‖y‖^(2κ), of the smallest slope quotient and of the smallest value quotient."""
+        smallest, steepest = Goal(slope=False, largest=False), Goal(slope=True, largest=False)
+        return (
+            Evaluator(self.quotients.radial(), smallest),
+            Evaluator(self.quotients, steepest),
+            Evaluator(self.quotients, smallest),
+        )
+
     def tell(self, text: str) -> None:
         if self.progress is not None:
             self.progress(text)
@@ -182,7 +194,7 @@ class _Search:
         found: list[FieldWitness] = []
 
         def stop(place: Place, best: float) -> bool:
-            witness = self.prosecutor.at_place(place, best >= 0, search.goal.slope)
+            witness = self.prosecutor.at_place(place, best, search.goal.slope)
             if witness is not None:
                 found.append(witness)
             return witness is not None
@@ -247,38 +259,59 @@ class _Search:
         ceiling = LARGEST_RADIUS if math.isinf(bad) else sp.Rational(bad)
         tried = 0
         good: sp.Expr | None = None
-        trial = min(sp.Integer(1), ceiling / 2) if inner == 0 else (inner + min(ceiling, 2 * inner)) / 2
+        trial = sp.Integer(1)
+        if not inner < trial < ceiling:
+            trial = _short_between(inner, ceiling if inner == 0 else min(ceiling, 2 * inner))
         while good is None and tried < 40:
             tried += 1
-            if self.works(inner, trial, deadline):
+            obstacle = self.obstacle(inner, trial, deadline)
+            if obstacle is None:
                 good = trial
             else:
-                ceiling, trial = trial, inner + (trial - inner) / 2
+                ceiling = min(trial, obstacle)
+                trial = _short_between(inner, ceiling)
         if good is None:
             return None, f"No smaller ball was certified, down to radius {float(trial):.3g}"
         failed = not math.isinf(bad) or tried > 1
         while not failed and good < LARGEST_RADIUS:
             tried += 1
-            if self.works(good, 2 * good, deadline):
+            obstacle = self.obstacle(good, 2 * good, deadline)
+            if obstacle is None:
                 good = 2 * good
             else:
-                failed, ceiling = True, 2 * good
+                failed, ceiling = True, min(2 * good, obstacle)
         while failed and ceiling - good > RADIUS_RTOL * good and time.perf_counter() < deadline:
             tried += 1
             middle = _short_between(good, ceiling)
-            if self.works(good, middle, deadline):
+            obstacle = self.obstacle(good, middle, deadline)
+            if obstacle is None:
                 good = middle
             else:
-                ceiling = middle
+                ceiling = min(middle, obstacle)
         if not failed:
             return good, f"the largest that was tried, by {tried} doublings"
         return good, f"the largest found by {tried} certified trials; radius {_brief(ceiling)} was not certified"
 
-    def works(self, inner: sp.Expr, outer: sp.Expr, deadline: float) -> bool:
-        """Whether both quotients are certainly positive, and finite, between two radii."""
-        boxes: list[Box] = list(start_boxes(self.quotients, Domain(inner, outer)))
-        share = time.perf_counter() + max(0.0, deadline - time.perf_counter()) / 3
-        return all(positive_everywhere(self.quotients, slope, boxes, deadline=share) is True for slope in (False, True))
+    def obstacle(self, inner: sp.Expr, outer: sp.Expr, deadline: float) -> sp.Expr | None:
+        """None if both quotients are certainly positive and finite between two radii, else where that may end.
+
+        That is the distance of a witness where one is found, or ``outer``.
+        """
+        shell = Domain(inner, outer)
+        boxes: list[Box] = list(start_boxes(self.quotients, shell))
+        share = time.perf_counter() + max(0.0, deadline - time.perf_counter()) / 4
+        radial, slope, value = self.evaluators
+        for evaluators in ((slope, radial), (value,)):
+            place = positive_everywhere(evaluators, boxes, deadline=share)
+            if place is None:
+                continue
+            if not place.is_limit:
+                prosecutor = Prosecutor(self.field, self.quotients, shell)
+                witness = prosecutor.at_place(place, -math.inf, slope=True)
+                if witness is not None:
+                    return sp.Rational(witness.distance)
+            return outer
+        return None
 
 
 def _range(optimum: Optimum, goal: Goal) -> Range:

@@ -18,6 +18,7 @@ from ptproof.certify.growth import GROWTHS, Growth, coordinates
 from ptproof.certify.optimum import Place
 from ptproof.certify.quotients import Quotients
 from ptproof.field import Field
+from ptproof.proof.algebra import NotAlgebraic, is_zero
 from ptproof.proof.ball import BALLS, ball_from, enclose, enclosure_text, interval, separated
 from ptproof.proof.tape import Undefined, compile_tape
 
@@ -54,10 +55,7 @@ class Prosecutor:
 
     def point(self, offset: Vector) -> tuple[sp.Expr, ...]:
         """x* + offset."""
-        return tuple(
-            sp.nsimplify(s + y) if (s + y).is_Rational else s + y
-            for s, y in zip(self.field.source, offset, strict=True)
-        )
+        return tuple(s + y for s, y in zip(self.field.source, offset, strict=True))
 
     def _values(self, x: Sequence[Any]) -> dict[str, str]:
         return {str(variable): str(entry) for variable, entry in zip(self.field.variables, x, strict=True)}
@@ -72,7 +70,7 @@ class Prosecutor:
         value, peak = self.field.value(x), self.field.peak
         try:
             sign = separated(value, peak)
-            if sign == -1 or (sign is None and sp.simplify(value - peak) != 0):
+            if sign == -1 or (sign is None and not certainly_zero(value - peak)):
                 return None
             left = f"F(x) = {_shown(value)}"
         except (Undefined, TypeError, ValueError):
@@ -105,14 +103,14 @@ class Prosecutor:
     # Limits.
 
     def limit(self, direction: Vector, slope: bool, *, outward: bool, limit: str, detail: str) -> FieldWitness:
-        """The witness that a quotient tends to ``limit`` ("0" or "∞") along a ray."""
+        """The witness that a quotient tends to ``limit`` ("0", "at most 0" or "∞") along a ray."""
         power = 2 * self.field.kappa - slope
         numerator = "‖∇F(x)‖" if slope else "(F(x*) − F(x))"
         quotient = f"{numerator}/‖x − x*‖^{power}".replace("^1", "") if power == 1 else f"{numerator}/‖x − x*‖^{power}"
         r = sp.Symbol("r", positive=True)
-        name = ("b1" if slope else "a2") if limit == "0" else ("b2" if slope else "a1")
+        name = ("b1" if slope else "a2") if limit != "∞" else ("b2" if slope else "a1")
         where = "r → ∞" if outward else "r → 0"
-        right = f"{name} > 0" if limit == "0" else f"a finite {name}"
+        right = f"{name} > 0" if limit != "∞" else f"a finite {name}"
         return FieldWitness(
             f"{quotient} tends to {limit} for {where} along a ray from the source ({detail})",
             self._values([s + r * d for s, d in zip(self.field.source, direction, strict=True)]),
@@ -154,8 +152,9 @@ class Prosecutor:
 
     # Places that a search has come upon.
 
-    def at_place(self, place: Place, value_is_zero_or_less: bool, slope: bool) -> FieldWitness | None:
-        """What the best place of a search for a smallest quotient proves."""
+    def at_place(self, place: Place, best: float, slope: bool) -> FieldWitness | None:
+        """What the best place of a search for a smallest quotient proves, where it is certainly at most −``best``."""
+        value_is_zero_or_less, exactly_zero = best >= 0, best == 0
         if place.is_limit:
             if not value_is_zero_or_less:
                 return None
@@ -163,7 +162,8 @@ class Prosecutor:
             outward = place.box.outer
             if not slope and (found := self.not_lower_on_ray(u, outward=outward)):
                 return found
-            return self.limit(u, slope, outward=outward, limit="0", detail="by enclosure of the limit")
+            value = "0" if exactly_zero else "at most 0"
+            return self.limit(u, slope, outward=outward, limit=value, detail="by enclosure of the limit")
         offset = place.offset()
         if value_is_zero_or_less and not slope and (found := self.not_lower_near(offset)):
             return found
@@ -199,7 +199,7 @@ class Prosecutor:
         offsets = self.quotients.offsets
         rest = {y: 0 for i, y in enumerate(offsets) if i != index}
         slopes = (sp.diff(self.quotients.drop, y).subs(rest) for y in rest)
-        return all(sp.expand(slope) == 0 for slope in slopes)
+        return all(certainly_zero(slope) for slope in slopes)
 
     def _newton(self, start: Sequence[float], kept: Sequence[int]) -> FieldWitness | None:
         offsets = self.quotients.offsets
@@ -231,7 +231,7 @@ class Prosecutor:
             if max(abs(float(a) - b) for a, b in zip(y, offset, strict=True)) > 1e-6 or not self.inside(y):
                 continue
             at = dict(zip(self.field.variables, x, strict=True))
-            if all(sp.simplify(entry.subs(at)) == 0 for entry in self.field.gradient):
+            if all(certainly_zero(entry.subs(at)) for entry in self.field.gradient):
                 return self._critical(self._values(x), "∇F(x) = 0 exactly", _length(y))
         return None
 
@@ -281,6 +281,8 @@ def _iterate(gradient: Any, hessian: Any, begin: Sequence[float]) -> list[arb] |
             balls = [arb(float(entry)) for entry in point]
             value = np.array([float(entry.mid()) for entry in gradient.run(balls, BALLS)])
             slope = np.array([float(entry.mid()) for entry in hessian.run(balls, BALLS)]).reshape(n, n)
+            if not (np.all(np.isfinite(value)) and np.all(np.isfinite(slope))):
+                return None
             step = np.linalg.lstsq(slope, value, rcond=1e-12)[0]
             point = point - step
             if not np.all(np.isfinite(point)) or np.abs(point).max() > 1e9:
@@ -359,7 +361,7 @@ def _vanishes(quotients: Quotients, key: Sequence[int]) -> bool:
     for y, times in zip(quotients.offsets, key, strict=True):
         expression = sp.diff(expression, y, times) if times else expression
     value = expression.subs(dict.fromkeys(quotients.offsets, 0))
-    if sp.simplify(value) == 0:
+    if certainly_zero(value):
         return True
     if separated(value, 0) is None:
         raise Undefined(f"cannot decide whether the derivative {tuple(key)} vanishes at the source")
@@ -421,14 +423,23 @@ def degenerate_direction(field: Field, quotients: Quotients, prosecutor: Prosecu
         if value.is_zero():
             detail = f"the terms of order {top} vanish in this direction"
             return prosecutor.limit(direction, False, outward=False, limit="0", detail=detail)
-    if field.kappa == 1 and sp.simplify(field.hessian_at_source.det()) == 0:
-        kernel = field.hessian_at_source.nullspace(simplify=True)
-        if kernel:
-            direction = tuple(sp.simplify(entry) for entry in kernel[0])
-            return prosecutor.limit(
-                direction, False, outward=False, limit="0", detail="the Hessian at the source is singular"
-            )
+    if field.kappa == 1:
+        hessian = field.hessian_at_source
+        for kernel in hessian.nullspace(simplify=True):
+            if all(map(certainly_zero, hessian * kernel)):
+                detail = "the Hessian at the source is singular"
+                return prosecutor.limit(tuple(kernel), False, outward=False, limit="0", detail=detail)
     return None
+
+
+def certainly_zero(expression: sp.Expr) -> bool:
+    """Whether exact algebra shows that the expression is 0; False says only that it does not."""
+    if sp.expand(expression) == 0:
+        return True
+    try:
+        return is_zero(expression)
+    except NotAlgebraic:
+        return False
 
 
 __all__ = ["Prosecutor", "degenerate_direction", "directions", "interval", "source_order"]

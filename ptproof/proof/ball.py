@@ -238,5 +238,5 @@ def enclosure_text(ball: arb, digits: int = 8) -> str:
 
     The printed interval contains the ball.
     """
-    text = ball.str(digits)
-    return text.strip("[]").replace("+/-", "±")
+    text = ball.str(digits).strip("[]").replace("+/-", "±")
+    return f"0 {text}" if text.startswith("±") else text

@@ -54,14 +54,25 @@ class Jet:
                 (None if b is None else u * b) if a is None else a * v if b is None else a * v + u * b
                 for a, b in zip(self.slopes, other.slopes, strict=True)
             )
-            return Jet(u * v, slopes)
-        return self.scaled(u * other, other)
+            return Jet(_product(u, v), slopes)
+        return self.scaled(_product(u, other) if isinstance(other, arb) else u * other, other)
 
     __rmul__ = __mul__
 
     def scaled(self, value: arb, factor: arb) -> Jet:
         """The jet of a function of this one: its value, and its derivative as factor."""
         return Jet(value, tuple(None if a is None else a * factor for a in self.slopes))
+
+
+def _product(u: arb, v: arb) -> arb:
+    """The product; of two wide balls by their ends, for a product of balls forgets that both are positive."""
+    if u.rel_accuracy_bits() > 3 or v.rel_accuracy_bits() > 3:
+        return u * v
+    if u < 0:
+        return -_product(-u, v)
+    if not u > 0 or not (v > 0 or v < 0):
+        return u * v
+    return interval(u.lower() * v.lower(), u.upper() * v.upper()) if v > 0 else -_product(u, -v)
 
 
 def variables(box: Sequence[arb]) -> list[Jet]:
