@@ -86,18 +86,25 @@ def load(paths: Sequence[str | Path] = ()) -> Derivation:
         if not path.exists():
             raise InputError(f"{path}: no such file or folder")
         modules += list(_modules(path.resolve()))
-    for module in modules:
-        for value in vars(module).values():
-            for item in value if isinstance(value, list | tuple) else (value,):
-                if isinstance(item, Claim):
-                    _add(claims, item)
-                elif isinstance(item, Definition):
-                    _add(definitions, item)
+    # A module's own items first: what it imports from another section keeps the place that it has there.
+    for own in (True, False):
+        for module in modules:
+            for value in vars(module).values():
+                for item in value if isinstance(value, list | tuple) else (value,):
+                    if isinstance(item, Claim | Definition) and (item.section == _section(module)) is own:
+                        if isinstance(item, Claim):
+                            _add(claims, item)
+                        else:
+                            _add(definitions, item)
     if not claims:
         raise InputError(f"{', '.join(map(str, chosen))}: no claims found")
     missing = {used.id: used for item in claims.values() for used in _ancestors(item) if used.id not in claims}
     ordered = (*claims.values(), *missing.values())
     return Derivation(ordered, tuple(definitions.values()), tuple(map(str, chosen)))
+
+
+def _section(module: ModuleType) -> str:
+    return str(getattr(module, "SECTION", ""))
 
 
 def _add(found: dict[str, Item], item: Item) -> None:

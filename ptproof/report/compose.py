@@ -177,8 +177,7 @@ def _sections(
     definition_places: Sequence[str],
 ) -> tuple[Section, ...]:
     titles = list(dict.fromkeys([*places, *definition_places]))
-    if all(re.match(r"\d", title) for title in titles):
-        titles.sort(key=_numbered)
+    titles.sort(key=_numbered)
     found = []
     for number, title in enumerate(titles, start=1):
         inside = tuple(claim for claim, place in zip(claims, places, strict=True) if place == title)
@@ -187,9 +186,10 @@ def _sections(
     return tuple(found)
 
 
-def _numbered(title: str) -> tuple[int, ...]:
+def _numbered(title: str) -> tuple[bool, tuple[int, ...]]:
+    """Numbered sections in the order of their numbers, then the others as they come."""
     number = re.match(r"\d+(\.\d+)*", title)
-    return tuple(map(int, number.group().split("."))) if number else ()
+    return number is None, tuple(map(int, number.group().split("."))) if number else ()
 
 
 def _counts(claims: Sequence[ClaimView]) -> tuple[tuple[Status, int], ...]:

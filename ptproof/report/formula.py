@@ -112,7 +112,7 @@ def statement_lines(statement: Statement | Assumption, names: Names) -> tuple[Li
             return (*lines, Line(tail, 1))
         case Prose():
             return ()
-    raise TypeError(f"not a statement: {statement!r}")
+    return (Line(str(statement.latex(symbol_names=dict(names)))),)  # a kind of statement that is newer than this page
 
 
 def domain_of(

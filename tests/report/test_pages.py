@@ -281,6 +281,16 @@ def test_bad_figures(name, content):
         Figure(name, "", content)
 
 
+def test_sections_stand_in_the_order_of_their_numbers_and_others_behind(derivation, verification):
+    titles = ["Beyond", "10 Ten", "2.1 Part", "2 Two", "Again"]
+    results = tuple(
+        replace(result, claim=replace(result.claim, section=title))
+        for result, title in zip(verification.results, titles, strict=False)
+    )
+    found = compose(replace(verification, results=results), replace(derivation, definitions=()))
+    assert [section.title for section in found.sections] == ["2 Two", "2.1 Part", "10 Ten", "Beyond", "Again"]
+
+
 def test_bad_tables():
     with pytest.raises(InputError, match="cells"):
         Table("t", "", ("a", "b"), (("1",),))
