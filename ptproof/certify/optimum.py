@@ -286,16 +286,20 @@ def positive_everywhere(
     quotient is certainly not positive, the search ends at once.
     """
     stack = list(boxes)
+    order = list(evaluators)
     looked = 0
     while stack:
         looked += 1
         box = stack.pop()
         splits: list[int] = []
         hopeless = False
-        for evaluator in evaluators:
+        for evaluator in tuple(order):
             try:
                 bound = evaluator.bound(box, 0.0)
                 if bound.upper < 0:
+                    # What has worked here is tried first on the next box.
+                    order.remove(evaluator)
+                    order.insert(0, evaluator)
                     break
                 if bound.split is not None:
                     splits.append(bound.split)

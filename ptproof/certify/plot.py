@@ -33,7 +33,8 @@ def plot_certificate(certificate: FieldCertificate, path: str | None = None) -> 
     with np.errstate(all="ignore"):
         for direction in _directions(field.dimension):
             points = source[:, None] + np.outer(direction, radii)
-            left.plot(radii, value(*points) / radii**power, color="0.6", linewidth=0.6)
+            drops = np.broadcast_to(value(*points), radii.shape)
+            left.plot(radii, drops / radii**power, color="0.6", linewidth=0.6)
             parts = [np.broadcast_to(part, radii.shape) for part in slope(*points)]
             right.plot(radii, np.sqrt(sum(p**2 for p in parts)) / radii ** (power - 1), color="0.6", linewidth=0.6)
     for axis, names in ((left, ("a1", "a2")), (right, ("b2", "b1"))):
