@@ -124,9 +124,9 @@ def closed_loop(
     check_word("frame", frame, FRAMES)
     check_word("coordinates", coordinates, COORDINATES)
     system = _closed_loop(without_start(problem), seeker, frame, coordinates)
-    if not symbolic:
-        system = system.with_values(parameter_values(problem))
-    return replace(system, name=f"{seeker} seeker of {problem.name} in {frame}")
+    if symbolic:
+        return system
+    return replace(system.with_values(parameter_values(problem)), name=f"{seeker} seeker of {problem.name} in {frame}")
 
 
 def check_word(what: str, word: str, allowed: tuple[str, ...]) -> None:

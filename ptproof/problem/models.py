@@ -59,7 +59,7 @@ def _checked(seeker: str, frame: str) -> tuple[str, str]:
 
 
 def _finish(problem: Problem, system: System, symbolic: bool, name: str) -> System:
-    return replace(system if symbolic else system.with_values(parameter_values(problem)), name=name)
+    return system if symbolic else replace(system.with_values(parameter_values(problem)), name=name)
 
 
 @lru_cache(maxsize=64)

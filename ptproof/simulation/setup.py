@@ -136,13 +136,8 @@ def from_problem(
     letters = loop_letters(problem)
     names = [symbol.name for symbol in problem.variables]
     x1, x2 = names
-    theta, z, u2 = letters.heading.name, letters.filter.name, letters.angular_velocity.name
-    defaults = {symbol.name: float(value) for symbol, value in problem.values.items() if symbol != parameters.p0}
-    start = problem.initial
-    defaults |= {name: float(value) for name, value in zip(names, start.x, strict=True)}
-    defaults |= {theta: float(start.theta), u2: float(start.u2)}
-    if start.z is not None:
-        defaults[z] = float(start.z)
+    theta, z = letters.heading.name, letters.filter.name
+    defaults = dict(_defaults(problem))
     field_at = field_function(problem)
 
     def completed(table: Mapping[str, Array]) -> dict[str, Array]:
@@ -163,13 +158,30 @@ def from_problem(
     return Setup(
         system, defaults,
         initial=lambda table: np.array([completed(table)[symbol.name] for symbol in system.state]),
-        edges=ending, position=(0, 1), source=tuple(float(value) for value in problem.source),
+        edges=ending, position=(0, 1), source=_source(problem),
         complete=complete, note=note,
         to_t=_identity if clock is None or frame == "t" else _time_map(clock.to_t, TAU),
         to_tau=_identity if clock is None or frame == "tau" else _time_map(clock.to_tau, TIME),
         field_at=field_at,
         inputs_at=inputs_at, free=(*defaults, *([] if z in defaults else [z])),
     )  # fmt: skip
+
+
+@lru_cache(maxsize=64)
+def _defaults(problem: Problem) -> tuple[tuple[str, float], ...]:
+    """Parameters and initial states as floats, by name; without z where it starts at the measured field."""
+    letters, start = loop_letters(problem), problem.initial
+    found = {symbol.name: float(value) for symbol, value in problem.values.items() if symbol != parameters.p0}
+    found |= {symbol.name: float(value) for symbol, value in zip(problem.variables, start.x, strict=True)}
+    found |= {letters.heading.name: float(start.theta), letters.angular_velocity.name: float(start.u2)}
+    if start.z is not None:
+        found[letters.filter.name] = float(start.z)
+    return tuple(found.items())
+
+
+@lru_cache(maxsize=64)
+def _source(problem: Problem) -> tuple[float, ...]:
+    return tuple(float(value) for value in problem.source)
 
 
 def completed_parameters(setup: Setup, problem: Problem | None, table: Mapping[str, Array]) -> Array:
@@ -250,6 +262,7 @@ def _vectorised(expression: sp.Expr, variables: tuple[sp.Symbol, ...]) -> Callab
     return sp.lambdify(variables, expression, modules="numpy", cse=True)
 
 
+@lru_cache(maxsize=64)
 def field_function(problem: Problem) -> Callable[[Array], Array]:
     """F for arrays of positions (n × …)."""
     function = _vectorised(problem.field, problem.variables)
@@ -261,6 +274,7 @@ def field_function(problem: Problem) -> Callable[[Array], Array]:
     return evaluate
 
 
+@lru_cache(maxsize=64)
 def input_function(
     problem: Problem, seeker: str, system: System
 ) -> Callable[[Array, Array, Mapping[str, float]], dict[str, Array]]:

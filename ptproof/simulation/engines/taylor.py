@@ -8,6 +8,7 @@ again on its own and gets its own outcome.
 from __future__ import annotations
 
 import copy
+import itertools
 import math
 import time as clock
 from concurrent.futures import ThreadPoolExecutor
@@ -27,29 +28,48 @@ _BATCH_STEPS = 200_000
 
 
 def chosen(system: System, time: float, values: tuple[float, ...]) -> System:
-    """``system`` with each Max, Min and Piecewise of the time alone replaced by its branch at ``time``."""
-    kinks = set().union(*(entry.atoms(sp.Max, sp.Min, sp.Piecewise, sp.Abs) for entry in system.rhs))
-    if not kinks:
+    """``system`` with each Max, Min, Abs and Piecewise of the time alone replaced by its branch at ``time``."""
+    branches = _branches(system)
+    if branches is None:
         return system
-    state = set(system.state)
-    point = {system.time: sp.Float(time, 17)}
-    point |= {symbol: sp.Float(value, 17) for symbol, value in zip(system.parameters or (), values, strict=True)}
-    choices = {}
+    _, options = branches
+    return _resolved(system, tuple(int(np.argmax(scores)) for scores in options(time, values)))
+
+
+@lru_cache(maxsize=64)
+def _branches(system: System) -> tuple[tuple[Any, ...], Any] | None:
+    """The kinks, and a function of time and parameters that scores the branches of each: the highest one holds."""
+    found = set().union(*(entry.atoms(sp.Max, sp.Min, sp.Piecewise, sp.Abs) for entry in system.rhs))
+    if not found:
+        return None
+    kinks = tuple(sorted(found, key=sp.default_sort_key))
+    scores = []
     for node in kinks:
-        if node.free_symbols & state:
+        if node.free_symbols & set(system.state):
             raise InputError("heyoka can't follow a kink in the state (Max, Min, Abs, …); use the engine casadi")
-        choices[node] = _branch(node, point)
+        if isinstance(node, sp.Piecewise):
+            scores.append([sp.Piecewise((1, condition), (0, True)) for _, condition in (p.args for p in node.args)])
+        elif isinstance(node, sp.Abs):
+            scores.append([node.args[0], -node.args[0]])
+        else:
+            scores.append([entry if isinstance(node, sp.Max) else -entry for entry in node.args])
+    return kinks, sp.lambdify([system.time, system.parameters or ()], scores, modules="math")
+
+
+@lru_cache(maxsize=64)
+def _resolved(system: System, picks: tuple[int, ...]) -> System:
+    branches = _branches(system)
+    assert branches is not None
+    choices = {}
+    for node, pick in zip(branches[0], picks, strict=True):
+        if isinstance(node, sp.Piecewise):
+            choices[node] = node.args[pick].args[0]
+        elif isinstance(node, sp.Abs):
+            choices[node] = node.args[0] * (1 - 2 * pick)
+        else:
+            choices[node] = node.args[pick]
     rhs = tuple(entry.xreplace(choices) for entry in system.rhs)
     return System(system.time, system.state, rhs, system.parameters, name=system.name)
-
-
-def _branch(node: Any, point: dict[sp.Symbol, sp.Float]) -> sp.Expr:
-    if isinstance(node, sp.Piecewise):
-        return next(value for value, condition in (piece.args for piece in node.args) if condition.subs(point) == True)  # noqa: E712
-    values = [float(argument.subs(point)) for argument in node.args]
-    if isinstance(node, sp.Abs):
-        return node.args[0] if values[0] >= 0 else -node.args[0]
-    return node.args[int(np.argmax(values) if isinstance(node, sp.Max) else np.argmin(values))]
 
 
 @lru_cache(maxsize=64)
@@ -78,11 +98,13 @@ def scalar(system: System, tolerance: float) -> Any:
     return hy.taylor_adaptive(odes, [0.0] * system.dimension, pars=[0.0] * count, tol=tolerance)
 
 
-@lru_cache(maxsize=64)
-def batched(system: System, tolerance: float) -> Any:
-    """A compiled integrator for as many trajectories as the processor's vectors hold."""
+@lru_cache(maxsize=256)
+def batched(system: System, tolerance: float, thread: int = 0) -> Any:
+    """A compiled integrator for as many trajectories as the processor's vectors hold; one for each thread."""
     import heyoka as hy
 
+    if thread:
+        return copy.deepcopy(batched(system, tolerance))
     odes, count = equations(system)
     width = hy.recommended_simd_size()
     return hy.taylor_adaptive_batch(
@@ -134,30 +156,29 @@ class _Taylor:
 
         width = hy.recommended_simd_size()
         groups = [np.arange(first, first + width) for first in range(0, batch.size, width)]
-        time, x = batch.edges[-1].copy(), np.empty_like(batch.initial)
-        solvers = _piece_solvers(plan, batch)
+        time, x = batch.edges[-1].copy(), np.full_like(batch.initial, np.nan)
+        pieces = _pieces(plan, batch)
 
-        def work(share: list[Any], own: list[Any]) -> list[int]:
-            return [i for group in share for i in _group(plan, batch, own, group, x)]
+        def work(share: list[Any], thread: int) -> list[int]:
+            solvers = [batched(system, _tolerance(plan), thread) for system in pieces]
+            return [i for group in share for i in _group(batch, solvers, group, x)]
 
         if workers == 1 or len(groups) < 2 * workers:
-            unfinished = work(groups, solvers)
+            unfinished = work(groups, 0)
         else:
             # Each thread has integrators of its own; heyoka lets other threads run while it integrates.
             with ThreadPoolExecutor(workers) as pool:
-                shares = [
-                    pool.submit(work, groups[w::workers], [copy.deepcopy(solver) for solver in solvers])
-                    for w in range(workers)
-                ]
-            unfinished = sorted(i for share in shares for i in share.result())
+                shares = [pool.submit(work, groups[thread::workers], thread) for thread in range(workers)]
+            unfinished = [i for share in shares for i in share.result()]
+        unfinished += np.flatnonzero(~(plan.distance(x) <= plan.radius)).tolist()
         outcomes = [Outcome.REACHED] * batch.size
-        for i in unfinished:
+        for i in sorted(set(unfinished)):
             run = self.trajectory(plan, batch.member(i))
             time[i], x[:, i], outcomes[i] = run.time[-1], run.x[:, -1], run.outcome
         return Finals(time, x, tuple(outcomes))
 
 
-def _group(plan: Plan, batch: Batch, solvers: list[Any], group: Any, x: Array) -> list[int]:
+def _group(batch: Batch, solvers: list[Any], group: Any, x: Array) -> list[int]:
     """Integrate one group into ``x``; the members of a group that didn't get through are returned."""
     import heyoka as hy
 
@@ -170,29 +191,27 @@ def _group(plan: Plan, batch: Batch, solvers: list[Any], group: Any, x: Array) -
         solver.state[:], solver.pars[:] = state, batch.parameters[: len(solver.pars), index]
         solver.propagate_until(batch.edges[piece + 1, index].tolist(), max_steps=_BATCH_STEPS)
         state = solver.state
-        through = all(result[0] == hy.taylor_outcome.time_limit for result in solver.propagate_res)
-        if not through or not np.all(plan.distance(state) <= plan.radius):
+        if any(result[0] != hy.taylor_outcome.time_limit for result in solver.propagate_res):
             return [int(i) for i in kept]
     x[:, kept] = state[:, : len(kept)]
     return []
 
 
-def _piece_solvers(plan: Plan, batch: Batch) -> list[Any]:
-    """One batch integrator per piece; the pieces' branches must be the same for all members."""
-    solvers = []
-    for a, b in zip(batch.edges[:-1], batch.edges[1:], strict=True):
+def _pieces(plan: Plan, batch: Batch) -> list[System]:
+    """One smooth system per piece; the pieces' branches must be the same for all members."""
+    systems = []
+    for a, b in itertools.pairwise(batch.edges):
         if not np.all(b > a):
             raise InputError("heyoka: some members have a kink in time where others have none; use the engine casadi")
-        middle, values = float((a[0] + b[0]) / 2), tuple(batch.parameters[:, 0].tolist())
-        solvers.append(batched(chosen(plan.system, middle, values), _tolerance(plan)))
-    return solvers
+        systems.append(chosen(plan.system, float((a[0] + b[0]) / 2), tuple(batch.parameters[:, 0].tolist())))
+    return systems
 
 
+@lru_cache(maxsize=64)
 def follows(system: System) -> bool:
     """Whether heyoka can take ``system``: kinks in the time alone, and functions that it has."""
     try:
-        middle = tuple(0.5 for _ in system.parameters or ())
-        equations(chosen(system, 0.0, middle))
+        equations(chosen(system, 0.25, (0.5,) * len(system.parameters or ())))
     except InputError:
         return False
     return True
