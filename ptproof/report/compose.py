@@ -61,6 +61,11 @@ def compose(
         [item.section for item in derivation.definitions],
     )
     shown = [claim for section in sections for claim in section.claims]
+    errata = [
+        Erratum(claim, tuple(views[ref.id] for ref in claim.corrected_by))
+        for claim in shown
+        if claim.status is status.REFUTED or claim.corrected_by
+    ]
     labels: dict[str, list[Ref]] = {}
     for section in sections:
         for defined in section.definitions:
@@ -72,11 +77,8 @@ def compose(
     return Report(
         title=title or "Derivation",
         sections=sections,
-        errata=tuple(
-            Erratum(claim, tuple(views[ref.id] for ref in claim.corrected_by))
-            for claim in shown
-            if claim.status is status.REFUTED or claim.corrected_by
-        ),
+        errata=tuple(item for item in errata if item.in_paper),
+        besides=tuple(item for item in errata if not item.in_paper),
         cited=tuple(claim for claim in shown if claim.status is status.CITED),
         unexpected=tuple(claim for claim in shown if claim.expected),
         labels=tuple((label, tuple(found)) for label, found in labels.items()),

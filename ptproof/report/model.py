@@ -88,6 +88,11 @@ class Erratum:
     corrections: tuple[ClaimView, ...]
 
     @property
+    def in_paper(self) -> bool:
+        """Whether the paper prints it: it has a label or a place there."""
+        return bool(self.printed.labels or self.printed.place)
+
+    @property
     def narrow(self) -> bool:
         """Whether the formulas are short enough to stand side by side."""
         lines = [line for claim in (self.printed, *self.corrections) for line in claim.lines]
@@ -101,6 +106,7 @@ class Report:
     title: str
     sections: tuple[Section, ...]
     errata: tuple[Erratum, ...]
+    besides: tuple[Erratum, ...]
     cited: tuple[ClaimView, ...]
     unexpected: tuple[ClaimView, ...]
     labels: tuple[tuple[str, tuple[Ref, ...]], ...]

@@ -56,6 +56,10 @@ def lonely(goal):
     from ptproof.proof.verdict import Witness
     return Evidence("by hand", Verdict.REFUTED, "at G = 1", witness=Witness({"G": "1", "F(x)": "0"}, "0", "1"))
 
+@claim("a/own-mistake", "Wrong, and not in the paper", eq(k, k + 1), expected="refuted")
+def own_mistake(goal):
+    return exact(goal)
+
 theorem = claim("b/theorem", "A theorem", Prose("Every field with a < b | c has a source."), expected="cited",
                 uses=[corrected])(cited("A Book, Theorem 4.9"))
 

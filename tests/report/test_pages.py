@@ -115,7 +115,7 @@ def test_errata_come_before_the_claims_and_name_the_correction(page, text):
 
 def test_errata_state_the_assumptions(page, text):
     errata = page[page.index('id="errata"') : page.index('id="graph"')]
-    assert errata.count("<dt>for all</dt>") == 3
+    assert errata.count("<dt>for all</dt>") == 4
     assert errata.count("<dt>given</dt>") == 1
     assert "- given" in text[text.index("## Errata") : text.index("## Graph")]
 
@@ -126,6 +126,14 @@ def test_errata_without_correction_are_listed(report, page):
         ("a/lonely", []),
     ]
     assert "no correction is recorded" in page
+
+
+def test_what_the_paper_does_not_print_is_no_erratum(report, page, text):
+    assert [item.printed.ref.id for item in report.besides] == ["a/own-mistake"]
+    for content in (page, text):
+        table, besides = content[: content.index("Refuted besides")], content[content.index("Refuted besides") :]
+        assert "Wrong, and not in the paper" not in table[table.index("what holds instead") :]
+        assert "Wrong, and not in the paper" in besides[: besides.index("Graph of the claims")]
 
 
 def test_fully_proved_and_proved_modulo_are_told_apart(report):
