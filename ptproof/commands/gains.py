@@ -108,6 +108,8 @@ def _from_numbers(values: dict[str, Any], picture: str | None, as_json: bool) ->
 
     bounds = FieldBounds(*(values.pop(name) for name in _CONSTANTS))
     answer = answer_for(GainData(bounds, **values))
+    if answer.data.impossible is not None:
+        click.echo(f"ptproof: warning: {answer.data.impossible}", err=True)
     if picture is not None:
         from ptproof.gains.plot import plot_gains
 

@@ -100,6 +100,20 @@ class GainData:
         return tuple(getattr(self, name) for name in names)
 
     @property
+    def impossible(self) -> str | None:
+        """Why no field on the whole space has these constants, or None.
+
+        Along a ray F(x*) − F is at most the integral of b₂r^(2κ−1), so a₂ ≤ b₂/(2κ); along the steepest ascent, which
+        is at least as long as the distance, it is at least that of b₁r^(2κ−1), so a₁ ≥ b₁/(2κ).
+        """
+        bounds, twice = self.bounds, 2 * self.bounds.kappa
+        if sign(bounds.a2 - bounds.b2 / twice) > 0:
+            return "no field has these constants: a2 must not exceed b2/(2*kappa)"
+        if sign(bounds.b1 / twice - bounds.a1) > 0:
+            return "no field on the whole space has these constants: b1/(2*kappa) must not exceed a1"
+        return None
+
+    @property
     def norm(self) -> sp.Expr:
         """‖E‖, 0 without a gradient drift."""
         return sp.S.Zero if self.drift_norm is None else self.drift_norm

@@ -18,6 +18,7 @@ from typing import Any, TypeAlias
 import sympy as sp
 
 from ptproof.errors import InputError
+from ptproof.gains.numbers import NotApplicable
 from ptproof.gains.pieces import Piece, down, exact, faces, up
 from ptproof.proof.algebra import NotAlgebraic, is_zero
 from ptproof.system import gradient
@@ -27,6 +28,9 @@ _RATIO = 1.06  # of the radii that bound a shell
 _NEAR = 24  # shells from which on the Hessian form is used too
 _DEEPEST = 160  # shells below the first radius; the ball inside is one last cell
 _PIECES = 300
+_NOT_SMOOTH = (
+    sp.Piecewise, sp.Abs, sp.sign, sp.Max, sp.Min, sp.floor, sp.ceiling, sp.Mod, sp.atan2, sp.Heaviside, sp.DiracDelta,
+)  # fmt: skip
 _FINEST = 30
 _TOLERANCE = 0.02  # of the largest rate of a shell, or of this fraction of any rate there
 _SMALL = 0.1
@@ -53,6 +57,8 @@ class RadialEnvelope:
     ------
     InputError
         If the gradient is not zero at the source by exact algebra.
+    NotApplicable
+        If the field is not twice continuously differentiable in closed form: the mean values need that.
     """
 
     variables: tuple[sp.Symbol, ...]
@@ -67,8 +73,10 @@ class RadialEnvelope:
 
     def __post_init__(self) -> None:
         from ptproof.proof.ball import ball_from, precision
-        from ptproof.proof.tape import compile_tape
+        from ptproof.proof.tape import Undefined, compile_tape
 
+        if found := [kind.__name__ for kind in _NOT_SMOOTH if self.expression.has(kind)]:
+            raise NotApplicable(f"a field with {found[0]}, which is not smooth in closed form")
         slope = gradient(self.expression, self.variables)
         at_source = dict(zip(self.variables, self.source, strict=True))
         for entry in slope:
@@ -81,8 +89,11 @@ class RadialEnvelope:
         n = self.dimension
         hessian = sp.hessian(self.expression, self.variables)
         upper = [hessian[i, j] for i in range(n) for j in range(i, n)]
-        self._both = compile_tape([*slope, *upper], self.variables)
-        self._hessian = compile_tape(upper, self.variables)
+        try:
+            self._both = compile_tape([*slope, *upper], self.variables)
+            self._hessian = compile_tape(upper, self.variables)
+        except Undefined as error:
+            raise NotApplicable(f"a field without enclosures ({error})") from None
         with precision(BITS):
             self._source = [ball_from(value) for value in self.source]
             half = ball_from(self.k) / 2

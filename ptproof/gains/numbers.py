@@ -33,9 +33,14 @@ def sign(expression: sp.Expr) -> int:
     expression = sp.sympify(expression)
     if expression.is_Rational:
         return int(sp.sign(expression))
-    found = separated(expression, 0)
-    if found is not None:
-        return found
+    if expression.has(sp.CRootOf):  # isolated exactly by SymPy, to the digits asked for
+        near = expression.evalf(50)
+        if abs(near) > sp.Float("1e-40"):
+            return 1 if near > 0 else -1
+    else:
+        found = separated(expression, 0)
+        if found is not None:
+            return found
     try:
         if sp.expand(expression) == 0 or is_zero(expression):
             return 0

@@ -18,7 +18,7 @@ import sympy as sp
 
 from ptproof.errors import InputError
 from ptproof.gains.clipped import Horizon
-from ptproof.gains.numbers import short, sign
+from ptproof.gains.numbers import NotApplicable, short, sign
 from ptproof.gains.upper import UpperSolution, time_grid
 from ptproof.problem import Problem
 from ptproof.proof.verdict import Evidence, Verdict
@@ -92,19 +92,22 @@ def tight_bound(
     if not initial.is_number or sign(initial) <= 0:
         raise InputError(f"the initial distance must be positive, got {short(initial)}")
     grid = time_grid(horizon, end, steps)
-    solution = UpperSolution(problem, initial, grid)
-    distances = [solution.y]
-    reason = None
+    solution, reason, distances = None, None, [math.inf]
+    try:
+        solution = UpperSolution(problem, initial, grid)
+        distances = [solution.y]
+    except NotApplicable as error:
+        reason = str(error)
     for left, right in pairwise(grid):
         if reason is None and time.perf_counter() - started > time_limit:
             reason = f"the time limit of {time_limit:g} s"
-        if reason is None:
+        if reason is None and solution is not None:
             reason = solution.step(left, right)
-        distances.append(solution.y if reason is None else math.inf)
+        distances.append(solution.y if reason is None and solution is not None else math.inf)
     seconds = time.perf_counter() - started
     detail = (
         f"{len(grid) - 1} steps, {solution.envelope.enclosed} shells, {solution.envelope.evaluations} pieces enclosed"
-        if reason is None
+        if reason is None and solution is not None
         else f"given up at {reason}"
     )
     evidence = Evidence("arb", Verdict.PROVED if reason is None else Verdict.UNDECIDED, detail, seconds)

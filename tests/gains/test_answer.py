@@ -262,3 +262,17 @@ def test_a_drift_that_helps_lowers_the_bound():
     helped = vanishing.distance_bound(GainData(drift_matrix=sp.eye(2), **data), Horizon(R(1), R(1, 2)), R(1), "split")
     alone = vanishing.distance_bound(GainData(**data), Horizon(R(1), R(1, 2)), R(1), "split")
     assert sign(alone - helped) > 0
+
+
+@pytest.mark.parametrize(
+    ("bounds", "word"),
+    [
+        (ONE, None),
+        (TWO, None),
+        (FieldBounds(1, 3, 2, 1, 3), "a2 must not exceed"),
+        (FieldBounds(2, 1, R(1, 10), 5, 6), "b1/"),
+    ],
+)
+def test_constants_that_no_field_has_are_noticed(bounds, word):
+    reason = GainData(bounds).impossible
+    assert (reason is None) if word is None else (word in reason)

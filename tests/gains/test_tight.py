@@ -159,6 +159,16 @@ def test_a_field_that_ends_is_given_up_with_the_reason():
     assert "given up" in found.evidence.detail
 
 
+@pytest.mark.parametrize("kink", ["Abs", "Piecewise", "Max"])
+def test_a_field_with_a_kink_is_left_open(kink):
+    base = example("saturated")
+    a, b = base.variables
+    bend = {"Abs": sp.Abs(a) ** 3, "Piecewise": sp.Piecewise((a**4, a < 1), (a, True)), "Max": sp.Max(a, 2 * a) ** 2}
+    found = tight_bound(dataclasses.replace(base, field=-(a**2) - b**2 - bend[kink]), steps=5)
+    assert found.evidence.verdict is Verdict.UNDECIDED
+    assert kink in found.evidence.detail
+
+
 def test_a_source_that_is_no_critical_point_is_refused():
     base = example("saturated")
     with pytest.raises(InputError, match="not zero at the source"):
