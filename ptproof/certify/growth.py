@@ -8,9 +8,10 @@ too fast is seen as such.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 from typing import Any
 
 from flint import arb, fmpq
@@ -75,10 +76,10 @@ def span(ball: arb) -> Span:
 
 
 INFINITY = arb.pos_inf()
-EVERYTHING = Span(-INFINITY, INFINITY)
+Exponent = int | Fraction
 
 
-def power_of(base: arb, exponent: Fraction) -> arb:
+def power_of(base: arb, exponent: Exponent) -> arb:
     """``base**exponent`` for base ≥ 0, with 0⁰ = 1."""
     if exponent == 0:
         return arb(1)
@@ -91,32 +92,33 @@ def power_of(base: arb, exponent: Fraction) -> arb:
 class Growth:
     """Σ terms[e]·rᵉ for r ≥ 1/``reach``, ``reach`` an exact number in (0, 1].
 
-    ``bounds`` is an interval of all values that is known otherwise, for instance that a square is not negative.
+    ``bounds`` gives an interval of all values that is known otherwise, for instance that a square is not negative; it
+    is computed only where it is needed.
     """
 
-    terms: Mapping[Fraction, Span]
+    terms: Mapping[Exponent, Span]
     reach: arb
-    bounds: Span = EVERYTHING
+    bounds: Callable[[], Span] | None = None
 
-    def make(self, terms: Mapping[Fraction, Span], bounds: Span = EVERYTHING) -> Growth:
+    def make(self, terms: Mapping[Exponent, Span], bounds: Callable[[], Span] | None = None) -> Growth:
         """Another growth on the same region."""
         return Growth({key: value for key, value in terms.items() if not value.is_zero}, self.reach, bounds)
 
     def lift(self, other: Any) -> Growth:
         """``other`` as a growth; a ball is a constant."""
-        return other if isinstance(other, Growth) else self.make({Fraction(0): span(other)})
+        return other if isinstance(other, Growth) else self.make({0: span(other)})
 
     def __add__(self, other: Any) -> Growth:
         terms = dict(self.terms)
         lifted = self.lift(other)
         for exponent, value in lifted.terms.items():
             terms[exponent] = terms[exponent] + value if exponent in terms else value
-        return self.make(terms, self.range() + lifted.range())
+        return self.make(terms, lambda: self.range() + lifted.range())
 
     __radd__ = __add__
 
     def __neg__(self) -> Growth:
-        return self.make({exponent: -value for exponent, value in self.terms.items()}, -self.bounds)
+        return self.make({exponent: -value for exponent, value in self.terms.items()}, lambda: -self.range())
 
     def __sub__(self, other: Any) -> Growth:
         return self + (-self.lift(other))
@@ -125,42 +127,46 @@ class Growth:
         return (-self) + other
 
     def __mul__(self, other: Any) -> Growth:
-        terms: dict[Fraction, Span] = {}
+        terms: dict[Exponent, Span] = {}
         lifted = self.lift(other)
         for e, a in self.terms.items():
             for f, b in lifted.terms.items():
                 product = a * b
                 terms[e + f] = terms[e + f] + product if e + f in terms else product
-        return self.make(terms, self.range() * lifted.range())
+        return self.make(terms, lambda: self.range() * lifted.range())
 
     __rmul__ = __mul__
 
     def square(self) -> Growth:
         """The square, which knows that the squares of the terms are not negative."""
-        terms: dict[Fraction, Span] = {}
+        terms: dict[Exponent, Span] = {}
         items = list(self.terms.items())
         two = Span(arb(2), arb(2))
         for index, (e, a) in enumerate(items):
             for f, b in items[index:]:
                 product = a.square() if e == f else two * a * b
                 terms[e + f] = terms[e + f] + product if e + f in terms else product
-        return self.make(terms, self.range().square())
+        return self.make(terms, lambda: self.range().square())
 
-    def head(self) -> tuple[Fraction, Span]:
+    def head(self) -> tuple[Exponent, Span]:
         """(d, h) with f = rᵈ·h: the largest exponent, and the interval of what remains."""
         if not self.terms:
-            return Fraction(0), Span(arb(0), arb(0))
+            return 0, Span(arb(0), arb(0))
         degree = max(self.terms)
         total = Span(arb(0), arb(0))
         for exponent, value in self.terms.items():
             total = total + value * Span(power_of(arb(0), degree - exponent), self._reach(degree - exponent))
         return degree, total
 
-    def _reach(self, exponent: Fraction) -> arb:
+    def _reach(self, exponent: Exponent) -> arb:
         return power_of(self.reach, exponent)
 
     def range(self) -> Span:
         """The interval of all values; its ends may be infinite."""
+        return self._range
+
+    @cached_property
+    def _range(self) -> Span:
         total = Span(arb(0), arb(0))
         for exponent, value in self.terms.items():
             near = self._reach(-exponent)
@@ -171,12 +177,15 @@ class Growth:
             total = Span(total.low.max(head.low * self._reach(-degree)), total.high)
         if head.high < 0 and degree > 0:
             total = Span(total.low, total.high.min(head.high * self._reach(-degree)))
-        return Span(total.low.max(self.bounds.low), total.high.min(self.bounds.high))
+        if self.bounds is None:
+            return total
+        known = self.bounds()
+        return Span(total.low.max(known.low), total.high.min(known.high))
 
 
 def coordinates(directions: Sequence[arb], reach: arb) -> list[Growth]:
     """The growth of y = r·w, for each coordinate of the directions w."""
-    return [Growth({Fraction(1): span(w)} if not w.is_zero() else {}, reach) for w in directions]
+    return [Growth({1: span(w)} if not w.is_zero() else {}, reach) for w in directions]
 
 
 class _Growths:
@@ -299,7 +308,7 @@ def _inverse(value: Any) -> Any:
         return value.make({-degree: Span(1 / head.high, 1 / head.low)})
     values = value.range()
     if values.low > 0:
-        return value.make({Fraction(0): Span(1 / values.high if values.high.is_finite() else arb(0), 1 / values.low)})
+        return value.make({0: Span(1 / values.high if values.high.is_finite() else arb(0), 1 / values.low)})
     if values.high < 0:
         return -_inverse(-value)
     raise Undefined("a division by something that may be zero")
@@ -314,7 +323,7 @@ def _exponential(value: Growth) -> Growth:
         if rate * arb(fmpq(degree.numerator, degree.denominator)) * power_of(near, degree) >= FAST:
             largest = near**FAST * (-rate * power_of(near, degree)).exp()
             decayed = Span(arb(0), (-rate * power_of(near, degree)).exp().upper())
-            return value.make({Fraction(-FAST): Span(arb(0), largest.upper())}, decayed)
+            return value.make({-FAST: Span(arb(0), largest.upper())}, lambda: decayed)
     if degree > 0 and head.low > 0:
         # exp(g) ≥ gᵐ/m! for g ≥ 0.
         count = int(FAST / degree) + 1
@@ -324,7 +333,7 @@ def _exponential(value: Growth) -> Growth:
         return value.make({degree * count: Span((head.low**count / factorial).lower(), INFINITY)})
     low = values.low.exp().lower() if values.low.is_finite() else arb(0)
     high = values.high.exp().upper() if values.high.is_finite() else INFINITY
-    return value.make({Fraction(0): Span(low.max(arb(0)), high)})
+    return value.make({0: Span(low.max(arb(0)), high)})
 
 
 def _logarithm(value: Growth) -> Growth:
@@ -335,13 +344,13 @@ def _logarithm(value: Growth) -> Growth:
     weight = arb(fmpq(degree.numerator, degree.denominator))
     if head.low > 0 and head.high.is_finite():
         slow = Span(weight, weight) * Span(arb(0), steep.upper())
-        return value.make({Fraction(0): Span(head.low.log(), head.high.log())}) + value.make({Fraction(1, 2): slow})
+        return value.make({0: Span(head.low.log(), head.high.log())}) + value.make({Fraction(1, 2): slow})
     values = value.range()
     size = sum((c.high.max(-c.low) * power_of(value.reach, degree - e) for e, c in value.terms.items()), arb(0))
     if not (values.low > 0 and degree >= 0 and size.is_finite()):
         raise Undefined("a logarithm of something that may not be positive")
     low = values.low.log()
-    constant = value.make({Fraction(0): Span(low, size.log().max(low))})
+    constant = value.make({0: Span(low, size.log().max(low))})
     return constant + value.make({Fraction(1, 2): Span(arb(0), (weight * steep).upper())})
 
 

@@ -136,6 +136,8 @@ class Evaluator:
             forms.insert(0 if first else len(forms), self._series)
         best: Bound | None = None
         for form in forms:
+            if form == self._series and best is not None and box.outer and not high > 2 * low:
+                break  # bounds on growth serve where the radius ranges over more than a factor
             try:
                 found = form(box)
             except Undefined:
@@ -165,9 +167,8 @@ class Evaluator:
         tail = self.sign * missing
         if tail.is_zero():
             return main
-        value = function(main.point, BALLS) * self.sign
         split = main.split
-        if split is None or tail.upper() > (main.upper - value).abs_upper():
+        if split is None or main.value is None or tail.upper() > (main.upper - main.value).abs_upper():
             split = _widest_relative(box)
         return Bound((main.upper + tail).upper(), main.point, split)
 
@@ -248,15 +249,15 @@ class Extremum:
         self.boxes += 1
         try:
             bound = self.evaluator.bound(box, self.accept())
-            upper, split, point = up(bound.upper), bound.split, bound.point
+            upper, split, point, known = up(bound.upper), bound.split, bound.point, bound.value
         except Undefined:
-            upper, split = math.inf, _widest(box)
+            upper, split, known = math.inf, _widest(box), None
             point = tuple(side[0] if side[0] is side[1] else middle(side) for side in box.sides)
         if upper <= self.best:
             self.ceiling = max(self.ceiling, upper)
             return
         try:
-            value = down(self.evaluator.value(box, point))
+            value = down(self.evaluator.value(box, point) if known is None else known)
         except Undefined:
             value = -math.inf
         if value > self.best:

@@ -166,9 +166,14 @@ class Quotients:
 
     def _excess(self, tails: Sequence[arb], mains: Sequence[arb], w: Sequence[arb], share: arb) -> arb:
         """By how much the squared slope quotient changes when ``tails`` are added to ``mains``."""
-        double = 4 * self.kappa * share
-        changes = (t * (2 * m + t) + double * u * t for t, m, u in zip(tails, mains, w, strict=True))
-        return sum(changes, arb(0))
+        double = 2 * self.kappa * share
+        total = arb(0)
+        for tail, main, direction in zip(tails, mains, w, strict=True):
+            whole = main + double * direction
+            product = tail * (2 * whole + tail)
+            difference = BALLS.integer_power(whole + tail, 2) - BALLS.integer_power(whole, 2)
+            total += product.intersection(difference) if product.is_finite() else difference
+        return total
 
     def direct_rest(self, box: Box, slope: bool) -> arb:
         """What :meth:`direct` without the rest misses on ``box`` (t > 0), as a ball."""

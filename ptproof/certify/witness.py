@@ -14,7 +14,7 @@ from flint import arb, arb_mat
 
 from ptproof.certify.certificate import FieldWitness
 from ptproof.certify.domain import Domain
-from ptproof.certify.growth import GROWTHS, Growth, coordinates
+from ptproof.certify.growth import GROWTHS, Exponent, Growth, coordinates
 from ptproof.certify.optimum import Place
 from ptproof.certify.quotients import Quotients
 from ptproof.field import Field
@@ -261,11 +261,11 @@ class Prosecutor:
         return FieldWitness("the field has a second critical point", values, left, right, distance)
 
 
-def _head(output: Any, reach: arb) -> tuple[Fraction, int, bool]:
+def _head(output: Any, reach: arb) -> tuple[Exponent, int, bool]:
     """(degree, sign of the leading behaviour or 0 where not certain, whether every coefficient is finite)."""
     growth = output if isinstance(output, Growth) else Growth({}, reach).lift(output)
     if not growth.terms:
-        return Fraction(-1), 0, True
+        return -1, 0, True
     degree, head = growth.head()
     finite = all(c.low.is_finite() and c.high.is_finite() for c in growth.terms.values())
     return degree, 1 if head.low > 0 else -1 if head.high < 0 else 0, finite

@@ -208,12 +208,14 @@ class Bound:
     """An upper bound of a function on a box, and where to look next.
 
     ``upper`` bounds every value, ``point`` is a point of the box, ``split`` the coordinate whose halving promises
-    most, or None where the function is monotone in every coordinate.
+    most, or None where the function is monotone in every coordinate. ``value`` is the function at ``point``, where
+    it has been computed.
     """
 
     upper: arb
     point: tuple[arb, ...]
     split: int | None
+    value: arb | None = None
 
 
 def middle(side: Side) -> arb:
@@ -257,7 +259,7 @@ def upper_bound(function: Callable[[Sequence[Any], Any], Any], box: Sequence[Sid
     natural = jet.value.upper()
     if not upper.is_finite() or natural < upper:
         upper = natural
-    return Bound(_finite(upper), tuple(point), split)
+    return Bound(_finite(upper), tuple(point), split, value)
 
 
 def _finite(ball: arb) -> arb:
