@@ -150,7 +150,7 @@ def _same(claim: Claim) -> bool:
 
 
 def _bound(claim: Claim) -> tuple[object, ...]:
-    return claim.statement.variables if isinstance(claim.statement, Exists) else ()
+    return (*claim.statement.variables, *claim.statement.over) if isinstance(claim.statement, Exists) else ()
 
 
 def _refs(results: Sequence[Result], definitions: Sequence[Definition], by_id: Mapping[str, Result]) -> dict[str, Ref]:

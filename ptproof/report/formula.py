@@ -96,7 +96,9 @@ def statement_lines(statement: Statement | Assumption, names: Names) -> tuple[Li
         case All(parts):
             return tuple(line for part in parts for line in _relation_lines(part, names))
         case Exists(variables=variables, body=body, over=over):
-            head = rf"\exists\, {_list(variables, names)}" + (rf"\ \ \forall\, {_list(over, names)}" if over else "")
+            head = rf"\exists\, {_typed(variables, names)}"
+            if over:
+                head += rf"\ \ \forall\, {_typed(over, names)}"
             inside = (line for part in body for line in _relation_lines(part, names))
             return (Line(head + ":"), *(Line(line.latex, line.indent + 1) for line in inside))
         case Smooth(expressions=expressions, variables=variables, order=order):
@@ -119,17 +121,25 @@ def domain_of(
     statements: Sequence[Statement | Assumption], bound: Iterable[sp.Symbol], names: Names
 ) -> tuple[str, ...]:
     """What the symbols and functions of the statements stand for, as LaTeX: ``k, T > 0`` and the like."""
-    groups: dict[str, list[str]] = {}
     symbols = free_symbols(statements) - set(bound)
     order = {symbol: place for place, symbol in enumerate(names)}
-    for symbol in sorted(symbols, key=lambda item: (order.get(item, len(order)), sp.default_sort_key(item))):
-        groups.setdefault(_kind(symbol), []).append(latex(symbol, names))
-    found = [", ".join(letters) + kind for kind, letters in groups.items()]
+    found = _groups(sorted(symbols, key=lambda item: (order.get(item, len(order)), sp.default_sort_key(item))), names)
     functions = {sp.Symbol(applied.func.__name__) for applied in undefined_functions(statements)}
     if functions:
         listed = _list(sorted(functions, key=lambda symbol: symbol.name), names)
         found.append(rf"{listed}\ \text{{arbitrary function{'s' if len(functions) > 1 else ''}}}")
     return tuple(found)
+
+
+def _groups(symbols: Iterable[sp.Symbol], names: Names) -> list[str]:
+    groups: dict[str, list[str]] = {}
+    for symbol in symbols:
+        groups.setdefault(_kind(symbol), []).append(latex(symbol, names))
+    return [", ".join(letters) + kind for kind, letters in groups.items()]
+
+
+def _typed(symbols: Iterable[sp.Symbol], names: Names) -> str:
+    return r",\ ".join(_groups(symbols, names))
 
 
 def _kind(symbol: sp.Symbol) -> str:

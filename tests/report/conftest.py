@@ -3,7 +3,7 @@
 import pytest
 
 from ptproof.proof.load import load
-from ptproof.proof.run import Verification, conclude, run_one
+from ptproof.proof.run import Verification, conclude
 from ptproof.report.compose import compose
 from ptproof.report.content import Figure, Table
 from ptproof.report.letters import notation_of, title_of
@@ -102,7 +102,9 @@ def derivation(sample):
 
 @pytest.fixture(scope="session")
 def verification(derivation):
-    evidence = {claim.id: run_one(claim) for claim in derivation.claims}
+    # The proofs as they are, without the check that evidence comes from an engine: some are written by hand here, so
+    # that every verdict occurs.
+    evidence = {claim.id: claim.prove(claim.goal()) for claim in derivation.claims}
     return Verification(conclude(derivation.claims, evidence), 1.25)
 
 

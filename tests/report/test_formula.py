@@ -80,8 +80,7 @@ def test_a_wide_column_is_shown_entry_by_entry():
 
 def test_existence_names_its_variables_and_ranges():
     found = lines(Exists((k,), (ge(k, x),), (x,)))
-    assert r"\exists\, k" in found[0]
-    assert r"\forall\, x" in found[0]
+    assert found[0] == r"\exists\, k > 0\ \ \forall\, x \in \mathbb{R}:"
 
 
 def test_smoothness_and_assumptions_on_functions():

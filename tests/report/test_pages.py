@@ -173,6 +173,11 @@ def test_seconds_do_not_enter(derivation, verification, report):
     assert "77.7" not in html_page(compose(slower, derivation))
 
 
+def test_what_a_quantifier_binds_is_not_free(report):
+    undecided = next(claim for claim in report.claims if claim.ref.id == "b/open")
+    assert undecided.domain == ()
+
+
 def test_a_reader_is_told_where_both_sides_are_one_expression(report):
     assert [claim.ref.id for claim in report.claims if claim.same] == ["b/wrong-expectation"]
 
