@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ptproof.proof.claim import Goal, claim, definition, instance
+from ptproof.proof.claim import Goal, claim, definition
 from ptproof.proof.lemmas import power_positive
+from ptproof.proof.quantified import specialise
 from ptproof.proof.reals import reals
 from ptproof.proof.statement import eq, every, gt, le, lt
 from ptproof.proof.verdict import Evidence
@@ -93,4 +94,4 @@ def quadratic_form(goal: Goal) -> Evidence:
 )  # fmt: skip
 def spectral_norm(goal: Goal) -> Evidence:
     """‖Eg‖² is the form of EᵀE, so the bound for quadratic forms is used at the entries of EᵀE."""
-    return reals(goal, *instance(quadratic_form, {_a: m11, _b: m12, _c: m22}))
+    return reals(goal, *specialise(goal, quadratic_form, {_a: m11, _b: m12, _c: m22}))

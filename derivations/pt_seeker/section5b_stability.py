@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ptproof.proof.claim import Goal, cited, claim, definition, instance
+from ptproof.proof.claim import Goal, cited, claim, definition
 from ptproof.proof.comparisons import comparison
 from ptproof.proof.exact import exact
 from ptproof.proof.integrals import integrals
 from ptproof.proof.lemmas import exp_monotone, power_monotone, power_positive
 from ptproof.proof.limits import limits
+from ptproof.proof.quantified import specialise
 from ptproof.proof.reals import reals
 from ptproof.proof.statement import ForAll, Prose, eq, every, ge, le, lt
 from ptproof.proof.verdict import Evidence
@@ -242,11 +243,16 @@ case_two = le(V_dot, B2**2 * E_norm * V / stretch**2 - k * B1**2 / 2 * V)
 @claim(
     "5/step4-gradient-drift", "With gradient drift and κ = 1 the inequality is linear in V", case_two,
     given=[after, derivative_given, le(f_norm, E_norm * G), *between_1],
-    labels=["eq:lyapunov_derivative_inequality_kappa_1"], uses=[spectral_norm],
+    labels=["eq:lyapunov_derivative_inequality_kappa_1"],
+    uses=[spectral_norm, v_differential_inequality, gradient_bounds],
 )  # fmt: skip
 def gradient_drift(goal: Goal) -> Evidence:
     """2q₁ = 1, and ‖E∇F‖ ≤ ‖E‖‖∇F‖ is bounded by c₂‖E‖ times the root of V."""
-    return reals(goal, *instance(v_differential_inequality, {kappa: ONE}), *instance(gradient_bounds, {kappa: ONE}))
+    return reals(
+        goal,
+        *specialise(goal, v_differential_inequality, {kappa: ONE}),
+        *specialise(goal, gradient_bounds, {kappa: ONE}),
+    )
 
 
 drift_rate = B2**2 * E_norm

@@ -5,11 +5,12 @@ from __future__ import annotations
 import sympy as sp
 
 from ptproof.drift import gradient_drift
-from ptproof.proof.claim import Goal, claim, instance
+from ptproof.proof.claim import Goal, claim
 from ptproof.proof.enclosures import enclosures
 from ptproof.proof.exact import exact
 from ptproof.proof.existence import exists_by
 from ptproof.proof.lemmas import cosine_parabola, sine_square
+from ptproof.proof.quantified import specialise
 from ptproof.proof.reals import reals
 from ptproof.proof.refute import refute
 from ptproof.proof.regularity import smooth
@@ -110,7 +111,7 @@ def ripple(goal: Goal) -> Evidence:
 )  # fmt: skip
 def gradient_bounds(goal: Goal) -> Evidence:
     """With b₁ = 1/2, by the bound of the ripple on both sides of the source, and b₂ = 1 + 2π²/9, by |sin u| ≤ |u|."""
-    return reals(goal, *instance(ripple, {x1: -x1}), sine_square(wave))
+    return reals(goal, *specialise(goal, ripple, {x1: -x1}), sine_square(wave))
 
 
 @claim(

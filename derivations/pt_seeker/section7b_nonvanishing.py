@@ -5,11 +5,12 @@ from __future__ import annotations
 import sympy as sp
 
 from ptproof.drift import bounded_drift
-from ptproof.proof.claim import Goal, claim, instance
+from ptproof.proof.claim import Goal, claim
 from ptproof.proof.enclosures import enclosures
 from ptproof.proof.exact import exact
 from ptproof.proof.existence import defeats_every_choice
 from ptproof.proof.lemmas import cosine_parabola, cosine_quartic, norm_below, power_monotone, sine_cubic, sine_square
+from ptproof.proof.quantified import specialise
 from ptproof.proof.reals import reals
 from ptproof.proof.regularity import smooth
 from ptproof.proof.statement import Exists, Relation, Smooth, eq, every, ge, gt, le, lt
@@ -151,7 +152,7 @@ def slope_along_axis(goal: Goal) -> Evidence:
 def gradient_lower(goal: Goal) -> Evidence:
     """With b₁ = 1, entry by entry, by the oddness of each."""
     signs = ({x1: x1}, {x1: -x1}, {x1: x2}, {x1: -x2})
-    return reals(goal, *(fact for values in signs for fact in instance(slope_along_axis, values)))
+    return reals(goal, *(fact for values in signs for fact in specialise(goal, slope_along_axis, values)))
 
 
 @claim(
@@ -171,7 +172,7 @@ def slope_along_axis_upper(goal: Goal) -> Evidence:
 )  # fmt: skip
 def gradient_upper(goal: Goal) -> Evidence:
     """With b₂ = 1 + 2ρ² on the disc of radius ρ, entry by entry."""
-    other_axis = instance(slope_along_axis_upper, {x1: x2})
+    other_axis = specialise(goal, slope_along_axis_upper, {x1: x2})
     return reals(goal, *other_axis, norm_below(list(slope), steepest, position))
 
 

@@ -43,5 +43,6 @@ def asymptotic_leaves(goal: Goal) -> Evidence:
     uses=[gradient_bounds],
 )  # fmt: skip
 def pt_climbs(goal: Goal) -> Evidence:
-    """V falls at the rate (k/(2ν²) − 1)‖∇F‖². The drift has the upper hand during about the first 5 % of the time only."""
+    """V falls at the rate (k/(2ν²) − 1)‖∇F‖². The drift has the upper hand during
+    about the first 5 % of the time only."""
     return reals(goal)

@@ -7,10 +7,11 @@ that. It is never told the verdict that the author expects.
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field, replace
+from functools import wraps
 from types import FrameType
-from typing import Any, TypeAlias
+from typing import Any, Concatenate, ParamSpec, TypeAlias, cast
 
 import sympy as sp
 
@@ -25,7 +26,6 @@ from ptproof.proof.statement import (
     Smooth,
     Statement,
     relations_of,
-    substitute_in,
 )
 from ptproof.proof.verdict import Evidence, Verdict
 
@@ -42,7 +42,7 @@ class Goal:
     @property
     def facts(self) -> tuple[Implication, ...]:
         """The statements of the claims used, at the same symbols, each under that claim's own assumptions."""
-        return tuple(fact for used in self.uses for fact in instance(used))
+        return tuple(fact for used in self.uses for fact in facts_of(used))
 
     @property
     def relations(self) -> tuple[Relation, ...]:
@@ -51,6 +51,7 @@ class Goal:
                      for item in assumption.components())  # fmt: skip
 
 
+P = ParamSpec("P")
 Proof: TypeAlias = Callable[[Goal], Evidence]
 
 
@@ -181,32 +182,32 @@ def definition(
     return Definition(id, title, tuple(labels), states, inspect.cleandoc(prose), section)
 
 
-def instance(used: Claim, values: Mapping[Any, Any] | None = None) -> tuple[Implication, ...]:
-    """What ``used`` says when its symbols are given ``values``, as facts under its own assumptions.
+def facts_of(used: Claim) -> tuple[Implication, ...]:
+    """What ``used`` says at its own symbols, as facts under its own assumptions; nothing if those are quantified.
 
-    Raises
-    ------
-    InputError
-        If the claim says something that is not a conjunction of relations, or a value does not have the
-        sign or kind that its symbol was declared with.
+    At other values it is :func:`ptproof.proof.quantified.specialise` that says it.
     """
     if isinstance(used.statement, Prose | Smooth | Exists):
         return ()
-    values = dict(values or {})
-    for symbol, value in values.items():
-        if isinstance(symbol, sp.Symbol) and not admissible(symbol, value):
-            raise InputError(f"claim {used.id}: {value} is not known to be what {symbol} stands for")
     if any(not isinstance(item, Relation) for item in used.assumptions):
         return ()
-    hypotheses = tuple(
-        substitute_in(part, values)
-        for item in used.assumptions
-        if isinstance(item, Relation)
-        for part in item.components()
-    )
-    return tuple(
-        Implication(hypotheses, substitute_in(part, values), source=used.id) for part in relations_of(used.statement)
-    )
+    hypotheses = tuple(part for item in used.assumptions if isinstance(item, Relation) for part in item.components())
+    return tuple(Implication(hypotheses, part, source=used.id) for part in relations_of(used.statement))
+
+
+def engine(proof: Callable[Concatenate[Goal, P], Evidence]) -> Callable[Concatenate[Goal, P], Evidence]:
+    """Mark a function as an engine: its evidence carries the goal that it was asked about.
+
+    A claim takes evidence about nothing but its own goal (:func:`ptproof.proof.run.run_one`), so that a proof that
+    changes the statement or adds an assumption shows nothing.
+    """
+
+    @wraps(proof)
+    def certified(goal: Goal, *arguments: P.args, **options: P.kwargs) -> Evidence:
+        return replace(proof(goal, *arguments, **options), certifies=goal)
+
+    # The name of the first parameter is lost in the type of a wrapped function.
+    return cast("Callable[Concatenate[Goal, P], Evidence]", certified)
 
 
 def admissible(symbol: sp.Symbol, value: Any) -> bool:
@@ -223,6 +224,7 @@ def admissible(symbol: sp.Symbol, value: Any) -> bool:
 def cited(reference: str) -> Proof:
     """The proof of a statement that is taken from the literature: no proof, and it says so."""
 
+    @engine
     def prove(goal: Goal) -> Evidence:
         return Evidence("citation", Verdict.CITED, reference)
 

@@ -18,7 +18,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from ptproof.proof.algebra import NotAlgebraic, is_zero
-from ptproof.proof.claim import Goal
+from ptproof.proof.claim import Goal, engine
 from ptproof.proof.quantified import at_point, mask_positive
 from ptproof.proof.reals import follows
 from ptproof.proof.refute import or_refute
@@ -29,6 +29,7 @@ ENGINE = "comparison lemma"
 _REGULAR = (sp.Symbol, sp.Number, sp.NumberSymbol, sp.Add, sp.Mul, sp.Pow, sp.exp, sp.sin, sp.cos, sp.atan, sp.tanh)
 
 
+@engine
 def comparison(
     goal: Goal, solution: sp.Expr, *, denominators: Sequence[sp.Expr] = (), lemmas: Sequence[Implication] = ()
 ) -> Evidence:

@@ -11,7 +11,7 @@ import sympy as sp
 from ptproof.errors import InputError
 from ptproof.proof.algebra import NotAlgebraic
 from ptproof.proof.ball import Undefined
-from ptproof.proof.claim import Goal
+from ptproof.proof.claim import Goal, engine
 from ptproof.proof.cover import RELATIONS, holds_on_box
 from ptproof.proof.reals import follows
 from ptproof.proof.refute import check_witness
@@ -22,6 +22,7 @@ SECONDS = 10.0
 Box = Mapping[sp.Symbol, tuple[Any, Any]]
 
 
+@engine
 def enclosures(goal: Goal, box: Box | None = None, *, seconds: float = SECONDS) -> Evidence:
     """Show the goal's inequalities by a cover of ``box``, or refute them at an exact point of it.
 

@@ -9,7 +9,7 @@ from typing import Any
 import sympy as sp
 
 from ptproof.proof.algebra import NotAlgebraic, is_zero
-from ptproof.proof.claim import Goal
+from ptproof.proof.claim import Goal, engine
 from ptproof.proof.refute import or_refute
 from ptproof.proof.statement import Relation, relations_of
 from ptproof.proof.verdict import Evidence, Verdict
@@ -17,6 +17,7 @@ from ptproof.proof.verdict import Evidence, Verdict
 _BINDERS = (sp.Derivative, sp.Integral, sp.Limit, sp.Subs, sp.Sum, sp.Product)
 
 
+@engine
 def exact(goal: Goal) -> Evidence:
     """Show every equality of the goal; an assumption ``symbol = expression`` is substituted first."""
     start = time.perf_counter()

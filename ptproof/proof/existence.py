@@ -9,12 +9,13 @@ from typing import Any
 
 import sympy as sp
 
-from ptproof.proof.claim import Goal, admissible
+from ptproof.proof.claim import Goal, admissible, engine
 from ptproof.proof.reals import follows, reals
 from ptproof.proof.statement import All, Exists, Implication, Relation, substitute_in
 from ptproof.proof.verdict import Evidence, Verdict, Witness
 
 
+@engine
 def exists_by(goal: Goal, choice: Mapping[sp.Symbol, Any], *lemmas: Implication) -> Evidence:
     """Show "there is …" by values, which may depend on the universal symbols; the rest is a real inequality."""
     start = time.perf_counter()
@@ -35,6 +36,7 @@ def exists_by(goal: Goal, choice: Mapping[sp.Symbol, Any], *lemmas: Implication)
     return Evidence("existence", Verdict.UNDECIDED, f"with {named}: {shown.detail}", seconds)
 
 
+@engine
 def defeats_every_choice(goal: Goal, values: Mapping[sp.Symbol, Any], lemmas: Sequence[Implication] = ()) -> Evidence:
     """Refute "there is A such that … for all x" by an x that depends on A and breaks the body for every A.
 

@@ -12,7 +12,7 @@ import time
 import sympy as sp
 
 from ptproof.proof.algebra import NotAlgebraic, is_zero
-from ptproof.proof.claim import Goal
+from ptproof.proof.claim import Goal, engine
 from ptproof.proof.limits import limit_of
 from ptproof.proof.refute import or_refute
 from ptproof.proof.statement import relations_of
@@ -21,6 +21,7 @@ from ptproof.proof.verdict import Evidence, Verdict
 _CONTINUOUS = (sp.sin, sp.cos, sp.exp, sp.Add, sp.Mul, sp.Pow, sp.Symbol, sp.Number, sp.NumberSymbol, sp.atan)
 
 
+@engine
 def integrals(goal: Goal) -> Evidence:
     """Show equalities whose left side contains definite integrals."""
     start = time.perf_counter()

@@ -11,7 +11,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from ptproof.proof.algebra import NotAlgebraic, is_zero
-from ptproof.proof.claim import Goal
+from ptproof.proof.claim import Goal, engine
 from ptproof.proof.refute import or_refute
 from ptproof.proof.statement import relations_of
 from ptproof.proof.verdict import Evidence, Verdict
@@ -19,6 +19,7 @@ from ptproof.proof.verdict import Evidence, Verdict
 _INFINITE = (sp.oo, -sp.oo)
 
 
+@engine
 def limits(goal: Goal) -> Evidence:
     """Show equalities of the form ``Limit(expression, variable, point, side) = value``."""
     start = time.perf_counter()

@@ -14,7 +14,7 @@ from typing import Any
 import sympy as sp
 
 from ptproof.proof.algebra import Generators, NotAlgebraic
-from ptproof.proof.claim import Goal
+from ptproof.proof.claim import Goal, engine
 from ptproof.proof.refute import or_refute
 from ptproof.proof.statement import Implication, Relation, free_symbols, relations_of, undefined_functions
 from ptproof.proof.verdict import Evidence, Verdict
@@ -25,6 +25,7 @@ _ABSURD = Relation(sp.S.One, "<", sp.S.Zero)
 _REAL_ON_REALS = (sp.exp, sp.log, sp.sin, sp.cos, sp.atan, sp.Abs, sp.sign, sp.floor, sp.Max, sp.Min, sp.Piecewise)
 
 
+@engine
 def reals(goal: Goal, *lemmas: Implication, seconds: float | None = None) -> Evidence:
     """Show the goal's relations from its assumptions, the claims that it uses, and the ``lemmas``."""
     start = time.perf_counter()

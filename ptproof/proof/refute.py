@@ -17,7 +17,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from ptproof.proof.algebra import NotAlgebraic, is_zero
-from ptproof.proof.claim import Goal, admissible
+from ptproof.proof.claim import Goal, admissible, engine
 from ptproof.proof.statement import (
     All,
     Assumption,
@@ -34,6 +34,7 @@ SEARCH_SECONDS = 4.0
 _TRIES = 400
 
 
+@engine
 def refute(goal: Goal, values: Mapping[Any, Any]) -> Evidence:
     """Check one explicit witness: exact values of all symbols and undefined functions of the goal."""
     start = time.perf_counter()

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import time
 
-from ptproof.proof.claim import Goal
+from ptproof.proof.claim import Goal, engine
 from ptproof.proof.smoothness import smoothness
 from ptproof.proof.statement import Smooth
 from ptproof.proof.verdict import Evidence, Verdict
 
 
+@engine
 def smooth(goal: Goal) -> Evidence:
     """Show that all expressions of the goal are as smooth as it says, on the domain that its assumptions leave."""
     start = time.perf_counter()

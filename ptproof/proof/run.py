@@ -5,12 +5,12 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from ptproof.errors import InputError
-from ptproof.proof.claim import Claim, Result
+from ptproof.proof.claim import Claim, Goal, Result
 from ptproof.proof.load import Derivation, load
 from ptproof.proof.verdict import Evidence, Verdict
 
@@ -53,7 +53,23 @@ def run_one(claim: Claim) -> Evidence:
         return Evidence("crash", Verdict.UNDECIDED, f"{type(error).__name__}: {error}", seconds)
     if not isinstance(evidence, Evidence):
         return Evidence("crash", Verdict.UNDECIDED, f"the proof returned {type(evidence).__name__}, not evidence")
-    return evidence
+    if reason := _mismatch(claim, evidence):
+        return Evidence("mismatch", Verdict.UNDECIDED, reason, evidence.seconds)
+    return replace(evidence, certifies=None)
+
+
+def _mismatch(claim: Claim, evidence: Evidence) -> str:
+    """Why the evidence is not about this claim; empty if it is."""
+    goal = evidence.certifies
+    if not isinstance(goal, Goal):
+        return "the evidence does not come from an engine"
+    if goal.statement != claim.statement:
+        return f"the evidence is about another statement: {goal.statement}"
+    if not set(goal.assumptions) <= set(claim.assumptions):
+        return "the evidence assumes more than the claim does"
+    if not all(used in claim.uses for used in goal.uses):
+        return "the evidence uses claims that the claim does not name"
+    return ""
 
 
 def conclude(claims: Sequence[Claim], evidence: dict[str, Evidence]) -> tuple[Result, ...]:

@@ -112,15 +112,15 @@ class _Examiner:
         self.variables, self.orders, self.domain = variables, orders, domain
         self.glued: list[sp.Expr] = []
 
-    def needs(self, node: sp.Basic, order: int) -> Iterator[_Need]:
+    def needs(self, node: sp.Basic, order: int, *, glue: bool = True) -> Iterator[_Need]:
         if not node.free_symbols & self.variables or node.is_Symbol:
             return
-        if not node.is_Add and node.has(*KINKS) and self.is_glued(node, order):
+        if glue and not node.is_Add and node.has(*KINKS) and self.is_glued(node, order):
             self.glued.append(node)
             return
         match node:
             case sp.Pow():
-                yield from self.power(node, order)
+                yield from self.power(node, order, glue)
                 return
             case sp.Derivative():
                 inner, count = node.expr, sum(number for _, number in node.variable_count)
@@ -132,15 +132,15 @@ class _Examiner:
                 inside = _Examiner(frozenset(node.variables), self.orders, ())
                 yield from inside.needs(node.expr, order)
                 for point in node.point:
-                    yield from self.needs(point, order)
+                    yield from self.needs(point, order, glue=glue)
                 return
             case sp.Piecewise():
-                yield from self.piecewise(node, order)
+                yield from self.piecewise(node, order, glue)
                 return
             case AppliedUndef() if self.order_of(node) < order:
                 yield _Need(node, None)
         for argument in node.args:
-            yield from self.needs(argument, order)
+            yield from self.needs(argument, order, glue=glue)
         if order > 0 or not isinstance(node, sp.Abs | sp.Max | sp.Min):
             yield from _own_needs(node)
 
@@ -153,36 +153,40 @@ class _Examiner:
         )
 
     def is_glued(self, node: sp.Expr, order: int) -> bool:
-        return glued_smoothly(node, self.variables, order, lambda entry: self.is_smooth(entry, order))
+        if not glued_smoothly(node, self.variables, order, lambda entry: self.is_smooth(entry, order)):
+            return False
+        # The pieces may be smooth where the node itself is not defined, as in Abs(x)/x.
+        own = [need for need in self.needs(node, 0, glue=False) if not isinstance(need.node, KINKS)]
+        return all(need.relation is not None and _holds(need.relation, self.domain) for need in own)
 
-    def power(self, node: sp.Pow, order: int) -> Iterator[_Need]:
+    def power(self, node: sp.Pow, order: int, glue: bool) -> Iterator[_Need]:
         base, exponent = node.base, node.exp
         zero = sp.S.Zero
-        yield from self.needs(exponent, order)
+        yield from self.needs(exponent, order, glue=glue)
         if isinstance(base, sp.Abs) and exponent.is_Rational and exponent > order:  # |h|^p is C^k for p > k
-            yield from self.needs(base.args[0], order)
+            yield from self.needs(base.args[0], order, glue=glue)
             return
         if base is sp.E:
             return
-        yield from self.needs(base, order)
+        yield from self.needs(base, order, glue=glue)
         if exponent.is_integer and exponent.is_nonnegative:
             return
         if exponent.is_integer:
             yield _Need(node, Relation(base, "!=", zero))
         elif order <= 2 and exponent.is_Rational and 2 * exponent > order:
             # g ≥ 0 with |∇g|² ≤ C g near its zeros: g^q is C^1 for q > 1/2 and C^2 for q > 1.
-            yield from self.needs(base, 2)
+            yield from self.needs(base, 2 if order else 0, glue=glue)
             yield _Need(node, Relation(zero, "<=", base))
         else:
             yield _Need(node, Relation(zero, "<", base))
 
-    def piecewise(self, node: sp.Piecewise, order: int) -> Iterator[_Need]:
+    def piecewise(self, node: sp.Piecewise, order: int, glue: bool) -> Iterator[_Need]:
         for value, condition in node.args:
-            yield from self.needs(value, order)
+            yield from self.needs(value, order, glue=glue)
             for relation in condition.atoms(Relational):
                 difference = relation.lhs - relation.rhs
                 if difference.free_symbols & self.variables:
-                    yield from self.needs(difference, 0)
+                    yield from self.needs(difference, 0, glue=glue)
                     yield _Need(node, Relation(difference, "!=", sp.S.Zero))
 
 

@@ -9,7 +9,7 @@ from dataclasses import replace
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ptproof.proof.claim import Goal
+from ptproof.proof.claim import Goal, engine
 from ptproof.proof.limits import limit_of
 from ptproof.proof.reals import reals
 from ptproof.proof.statement import Implication, Relation, le
@@ -18,6 +18,7 @@ from ptproof.proof.verdict import Evidence, Verdict
 ENGINE = "squeeze"
 
 
+@engine
 def squeezed(
     goal: Goal, bound: sp.Expr, near: Sequence[Relation], facts: Callable[[Goal], Sequence[Implication]]
 ) -> Evidence:

@@ -45,7 +45,10 @@ class Witness:
 
 @dataclass(frozen=True)
 class Evidence:
-    """What one engine says about one statement: the verdict, how, and in how many seconds."""
+    """What one engine says about one statement: the verdict, how, and in how many seconds.
+
+    ``certifies`` is the goal that the engine was asked about; evidence without one counts for nothing.
+    """
 
     engine: str
     verdict: Verdict
@@ -53,6 +56,7 @@ class Evidence:
     seconds: float = 0.0
     witness: Witness | None = None
     data: Mapping[str, Any] = field(default_factory=dict, compare=False)
+    certifies: Any = field(default=None, compare=False, repr=False)
 
     def to_json(self) -> dict[str, Any]:
         return {

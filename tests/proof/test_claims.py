@@ -10,7 +10,7 @@ import pytest
 import sympy as sp
 
 from ptproof.errors import InputError
-from ptproof.proof.claim import Goal, cited, claim, instance
+from ptproof.proof.claim import Goal, cited, claim
 from ptproof.proof.exact import exact
 from ptproof.proof.existence import defeats_every_choice, exists_by
 from ptproof.proof.load import load
@@ -62,13 +62,29 @@ def test_used_statement_comes_with_its_own_assumptions() -> None:
     assert reals(replace(goal, assumptions=(le(x, -1),))).verdict is Verdict.PROVED
 
 
-def test_instance_refuses_a_value_of_the_wrong_kind() -> None:
-    @claim("used", "used", ge(a, 0))
-    def used(goal: Goal) -> Evidence:
-        return reals(goal)
+def test_evidence_about_another_statement_counts_for_nothing() -> None:
+    @claim("false", "false", eq(x, x + 1))
+    def changes_the_statement(goal: Goal) -> Evidence:
+        return exact(replace(goal, statement=eq(x, x)))
 
-    with pytest.raises(InputError, match="not known to be"):
-        instance(used, {a: x})
+    @claim("false", "false", ge(x, 0))
+    def adds_an_assumption(goal: Goal) -> Evidence:
+        return reals(replace(goal, assumptions=(ge(x, 1),)))
+
+    @claim("false", "false", eq(x, x + 1))
+    def makes_it_up(goal: Goal) -> Evidence:
+        return Evidence("trust me", Verdict.PROVED, "obviously")
+
+    other = claim("other", "other", ge(x, 0))(exact)
+
+    @claim("false", "false", ge(x, 0))
+    def uses_what_it_does_not_name(goal: Goal) -> Evidence:
+        return reals(replace(goal, uses=(other,)))
+
+    for item in (changes_the_statement, adds_an_assumption, makes_it_up, uses_what_it_does_not_name):
+        found = run_one(item)
+        assert found.verdict is Verdict.UNDECIDED
+        assert found.engine == "mismatch"
 
 
 def test_crash_is_the_claims_own() -> None:
