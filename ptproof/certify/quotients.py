@@ -18,7 +18,7 @@ from typing import Any
 import sympy as sp
 from flint import arb
 
-from ptproof.certify.growth import GROWTHS, Growth, coordinates, power_of
+from ptproof.certify.growth import GROWTHS, Exponent, Growth, Span, coordinates, power_of
 from ptproof.certify.series import Nested, Taylor, coefficient_along, taylor
 from ptproof.proof.ball import BALLS, interval
 from ptproof.proof.jet import Side
@@ -29,6 +29,8 @@ EXTRA_ORDERS = {1: 9, 2: 5, 3: 3}
 LARGEST_POLYNOMIAL = 300
 """The most terms for which a polynomial field is expanded."""
 
+LINE = 16
+"""Up to where an expression in one variable is bounded piece by piece, and from where on by its growth."""
 ALIKE = 1.5
 """How far apart the coefficients of y₁^(2κ) … yₙ^(2κ) may be, as a factor, for a common part to be split off."""
 
@@ -302,13 +304,16 @@ class Quotients:
         return compile_tape([self.rest], self.offsets), compile_tape(slopes, self.offsets)
 
     @cached_property
-    def _rest_terms(self) -> tuple[list[list[tuple[Tape, arb | None]]], ...]:
-        """For the rest and for its derivatives: each term with a bound of it, if it has one for all y."""
+    def _rest_terms(self) -> tuple[list[list[tuple[Tape, LineBound | None]]], ...]:
+        """For the rest and for its derivatives: each term with a bound over the whole line, if it has one."""
         groups = []
         for outputs in ([self.rest], [sp.diff(self.rest, y) for y in self.offsets]):
             sums = [sp.Add.make_args(sp.expand_mul(output)) for output in outputs]
             groups.append(
-                [[(compile_tape([term], self.offsets), bound_everywhere(term)) for term in terms] for terms in sums]
+                [
+                    [(compile_tape([term], self.offsets), line_bound(term, self.offsets)) for term in terms]
+                    for terms in sums
+                ]
             )
         return tuple(groups)
 
@@ -325,9 +330,9 @@ class Quotients:
                 except Undefined:
                     if bound is None:
                         raise
-                    growth = bound
+                    growth = bound.growth(w, reach)
                 if bound is not None and isinstance(growth, Growth) and max(growth.terms, default=0) > top:
-                    growth = bound
+                    growth = bound.growth(w, reach)
                 total = total + growth
             results.append(total)
         return results
@@ -389,17 +394,42 @@ def _run_parts(parts: Sequence[Nested], values: Sequence[Any], size: Any, outer:
     return [part.run([radial, *values[1:]]) for part in parts]
 
 
-def bound_everywhere(term: sp.Expr) -> arb | None:
-    """A ball of all values of an expression in one variable over the whole line; None if none is found."""
+@dataclass(frozen=True)
+class LineBound:
+    """An expression in one variable z lies in ``near`` + [−size, size]·|z|^degree for every real z; 0 is in near."""
+
+    index: int
+    near: arb
+    size: arb
+    degree: Exponent
+
+    def growth(self, w: Sequence[arb], reach: arb) -> Growth:
+        """The bound for z = r·w[index]."""
+        width = power_of(w[self.index].abs_upper(), self.degree) * self.size
+        constant = Growth({}, reach).lift(self.near)
+        return constant + Growth({self.degree: Span(-width, width)}, reach) if self.size > 0 else constant
+
+
+def line_bound(term: sp.Expr, offsets: Sequence[sp.Symbol]) -> LineBound | None:
+    """A bound of an expression in one variable over the whole line; None if none is found."""
     if len(term.free_symbols) != 1:
         return None
-    tape = compile_tape([term], tuple(term.free_symbols))
+    (variable,) = term.free_symbols
+    tape = compile_tape([term], [variable])
+    reach = arb(1) / LINE
     try:
-        pieces = [tape.run([interval(k, k + 1)], BALLS)[0] for k in range(-16, 16)]
-        for sign in (1, -1):
-            values = Growth({}, arb(1) / 16).lift(tape.run(coordinates([arb(sign)], arb(1) / 16), GROWTHS)[0]).range()
-            pieces.append(values.ball())
-        return BALLS.hull(pieces)
+        near = BALLS.hull([arb(0), *(tape.run([interval(k, k + 1)], BALLS)[0] for k in range(-LINE, LINE))])
+        sides = [tape.run(coordinates([arb(sign)], reach), GROWTHS)[0] for sign in (1, -1)]
+        growths = [Growth({}, reach).lift(side) for side in sides]
+        degree = max((exponent for growth in growths for exponent in growth.terms), default=0)
+        if degree <= 0:
+            near = BALLS.hull([near, *(growth.range().ball() for growth in growths)])
+            return LineBound(offsets.index(variable), near, arb(0), 0)
+        size = arb(0)
+        for growth in growths:
+            sizes = (value.ball().abs_upper() * power_of(reach, degree - e) for e, value in growth.terms.items())
+            size = size.max(sum(sizes, arb(0)).upper())
+        return LineBound(offsets.index(variable), near, size, degree)
     except Undefined:
         return None
 
