@@ -162,7 +162,7 @@ class _Reader:
 
     def fits(self, middle: Any, half: Any) -> bool:
         function = self.smooth(middle, half)
-        return function is not None and bool(self.error(function, middle, half) < self.target)
+        return function is not None and bool(self.error(function, middle, half) <= self.target)
 
     def error(self, function: Any, middle: Any, half: Any) -> Any:
         """A bound for the error of the interpolant of degree ``_DEGREE`` on the panel."""

@@ -15,9 +15,10 @@ from ptproof.averaging.boundary import boundary_layer_stability
 from ptproof.averaging.bounded import bounded_in_time
 from ptproof.averaging.coefficients import signals
 from ptproof.averaging.fast import QuasiSteadyState, quasi_steady_state
-from ptproof.averaging.problem import DitherProblem
+from ptproof.averaging.problem import DitherProblem, FastStates
 from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided
 from ptproof.proof.smoothness import smoothness
+from ptproof.proof.statement import Relation
 from ptproof.proof.verdict import Evidence, Verdict
 
 LETTERS = ("A", "B", "C", "D", "E", "F", "boundary layer")
@@ -63,7 +64,7 @@ def examine(problem: DitherProblem) -> Ledger:
     the letters say so. An entry "refuted" means that the theorem does not cover the system, with the place and,
     where there is one, a witness; "undecided" is a caveat of the result.
     """
-    steady = None if problem.fast is None else quasi_steady_state(problem.fast, problem.domain)
+    steady = None if problem.fast is None else _solve(problem.fast, problem.domain)
     entries = {
         "form": _form(problem),
         "A": _smooth_fields(problem),
@@ -71,16 +72,27 @@ def examine(problem: DitherProblem) -> Ledger:
         "C": _dithers(problem),
         "D": _period_and_mean(problem),
         "E": _lipschitz_rates(problem),
-        "F": _steady(problem, steady),
-        "boundary layer": _boundary_layer(problem, steady),
+        "F": _timed(lambda asked: _steady(asked, steady))(problem),
+        "boundary layer": _timed(lambda asked: _boundary_layer(asked, steady))(problem),
     }
     return Ledger(entries, None if steady is None else steady.values)
+
+
+def _solve(fast: FastStates, domain: Sequence[Relation]) -> QuasiSteadyState:
+    try:
+        return quasi_steady_state(fast, domain)
+    except Exception as error:
+        unknown = Evidence("crash", Verdict.UNDECIDED, f"{type(error).__name__}: {error}")
+        return QuasiSteadyState(None, unknown)
 
 
 def _timed(judge: Callable[[DitherProblem], Evidence]) -> Callable[[DitherProblem], Evidence]:
     def timed(problem: DitherProblem) -> Evidence:
         start = time.perf_counter()
-        evidence = judge(problem)
+        try:
+            evidence = judge(problem)
+        except Exception as error:  # what fails decides nothing, and the other hypotheses still count
+            evidence = Evidence("crash", Verdict.UNDECIDED, f"{type(error).__name__}: {error}")
         return replace(evidence, seconds=time.perf_counter() - start)
 
     return timed
@@ -270,7 +282,7 @@ def _steady(problem: DitherProblem, steady: QuasiSteadyState | None) -> Evidence
         found.append((f"l_{i} = {value}", smooth))
     values = ", ".join(f"{z} = {value}" for z, value in zip(_fast_state(problem), steady.values, strict=True))
     detail = f"{values} is the only solution ({steady.unique.detail}) and twice continuously differentiable"
-    return replace(_worst(found, "quasi-steady state", detail), seconds=steady.unique.seconds)
+    return _worst(found, "quasi-steady state", detail)
 
 
 def _fast_state(problem: DitherProblem) -> tuple[sp.Symbol, ...]:

@@ -41,8 +41,12 @@ def study_file(path: str | Path, seconds: float) -> Outcome:
             return future.result()
         except OutOfTime:
             reason = f"{path}: no answer within {seconds:g} s; a longer --timeout may help"
+        except InputError:
+            raise
         except ProcessExpired as error:
             reason = f"{path}: the computation ended without an answer ({error})"
+        except Exception as error:
+            reason = f"{path}: the computation failed, nothing is claimed ({type(error).__name__}: {error})"
     data: dict[str, Any] = {"average": None, "v": {}, "assumptions": {}, "expected": None}
     return Outcome(data, as_expected=False, reason=reason)
 

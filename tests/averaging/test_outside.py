@@ -174,3 +174,15 @@ def test_without_a_known_steady_state_nothing_is_claimed() -> None:
     found = study(fast(F - z - s(z) / 2))
     assert found.system is None
     assert found.ledger.entries["F"].verdict is Verdict.UNDECIDED
+
+
+def test_what_fails_inside_one_hypothesis_decides_nothing_and_spares_the_others() -> None:
+    # SymPy's solver meets imaginary candidates inside Max here and raises.
+    found = study(fast(1 / z - sp.Max(-z, 0) + z))
+    assert found.ledger.entries["F"].verdict is Verdict.UNDECIDED
+    assert found.ledger.entries["D"].verdict is Verdict.PROVED
+    assert found.system is None
+
+
+def test_a_dither_that_vanishes_is_no_trouble() -> None:
+    assert average(replace(seeker(), dithers=(c(theta), sp.S.Zero))).rhs == (0, 0)

@@ -95,5 +95,10 @@ def test_a_removable_singularity_is_undecided_not_refuted() -> None:
     assert smoothness(sp.sin(x) / x, [x], 2).verdict is Verdict.UNDECIDED
 
 
+@pytest.mark.parametrize("expression", [sp.cos(sp.Abs(x) / x), sp.cos(sp.Abs(x) * sp.log(y))], ids=str)
+def test_where_it_is_not_defined_it_is_not_smooth(expression: sp.Expr) -> None:
+    assert smoothness(expression, [x, y], 2).verdict is not Verdict.PROVED
+
+
 def test_two_kinks_that_cancel_are_never_refuted() -> None:
     assert smoothness(sp.Abs(x) - sp.Max(x, -x), [x], 2).verdict is not Verdict.REFUTED
