@@ -55,6 +55,21 @@ def test_a_wrong_average_does_not_pass(case):
     assert not gap_order(DITHERS, wrong, **QUESTION).agrees
 
 
+def test_an_average_that_is_wrong_by_a_percent_shows_in_the_sharp_comparison():
+    almost = System(
+        AVERAGE.time, AVERAGE.state, (G[0] + sp.Rational(101, 200) * K * SLOPES[0], G[1] + K / 2 * SLOPES[1])
+    )
+    ladder = {"omegas": (400, 800, 1600, 3200), "sharp": True}
+    assert gap_order(DITHERS, AVERAGE, **ladder, **QUESTION).agrees
+    assert not gap_order(DITHERS, almost, **ladder, **QUESTION).agrees
+    assert gap_order(DITHERS, almost, **QUESTION).agrees
+
+
+def test_the_sharp_comparison_needs_a_dither_system():
+    with pytest.raises(InputError, match="sharp"):
+        gap_order(AVERAGE, AVERAGE, sharp=True, **QUESTION)
+
+
 def test_the_plain_average_does_not_pass_for_a_corrected_one():
     assert not gap_order(DITHERS, AVERAGE, expected=-1.0, **QUESTION).agrees
 
