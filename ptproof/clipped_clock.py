@@ -8,7 +8,7 @@ from functools import cached_property
 import sympy as sp
 
 from ptproof.clock import Clock, contract, dilate
-from ptproof.clock_algebra import is_positive, shown_zero
+from ptproof.clock_algebra import is_positive, settle, shown_zero
 from ptproof.errors import InputError
 from ptproof.system import System
 
@@ -75,12 +75,14 @@ class ClippedClock:
     @cached_property
     def corner_tau(self) -> sp.Expr:
         """The corner's instant in τ."""
-        return sp.simplify(self.clock.to_tau.subs(self.t, self.until))
+        return settle(sp.simplify(self.clock.to_tau.subs(self.t, self.until)))
 
     @cached_property
     def last_rate(self) -> sp.Expr:
         """dτ/dt from the corner on: the largest gain."""
-        return sp.simplify(self.clock.rate.subs(self.t, self.until))
+        rate = self.clock.rate.subs(self.t, self.until)
+        # SymPy would write 1 + tan² as 1/cos², whose denominator hides that it is positive.
+        return settle(rate) if rate.has(sp.tan) else sp.simplify(rate)
 
     @property
     def _late_tau(self) -> sp.Expr:

@@ -22,8 +22,9 @@ def settle(expression: sp.Expr) -> sp.Expr:
             return entry.args[0]
         return sp.atan(entry)
 
-    if not expression.has(sp.exp, sp.log, sp.atan):
+    if not expression.has(sp.exp, sp.log, sp.atan, sp.tan):
         return expression
+    expression = expression.replace(sp.tan, lambda angle: sp.tan(sp.factor(sp.cancel(angle))))
     expression = expression.replace(sp.exp, lambda entry: sp.exp(sp.expand(sp.cancel(entry))))
     return expression.replace(sp.log, lambda entry: sp.log(plain(entry))).replace(sp.atan, arctan)
 

@@ -1,6 +1,7 @@
-"""The tutorial, followed literally: its commands in a shell, its Python in one session, and what both are shown to say."""
+"""The tutorial, followed literally: commands in a shell, Python in one session, and what both are shown to say."""
 
 import ast
+import itertools
 import os
 import re
 import subprocess
@@ -56,7 +57,7 @@ def test_every_block_is_run_or_says_what_came_out():
     kinds = [kind for kind, _ in BLOCK.findall(TUTORIAL.read_text("utf-8"))]
     assert set(kinds) == {"sh", "python", "text", "math"}
     assert TUTORIAL.read_text("utf-8").count("```") == 2 * len(kinds)
-    for before, kind in zip(kinds, kinds[1:], strict=False):
+    for before, kind in itertools.pairwise(kinds):
         assert kind in ("sh", "python") or before in ("sh", "python")
 
 

@@ -29,11 +29,8 @@ class Claims:
         """Whether the text of a file speaks of claims; what does not is never imported."""
         if file.suffix != ".py" or file.name in ("__init__.py", "conftest.py") or file.name.startswith("test_"):
             return False
-        try:
-            text = file.read_text("utf-8")
-        except (OSError, ValueError):
-            return False
-        return "ptproof" in text and "claim" in text.lower()
+        # A module may take everything from a neighbour, so the folder speaks for its files.
+        return "claim" in _text(file).lower() and any("ptproof" in _text(other) for other in file.parent.glob("*.py"))
 
     def of_file(self, file: Path) -> tuple[Claim, ...]:
         """The claims that are made in ``file``, in its order.
@@ -124,9 +121,16 @@ def _decide_by_id(id: str) -> Evidence:
     return run_one(_claims[id])
 
 
+def _text(file: Path) -> str:
+    try:
+        return file.read_text("utf-8")
+    except (OSError, ValueError):
+        return ""
+
+
 def _loadable(file: Path) -> Path:
     """What is loaded for a file: itself, or its folder where modules of a folder can only be loaded together."""
-    return file if (file.parent / "__init__.py").exists() or "from ." not in file.read_text("utf-8") else file.parent
+    return file if (file.parent / "__init__.py").exists() or "from ." not in _text(file) else file.parent
 
 
 def _home(claim: Claim, file: Path) -> Path:

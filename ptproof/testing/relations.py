@@ -158,8 +158,10 @@ def _reason(goal: Goal, seconds: float, refuted: str, undecided: str) -> str | N
     else:
         rows.append(("statement", str(statement)))
     rows += [("given", str(item)) for item in goal.assumptions]
-    names = ("left", "right") if goal is asked else ("right", "left")
-    rows.append(("witness", witness_text(evidence.witness, *names)))
+    witness = evidence.witness
+    if witness is not None and asked is not goal:
+        witness = replace(witness, left=witness.right, right=witness.left)
+    rows.append(("witness", witness_text(witness)))
     if evidence.verdict is not Verdict.REFUTED:
         rows.append(("tried", f"{evidence.engine}: {evidence.detail}"))
     return lines(f"{title}: {evidence.verdict}", rows)

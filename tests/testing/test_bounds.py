@@ -1,0 +1,140 @@
+"""assert_field_bounds and assert_gain_condition."""
+
+import pytest
+import sympy as sp
+
+from ptproof.errors import InputError
+from ptproof.field import FieldBounds
+from ptproof.gains import GainData
+from ptproof.testing import assert_field_bounds, assert_gain_condition
+
+x1, x2 = sp.symbols("x1 x2", real=True)
+half = sp.Rational(1, 2)
+PLANE = {"variables": (x1, x2), "source": (0, 0)}
+bowl = -(x1**2 + x2**2) / 2
+EXACT = {"a1": half, "a2": half, "b1": sp.Integer(1), "b2": sp.Integer(1)}
+
+
+def test_positive_constants_exist():
+    assert_field_bounds(bowl, **PLANE)
+
+
+def test_text_is_parsed():
+    assert_field_bounds("5/2 + cos(2*pi/3*x1)/2 - (x1**2 + x2**2)/2", b1="1/10", b2=4, **PLANE)
+
+
+def test_the_best_constants_themselves_hold():
+    assert_field_bounds(bowl, **EXACT, **PLANE)
+
+
+@pytest.mark.parametrize(
+    ("name", "factor"),
+    [("a1", "0.99"), ("a2", "1.01"), ("b1", "1.01"), ("b2", "0.99")],
+)
+def test_a_constant_a_little_to_the_wrong_side_is_refuted(name, factor):
+    wrong = {**EXACT, name: EXACT[name] * sp.Rational(factor)}
+    with pytest.raises(AssertionError, match=rf"(?s)does not hold: refuted.*{name}: .*has to be at"):
+        assert_field_bounds(bowl, **wrong, **PLANE)
+
+
+def test_a_field_without_such_bounds_fails_with_the_witness():
+    with pytest.raises(AssertionError, match=r"(?s)no such bounds: refuted.*witness:"):
+        assert_field_bounds(-(x1**4 + x2**2) / 2, **PLANE)
+
+
+def test_a_domain_can_be_given():
+    hill = sp.exp(-(x1**2) - x2**2)
+    assert_field_bounds(hill, radius=half, **PLANE)
+    with pytest.raises(AssertionError, match="refuted"):
+        assert_field_bounds(hill, **PLANE)
+
+
+def test_a_constant_within_the_enclosure_of_the_best_one_is_undecided():
+    wavy = "5/2 + cos(2*pi/3*x1)/2 - (x1**2 + x2**2)/2"
+    with pytest.raises(AssertionError, match=r"(?s)could not be decided: undecided.*b1: .*smaller rtol"):
+        assert_field_bounds(wavy, b1="0.5233", seconds=10, **PLANE)
+
+
+def test_out_of_time_is_undecided():
+    with pytest.raises(AssertionError, match="could not be decided: undecided"):
+        assert_field_bounds("cos(x1)*cos(x2) + cos(x1*x2) - x1**2", radius=half, seconds=0.001, **PLANE)
+
+
+@pytest.mark.parametrize(
+    ("changes", "error", "words"),
+    [
+        ({"a1": -1}, InputError, "a1: expected a positive number"),
+        ({"a1": 0.5}, InputError, "not exact"),
+        ({"radius": 0.5}, InputError, "radius"),
+        ({"source": (0,)}, InputError, "source"),
+        ({"kappa": 0}, InputError, "kappa"),
+        ({"variables": ["x1", "x2"]}, TypeError, "variables"),
+    ],
+)
+def test_bad_use_is_refused(changes, error, words):
+    with pytest.raises(error, match=words):
+        assert_field_bounds(bowl, **{**PLANE, **changes})
+
+
+data = GainData(FieldBounds(1, 2, 1, 1, 2), k=3, T=1, drift_norm=1, nu_min=half, V0=1)
+
+
+@pytest.mark.parametrize(
+    "condition",
+    [
+        "k > asymptotic.k_min",
+        "asymptotic.k_min <= 2",
+        "prescribed_time.overshoot < 10.45",
+        "prescribed_time.overshoot > 10.44",
+        "2*asymptotic.k_min + 1 >= 5",
+        "V0 < critical.V0_threshold",
+        "a2 < a1",
+    ],
+)
+def test_a_condition_that_holds(condition):
+    assert_gain_condition(data, condition)
+
+
+@pytest.mark.parametrize(
+    "condition",
+    [
+        "k > asymptotic.k_min_printed",
+        "asymptotic.k_min < 2",
+        "k <= asymptotic.k_min",
+        "prescribed_time.overshoot < 10.44",
+        "2*asymptotic.k_min > 4",
+        "critical.V0_threshold <= 10**9",
+    ],
+)
+def test_a_condition_that_does_not_hold_fails_with_both_sides(condition):
+    with pytest.raises(AssertionError, match=r"does not hold: refuted"):
+        assert_gain_condition(data, condition)
+
+
+def test_the_message_has_the_exact_values():
+    with pytest.raises(AssertionError) as failed:
+        assert_gain_condition(data, "k > asymptotic.k_min_printed")
+    assert "asymptotic.k_min_printed: 16" in str(failed.value)
+    assert "-13  (left - right)" in str(failed.value)
+
+
+def test_what_does_not_apply_is_undecided():
+    with pytest.raises(AssertionError, match=r"(?s)undecided.*needs drift_bound"):
+        assert_gain_condition(data, "nonvanishing.ultimate_bound < 1")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "error", "words"),
+    [
+        ((data, "k = 3"), InputError, "not one of"),
+        ((data, "k > foo.bar"), InputError, "foo.bar is not a quantity"),
+        ((data, "omega > 3"), InputError, "unknown name 'omega'"),
+        ((data, "1 < k < 3"), InputError, "not one of"),
+        ((data, 3), TypeError, "condition: expected text"),
+        ((3, "k > 0"), TypeError, "data: expected GainData"),
+        ((data, "__import__('os') > 3"), InputError, "condition"),
+    ],
+)
+def test_bad_conditions_are_refused(arguments, error, words):
+    with pytest.raises(error, match=words):
+        assert_gain_condition(*arguments)
