@@ -225,7 +225,7 @@ def _by_hand(problem: Problem, angles: Array, cores: int) -> Callable[[], Any]:
     values, initial, edges = completed_parameters(setup, problem, table), setup.initial(table), setup.edges(table)
     width = hy.recommended_simd_size()
     solvers = [
-        taylor.batched(taylor.chosen(setup.system, float((a + b) / 2), tuple(values[:, 0].tolist())), 1e-7)
+        taylor.batched(taylor.chosen(setup.system, float((a + b) / 2), tuple(values[:, 0].tolist()), True), 1e-7)
         for a, b in zip(edges[:-1, 0], edges[1:, 0], strict=True)
     ]
 

@@ -123,7 +123,7 @@ def simulate(
     _check_values(setup, problem, varied)
     batch = Batch(setup.initial(table), completed_parameters(setup, problem, table), setup.edges(table))
     plan = _plan(setup, batch, samples, rtol, atol, escape_radius, max_steps, time_limit)
-    chosen = engine or _default_engine(setup.system, ensemble is not None or _turns(setup, table, batch) > _MANY_TURNS)
+    chosen = engine or _default_engine(setup, batch, ensemble is not None or _turns(setup, table, batch) > _MANY_TURNS)
     solver = engine_named(chosen)
     settings: dict[str, Any] = {
         "example": problem.name if problem is not None else setup.system.name,
@@ -197,12 +197,14 @@ def _turns(setup: Setup, table: Mapping[str, Array], batch: Batch) -> float:
     return float(table["omega"][0] * (last - first) / (2 * np.pi))
 
 
-def _default_engine(system: System, many: bool) -> str:
+def _default_engine(setup: Setup, batch: Batch, many: bool) -> str:
     if not many or not has_heyoka():
         return "casadi"
     from ptproof.simulation.engines.taylor import follows
 
-    return "heyoka" if follows(system) else "casadi"
+    lengths = np.diff(batch.edges, axis=0) > 0
+    alike = bool(np.all(lengths == lengths[:, :1]))
+    return "heyoka" if alike and follows(setup.system, batch.edges.shape[0] > 2) else "casadi"
 
 
 def _never_complete(outcome: Outcome) -> Outcome:

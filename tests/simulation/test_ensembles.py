@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 import sympy as sp
 
+from ptproof.errors import InputError
 from ptproof.simulation.ensembles import headings, members
 from ptproof.simulation.plan import Outcome
 from ptproof.simulation.run import simulate
@@ -65,6 +66,28 @@ def test_members_that_escape_do_not_take_the_others_with_them(engine):
 def test_times_may_vary_too():
     result = simulate("saturated", ensemble=4, vary={"T": np.array([0.5, 1, 1.5, 2])}, model="average")
     assert result.t == pytest.approx([0.5, 1, 1.5, 2])
+
+
+def test_members_that_end_before_the_clip_and_after_it_run_together():
+    result = simulate("vanishing", ensemble=4, vary={"nu_min": np.array([0.3, 0.5, 1.0, 0.3])}, model="average")
+    assert result.settings["engine"] == "casadi"
+    for nu_min, distance in zip(result.varied["nu_min"], result.distances, strict=True):
+        alone = simulate("vanishing", model="average", parameters={"nu_min": nu_min})
+        assert distance == pytest.approx(alone.final_distance, rel=1e-6)
+
+
+def test_an_ensemble_may_end_before_the_clip():
+    early = simulate("vanishing", ensemble=3, vary={"theta": headings(3)}, until=0.4, engine="heyoka")
+    other = simulate("vanishing", ensemble=3, vary={"theta": headings(3)}, until=0.4, engine="casadi")
+    assert np.max(np.abs(early.distances - other.distances)) < 1e-7
+
+
+def test_heyoka_refuses_a_kink_in_time_that_it_is_not_told():
+    system = System(t, (x,), (sp.Max(t, 1) - x,))
+    with pytest.raises(InputError, match="kink in time"):
+        simulate(system, initial=[0], span=(0, 3), engine="heyoka")
+    result = simulate(system, initial=[0], span=(0, 3), ensemble=2, vary={"x": (0, 1)})
+    assert result.settings["engine"] == "casadi"
 
 
 def test_progress_counts_every_member():

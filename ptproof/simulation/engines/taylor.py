@@ -19,6 +19,7 @@ import numpy as np
 import sympy as sp
 
 from ptproof.errors import InputError
+from ptproof.problem import parameters
 from ptproof.simulation.plan import Array, Batch, Finals, Outcome, Plan, Run, stopped
 from ptproof.simulation.translate import heyoka_rules, translate
 from ptproof.system import System
@@ -27,11 +28,17 @@ _STEPS_A_CALL = 20_000
 _BATCH_STEPS = 200_000
 
 
-def chosen(system: System, time: float, values: tuple[float, ...]) -> System:
-    """``system`` with each Max, Min, Abs and Piecewise of the time alone replaced by its branch at ``time``."""
+def chosen(system: System, time: float, values: tuple[float, ...], known: bool) -> System:
+    """``system`` with each Max, Min, Abs and Piecewise of the time alone replaced by its branch at ``time``.
+
+    ``known`` says that the instants at which a clipped gain has its kink are among the edges. Other kinks in time are
+    refused, since a Taylor step across one would not notice it.
+    """
     branches = _branches(system)
     if branches is None:
         return system
+    if not known or any(parameters.nu_min not in node.free_symbols for node in branches[0]):
+        raise InputError("heyoka can't follow a kink in time whose instant it is not told; use the engine casadi")
     _, options = branches
     return _resolved(system, tuple(int(np.argmax(scores)) for scores in options(time, values)))
 
@@ -129,7 +136,8 @@ class _Taylor:
         times, columns = [member.edges[0, 0]], [start]
         pieces, total = member.pieces(), float(member.edges[-1, 0] - member.edges[0, 0])
         for a, b in pieces:
-            solver = scalar(chosen(plan.system, (a + b) / 2, tuple(values.tolist())), _tolerance(plan))
+            smooth = chosen(plan.system, (a + b) / 2, tuple(values.tolist()), _known(member))
+            solver = scalar(smooth, _tolerance(plan))
             solver.time, solver.state[:], solver.pars[:] = a, columns[-1], values[: len(solver.pars)]
             for target in np.linspace(a, b, max(1, math.ceil(plan.samples * (b - a) / total - 1e-9)) + 1)[1:]:
                 outcome = hy.taylor_outcome.step_limit
@@ -160,7 +168,7 @@ class _Taylor:
         pieces = _pieces(plan, batch)
 
         def work(share: list[Any], thread: int) -> list[int]:
-            solvers = [batched(system, _tolerance(plan), thread) for system in pieces]
+            solvers = [(row, batched(system, _tolerance(plan), thread)) for row, system in pieces]
             return [i for group in share for i in _group(batch, solvers, group, x)]
 
         if workers == 1 or len(groups) < 2 * workers:
@@ -178,7 +186,7 @@ class _Taylor:
         return Finals(time, x, tuple(outcomes))
 
 
-def _group(batch: Batch, solvers: list[Any], group: Any, x: Array) -> list[int]:
+def _group(batch: Batch, solvers: list[tuple[int, Any]], group: Any, x: Array) -> list[int]:
     """Integrate one group into ``x``; the members of a group that didn't get through are returned."""
     import heyoka as hy
 
@@ -186,7 +194,7 @@ def _group(batch: Batch, solvers: list[Any], group: Any, x: Array) -> list[int]:
     index = np.minimum(group, batch.size - 1)
     kept = index[: max(0, min(len(group), batch.size - int(group[0])))]
     state = batch.initial[:, index]
-    for piece, solver in enumerate(solvers):
+    for piece, solver in solvers:
         solver.set_time(batch.edges[piece, index])
         solver.state[:], solver.pars[:] = state, batch.parameters[: len(solver.pars), index]
         solver.propagate_until(batch.edges[piece + 1, index].tolist(), max_steps=_BATCH_STEPS)
@@ -197,21 +205,28 @@ def _group(batch: Batch, solvers: list[Any], group: Any, x: Array) -> list[int]:
     return []
 
 
-def _pieces(plan: Plan, batch: Batch) -> list[System]:
-    """One smooth system per piece; the pieces' branches must be the same for all members."""
+def _known(batch: Batch) -> bool:
+    return batch.edges.shape[0] > 2
+
+
+def _pieces(plan: Plan, batch: Batch) -> list[tuple[int, System]]:
+    """The smooth system of each piece that is not empty, with the piece's place among the edges."""
     systems = []
-    for a, b in itertools.pairwise(batch.edges):
+    for row, (a, b) in enumerate(itertools.pairwise(batch.edges)):
+        if np.all(b == a):
+            continue
         if not np.all(b > a):
             raise InputError("heyoka: some members have a kink in time where others have none; use the engine casadi")
-        systems.append(chosen(plan.system, float((a[0] + b[0]) / 2), tuple(batch.parameters[:, 0].tolist())))
+        middle, values = float((a[0] + b[0]) / 2), tuple(batch.parameters[:, 0].tolist())
+        systems.append((row, chosen(plan.system, middle, values, _known(batch))))
     return systems
 
 
 @lru_cache(maxsize=64)
-def follows(system: System) -> bool:
-    """Whether heyoka can take ``system``: kinks in the time alone, and functions that it has."""
+def follows(system: System, known: bool) -> bool:
+    """Whether heyoka can take ``system``: no kinks but those of a clipped gain at ``known`` instants."""
     try:
-        equations(chosen(system, 0.25, (0.5,) * len(system.parameters or ())))
+        equations(chosen(system, 0.25, (0.5,) * len(system.parameters or ()), known))
     except InputError:
         return False
     return True
