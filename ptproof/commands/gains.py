@@ -208,7 +208,7 @@ def _table(answer: Gains) -> None:
             if quantity is None:
                 shown, exact = "—", answer.why[f"{section}.{key}"]
             else:
-                shown, exact = "" if quantity.value is None else f"{quantity.value:.6g}", str(quantity.exact)
+                shown, exact = quantity.text, str(quantity.exact)
             exact = exact if quantity is None or len(exact) <= room else exact[: room - 1] + "…"
             click.echo(f"  {_LABELS[f'{section}.{key}']:<38}{shown:>13}  " + click.style(exact, dim=True))
 
@@ -227,6 +227,9 @@ def _summary(result: Study, worst: float | None, why: str) -> None:
     ratios = {} if worst is None else result.looseness(worst)
     for key, value in result.bounds_at_end.items():
         shown = "—" if value is None else f"≤ {value:.6g}"
+        if value is None and result.answer is not None and key != "tight":
+            found = result.answer["clip.residual_bound_printed" if key == "printed" else "clip.residual_bound"]
+            shown = "—" if found is None else f"≤ {found.text}"
         ratio = ratios.get(key)
         click.echo(f"  {names[key]:<26} {shown:<14}" + ("" if ratio is None else f"{ratio:.3g} × the worst simulated"))
     if worst is None:

@@ -178,8 +178,8 @@ class RadialEnvelope:
                     counter += 1
                 top, worst = -heap[0][0], heap[0][2]
                 if (
-                    top <= best + _TOLERANCE * max(abs(best), _SMALL * scale)
-                    or counter >= _PIECES * max(1, self.dimension - 1) ** 3
+                    top <= best + _TOLERANCE * max(1, self.dimension - 1) * max(abs(best), _SMALL * scale)
+                    or counter >= _PIECES * max(1, self.dimension - 1) ** 2
                     or worst.level >= _FINEST
                 ):
                     return top

@@ -78,6 +78,19 @@ class Quantity:
             return None
         return number if math.isfinite(number) else None
 
+    @property
+    def text(self) -> str:
+        """Six digits of the number, also where no float holds it; empty for a formula."""
+        if self.exact.free_symbols:
+            return ""
+        value = self.value
+        if value is not None:
+            return f"{value:.6g}"
+        try:
+            return str(sp.N(self.exact, 6))
+        except (OverflowError, MemoryError):
+            return "too large"
+
     def to_json(self) -> dict[str, Any]:
         """``{"exact": text, "value": float or null}``."""
         return {"exact": str(self.exact), "value": self.value}

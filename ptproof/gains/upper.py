@@ -90,9 +90,11 @@ class UpperSolution:
                 moved = self._move(push, weights, length, reach)
                 if moved is None:
                     return "a shell where the field has no finite enclosure"
+                if moved > self.limit:
+                    return f"{_GROWTH:g} times the initial distance"
                 if moved < reach:
                     self.y = moved
-                    return None if moved <= self.limit else f"{_GROWTH:g} times the initial distance"
+                    return None
                 reach = moved
             return "a bound that grows too fast for the step"
 

@@ -194,7 +194,10 @@ def test_exact_input_gives_exact_output():
 
 
 def test_a_value_that_no_float_holds_is_null_and_its_formula_stays():
-    assert Quantity(sp.exp(10**6)).to_json() == {"exact": "exp(1000000)", "value": None}
+    large = Quantity(sp.exp(10**6))
+    assert large.to_json() == {"exact": "exp(1000000)", "value": None}
+    assert large.text == "3.03322e+434294"
+    assert Quantity(sp.Symbol("tau")).text == ""
 
 
 @pytest.mark.parametrize(
