@@ -5,20 +5,17 @@ from __future__ import annotations
 import heapq
 import math
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import count
 
 from flint import arb
 
-from ptproof.certify.domain import Domain
-from ptproof.certify.quotients import Box, Function, Quotients
-from ptproof.proof.ball import BALLS, ball_from
-from ptproof.proof.jet import Bound, Side, middle, upper_bound
+from ptproof.certify.cube import Box
+from ptproof.certify.evaluator import Evaluator, Goal, Place, is_tiny, widest
+from ptproof.certify.quotients import Quotients
+from ptproof.proof.jet import middle
 from ptproof.proof.tape import Undefined
-
-BITS = 96
-TINY = 2.0**-40
 
 
 def down(ball: arb) -> float:
@@ -41,39 +38,6 @@ def _outward(ball: arb, towards: float) -> float:
 
 
 @dataclass(frozen=True)
-class Goal:
-    """What is sought: the supremum or the infimum of the value quotient or of the squared slope quotient."""
-
-    slope: bool
-    largest: bool
-
-
-@dataclass(frozen=True)
-class Place:
-    """A point of the domain in the coordinates of a box; t = 0 stands for the limit there."""
-
-    box: Box
-    point: tuple[arb, ...]
-
-    @property
-    def is_limit(self) -> bool:
-        """Whether it is the source or infinity, approached in one direction."""
-        return bool(self.point[0].is_zero())
-
-    def direction(self) -> list[float]:
-        """The direction y/‖y‖."""
-        u = [float(entry) for entry in self.box.face.cube_point(self.point[1:])]
-        size = math.sqrt(sum(entry * entry for entry in u))
-        return [entry / size for entry in u]
-
-    def offset(self) -> list[float]:
-        """y = x − x* in floating-point numbers; not for a limit at infinity."""
-        t = float(self.point[0])
-        radius = 1 / t if self.box.outer else t
-        return [radius * entry for entry in self.direction()]
-
-
-@dataclass(frozen=True)
 class Optimum:
     """The extreme value lies in [lower, upper]; ``place`` is where the best value was found.
 
@@ -86,98 +50,6 @@ class Optimum:
     finished: bool
     boxes: int
     stuck: Place | None = None
-
-
-def start_boxes(quotients: Quotients, domain: Domain) -> Iterator[Box]:
-    """Boxes that cover ``domain``, up to the symmetries of the field."""
-    radial: list[tuple[bool, Side]] = []
-    inner, one = ball_from(domain.inner), arb(1)
-    outer = None if domain.outer is None else ball_from(domain.outer)
-    if outer is not None and (quotients.is_polynomial or not outer > 1):
-        radial.append((False, (inner, outer)))
-    else:
-        if inner < 1:
-            radial.append((False, (inner, one)))
-        far = arb(0) if outer is None else 1 / outer
-        radial.append((True, (far, one if inner < 1 else 1 / inner)))
-    for face in quotients.faces:
-        sides = tuple((arb(low), arb(high)) for low, high in face.sides)
-        for chart, side in radial:
-            yield Box(face, chart, (side, *sides))
-
-
-class Evaluator:
-    """Certified bounds of ± a quotient on boxes, and certified values at points."""
-
-    def __init__(self, quotients: Quotients, goal: Goal) -> None:
-        self.quotients, self.goal = quotients, goal
-        self.sign = 1 if goal.largest else -1
-
-    def value(self, box: Box, point: Sequence[arb]) -> arb:
-        """± the quotient at a point of ``box``, or its limit where t = 0."""
-        if not point[0].is_zero():
-            function = self.quotients.direct(box.face, box.outer, self.goal.slope)
-            return self.sign * function(point, BALLS)
-        here = Box(box.face, box.outer, tuple((end, end) for end in point))
-        main = self.quotients.leading(box.face, box.outer, self.goal.slope)(point, BALLS)
-        return self.sign * (main + self.quotients.remainder(here, self.goal.slope))
-
-    def bound(self, box: Box, enough: float) -> Bound:
-        """An upper bound of ± the quotient; further forms are tried only if the first are above ``enough``."""
-        low, high = box.sides[0]
-        whole = self.quotients.is_polynomial
-        forms: list[Callable[[Box], Bound]] = []
-        if low > 0:
-            forms.append(self._joint)
-            if not (whole or self.quotients.polynomial.is_zero):
-                forms.append(self._separate)
-        if low.is_zero() or box.outer or high < 2:
-            first = low.is_zero() or (not box.outer and (whole or high > 4 * low or high < 0.1))
-            forms.insert(0 if first else len(forms), self._series)
-        best: Bound | None = None
-        for form in forms:
-            if form == self._series and best is not None and box.outer and not high > 2 * low:
-                break  # bounds on growth serve where the radius ranges over more than a factor
-            try:
-                found = form(box)
-            except Undefined:
-                continue
-            if best is None or found.upper < best.upper:
-                best = found
-            if best.upper < enough:
-                break
-        if best is None:
-            raise Undefined("no form of the quotient has a finite value there")
-        return best
-
-    def _joint(self, box: Box) -> Bound:
-        function = self.quotients.direct(box.face, box.outer, self.goal.slope)
-        return upper_bound(lambda values, arithmetic: self.sign * function(values, arithmetic), box.sides)
-
-    def _separate(self, box: Box) -> Bound:
-        function = self.quotients.direct(box.face, box.outer, self.goal.slope, rest=False)
-        return self._with_tail(function, self.quotients.direct_rest(box, self.goal.slope), box)
-
-    def _series(self, box: Box) -> Bound:
-        function = self.quotients.leading(box.face, box.outer, self.goal.slope)
-        return self._with_tail(function, self.quotients.remainder(box, self.goal.slope), box)
-
-    def _with_tail(self, function: Function, missing: arb, box: Box) -> Bound:
-        main = upper_bound(lambda values, arithmetic: self.sign * function(values, arithmetic), box.sides)
-        tail = self.sign * missing
-        if tail.is_zero():
-            return main
-        split = main.split
-        if split is None or main.value is None or tail.upper() > (main.upper - main.value).abs_upper():
-            split = _widest_relative(box)
-        return Bound((main.upper + tail).upper(), main.point, split)
-
-
-def _widest_relative(box: Box) -> int:
-    widths = [float(high - low) for low, high in box.sides]
-    if not box.sides[0][0].is_zero():
-        widths[0] /= float(box.sides[0][1])
-    return max(range(len(widths)), key=widths.__getitem__)
 
 
 class Extremum:
@@ -226,8 +98,8 @@ class Extremum:
             entry = heapq.heappop(self.heap)
             negative, _, box, split = entry
             if split is None:
-                split = _widest(box)
-            if split is None or (negative == -math.inf and _is_tiny(box)):
+                split = widest(box)
+            if split is None or (negative == -math.inf and is_tiny(box)):
                 heapq.heappush(self.heap, entry)
                 self.stuck = Place(box, tuple(middle(side) for side in box.sides))
                 return False
@@ -251,7 +123,7 @@ class Extremum:
             bound = self.evaluator.bound(box, self.accept())
             upper, split, point, known = up(bound.upper), bound.split, bound.point, bound.value
         except Undefined:
-            upper, split, known = math.inf, _widest(box), None
+            upper, split, known = math.inf, widest(box), None
             point = tuple(side[0] if side[0] is side[1] else middle(side) for side in box.sides)
         if upper <= self.best:
             self.ceiling = max(self.ceiling, upper)
@@ -266,51 +138,3 @@ class Extremum:
             self.ceiling = max(self.ceiling, upper)
         else:
             heapq.heappush(self.heap, (-upper, next(self.ticket), box, split))
-
-
-def _widest(box: Box) -> int | None:
-    widths = [float(high - low) for low, high in box.sides]
-    index = max(range(len(widths)), key=widths.__getitem__)
-    return index if widths[index] > 0 else None
-
-
-def _is_tiny(box: Box) -> bool:
-    return all(float(high - low) <= TINY * max(1.0, abs(float(high))) for low, high in box.sides)
-
-
-def positive_everywhere(
-    evaluators: Sequence[Evaluator], boxes: Sequence[Box], *, deadline: float, max_boxes: int = 50_000
-) -> Place | None:
-    """None if on each box of a cover one of the quotients is certainly positive; else where that was not shown.
-
-    The evaluators are those of smallest values; each box is tried with one after the other. Where the first one's
-    quotient is certainly not positive, the search ends at once.
-    """
-    stack = list(boxes)
-    order = list(evaluators)
-    looked = 0
-    while stack:
-        looked += 1
-        box = stack.pop()
-        splits: list[int] = []
-        hopeless = False
-        for evaluator in tuple(order):
-            try:
-                bound = evaluator.bound(box, 0.0)
-                if bound.upper < 0:
-                    # What has worked here is tried first on the next box.
-                    order.remove(evaluator)
-                    order.insert(0, evaluator)
-                    break
-                if bound.split is not None:
-                    splits.append(bound.split)
-                if evaluator is evaluators[0]:
-                    hopeless = bool(evaluator.value(box, bound.point) >= 0)
-            except Undefined:
-                continue
-        else:
-            split = splits[0] if splits else _widest(box)
-            if hopeless or split is None or _is_tiny(box) or looked > max_boxes or time.perf_counter() > deadline:
-                return Place(box, tuple(side[0] if side[0] is side[1] else middle(side) for side in box.sides))
-            stack.extend(box.split(split))
-    return None

@@ -9,71 +9,30 @@ polynomial in (t, v) divided by a power of ‖u‖, plus an enclosed remainder t
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import Any
 
 import sympy as sp
 from flint import arb
 
-from ptproof.certify.growth import GROWTHS, Exponent, Growth, Span, coordinates, power_of
-from ptproof.certify.series import Nested, Taylor, coefficient_along, taylor
+from ptproof.certify.cube import Box, Face, reduced_faces
+from ptproof.certify.growth import Growth, coordinates, power_of
+from ptproof.certify.growths import GROWTHS
+from ptproof.certify.rest import LineBound, line_bound, split_polynomial
+from ptproof.certify.series import coefficient_along
+from ptproof.certify.taylor import Nested, Taylor, taylor
 from ptproof.proof.ball import BALLS, interval
-from ptproof.proof.jet import Side
 from ptproof.proof.tape import Tape, Undefined, compile_tape
 
 EXTRA_ORDERS = {1: 9, 2: 5, 3: 3}
 """How many orders beyond the leading one the Taylor polynomial has, by dimension."""
-LARGEST_POLYNOMIAL = 300
-"""The most terms for which a polynomial field is expanded."""
 
-LINE = 16
-"""Up to where an expression in one variable is bounded piece by piece, and from where on by its growth."""
 ALIKE = 1.5
 """How far apart the coefficients of y₁^(2κ) … yₙ^(2κ) may be, as a factor, for a common part to be split off."""
 
 Function = Callable[[Sequence[Any], Any], Any]
 """A function of (coordinates, arithmetic)."""
-
-
-@dataclass(frozen=True)
-class Face:
-    """Directions: coordinate ``axis`` of u is ``sign``, the others range over ``sides``."""
-
-    axis: int
-    sign: int
-    sides: tuple[tuple[int, int], ...]
-
-    def cube_point(self, v: Sequence[Any]) -> list[Any]:
-        """The point u of the cube for the coordinates v."""
-        return [*v[: self.axis], arb(self.sign), *v[self.axis :]]
-
-
-@dataclass(frozen=True)
-class Box:
-    """A piece of the domain: ``outer`` chooses the chart, ``sides`` are those of t and of the coordinates v."""
-
-    face: Face
-    outer: bool
-    sides: tuple[Side, ...]
-
-    def balls(self) -> list[arb]:
-        """One ball per side."""
-        return [interval(*side) if side[0] is not side[1] else side[0] for side in self.sides]
-
-    def split(self, index: int) -> tuple[Box, Box]:
-        """The two halves along coordinate ``index``."""
-        low, high = self.sides[index]
-        cut = ((low + high) / 2).mid()
-        if index == 0 and low > 0 and high > 4 * low:
-            cut = (low * high).sqrt().mid()
-        first, second = (
-            Box(self.face, self.outer, (*self.sides[:index], side, *self.sides[index + 1 :]))
-            for side in ((low, cut), (cut, high))
-        )
-        return first, second
 
 
 class Quotients:
@@ -392,102 +351,3 @@ def _run_parts(parts: Sequence[Nested], values: Sequence[Any], size: Any, outer:
     t = values[0]
     radial = t * size if outer else t * _inverse(size, arithmetic)
     return [part.run([radial, *values[1:]]) for part in parts]
-
-
-@dataclass(frozen=True)
-class LineBound:
-    """An expression in one variable z lies in ``near`` + [−size, size]·|z|^degree for every real z; 0 is in near."""
-
-    index: int
-    near: arb
-    size: arb
-    degree: Exponent
-
-    def growth(self, w: Sequence[arb], reach: arb) -> Growth:
-        """The bound for z = r·w[index]."""
-        width = power_of(w[self.index].abs_upper(), self.degree) * self.size
-        constant = Growth({}, reach).lift(self.near)
-        return constant + Growth({self.degree: Span(-width, width)}, reach) if self.size > 0 else constant
-
-
-def line_bound(term: sp.Expr, offsets: Sequence[sp.Symbol]) -> LineBound | None:
-    """A bound of an expression in one variable over the whole line; None if none is found."""
-    if len(term.free_symbols) != 1:
-        return None
-    (variable,) = term.free_symbols
-    tape = compile_tape([term], [variable])
-    reach = arb(1) / LINE
-    try:
-        near = BALLS.hull([arb(0), *(tape.run([interval(k, k + 1)], BALLS)[0] for k in range(-LINE, LINE))])
-        sides = [tape.run(coordinates([arb(sign)], reach), GROWTHS)[0] for sign in (1, -1)]
-        growths = [Growth({}, reach).lift(side) for side in sides]
-        degree = max((exponent for growth in growths for exponent in growth.terms), default=0)
-        if degree <= 0:
-            near = BALLS.hull([near, *(growth.range().ball() for growth in growths)])
-            return LineBound(offsets.index(variable), near, arb(0), 0)
-        size = arb(0)
-        for growth in growths:
-            sizes = (value.ball().abs_upper() * power_of(reach, degree - e) for e, value in growth.terms.items())
-            size = size.max(sum(sizes, arb(0)).upper())
-        return LineBound(offsets.index(variable), near, size, degree)
-    except Undefined:
-        return None
-
-
-def split_polynomial(drop: sp.Expr, offsets: Sequence[sp.Symbol]) -> tuple[sp.Poly, sp.Expr]:
-    """``drop`` as an expanded polynomial plus a rest without polynomial terms at its top level."""
-    nothing = sp.Poly(0, *offsets)
-    if not _expandable(drop, len(offsets)):
-        return nothing, drop
-    expanded = sp.expand(drop, deep=False, power_exp=False, power_base=False, log=False)
-    terms: list[sp.Expr] = []
-    rest: list[sp.Expr] = []
-    for term in sp.Add.make_args(expanded):
-        (terms if term.is_polynomial(*offsets) else rest).append(term)
-    if rest:
-        # A constant stays with the rest, whose bounds at infinity it sharpens: 1 − cos is in [0, 2].
-        constants = [term for term in terms if not term.has(*offsets)]
-        terms, rest = [term for term in terms if term.has(*offsets)], [*constants, *rest]
-    polynomial = sp.Poly(sp.Add(*terms), *offsets)
-    return (polynomial, sp.Add(*rest)) if len(polynomial.terms()) <= LARGEST_POLYNOMIAL else (nothing, drop)
-
-
-def _expandable(drop: sp.Expr, n: int) -> bool:
-    """Whether multiplying out stays small, judged by the powers of sums."""
-    powers = [power for power in drop.atoms(sp.Pow) if isinstance(power.base, sp.Add) and power.exp.is_Integer]
-    return all(math.comb(int(abs(power.exp)) + n, n) <= LARGEST_POLYNOMIAL for power in powers)
-
-
-def reduced_faces(drop: sp.Expr, offsets: Sequence[sp.Symbol]) -> tuple[Face, ...]:
-    """Faces of the cube that suffice, by symmetries of ``drop`` that hold identically."""
-    n = len(offsets)
-    if n > 1 and _rotational(drop, offsets):
-        return (Face(0, 1, ((0, 0),) * (n - 1)),)
-    even = [_same(drop, drop.subs(y, -y)) for y in offsets]
-    swapped = [
-        i == 0 or _same(drop, drop.subs({offsets[0]: offsets[i], offsets[i]: offsets[0]}, simultaneous=True))
-        for i in range(n)
-    ]
-    whole = not any(even) and _same(drop, drop.subs({y: -y for y in offsets}, simultaneous=True))
-    faces = []
-    for axis in range(n):
-        if axis and swapped[axis]:
-            continue  # the swap with the first coordinate maps this face to that of the first
-        others = [i for i in range(n) if i != axis]
-        sides = tuple((0, 1) if even[i] else (-1, 1) for i in others)
-        faces.append(Face(axis, 1, sides))
-        if not even[axis] and not whole:
-            faces.append(Face(axis, -1, sides))
-    return tuple(faces)
-
-
-def _same(left: sp.Expr, right: sp.Expr) -> bool:
-    return bool(left == right) or (_expandable(left, 3) and bool(sp.expand(left - right) == 0))
-
-
-def _rotational(drop: sp.Expr, offsets: Sequence[sp.Symbol]) -> bool:
-    if not _expandable(drop, 3):
-        return False
-    first, *rest = offsets
-    turned = (first * sp.diff(drop, y) - y * sp.diff(drop, first) for y in rest)
-    return all(sp.expand(item) == 0 for item in turned)

@@ -6,25 +6,18 @@ import math
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import Any
 
 import sympy as sp
 
 from ptproof.certify.certificate import FieldCertificate, FieldWitness, Range
 from ptproof.certify.domain import Domain
-from ptproof.certify.optimum import (
-    BITS,
-    Evaluator,
-    Extremum,
-    Goal,
-    Optimum,
-    Place,
-    positive_everywhere,
-    start_boxes,
-)
-from ptproof.certify.quotients import Box, Quotients
-from ptproof.certify.witness import Prosecutor, degenerate_direction, source_order
+from ptproof.certify.evaluator import Goal, Place, start_boxes
+from ptproof.certify.optimum import Extremum, Optimum
+from ptproof.certify.quotients import Quotients
+from ptproof.certify.radius import RadiusSearch
+from ptproof.certify.source import degenerate_direction, source_order
+from ptproof.certify.witness import Prosecutor
 from ptproof.errors import InputError
 from ptproof.field import Field
 from ptproof.proof.ball import precision
@@ -37,8 +30,10 @@ GOALS = {
     "a1": Goal(slope=False, largest=True),
     "b2": Goal(slope=True, largest=True),
 }
-LARGEST_RADIUS = sp.Integer(2) ** 20
-RADIUS_RTOL = sp.Rational(1, 1000)
+BITS = 96
+"""The precision of all balls."""
+RADIUS_SHARE = 0.25
+"""What part of the time limit may go into looking for a radius that works."""
 
 Progress = Callable[[str], None]
 
@@ -134,16 +129,6 @@ class _Search:
     @property
     def deadline(self) -> float:
         return self.began + self.seconds
-
-    @cached_property
-    def evaluators(self) -> tuple[Evaluator, Evaluator, Evaluator]:
-        """Those of the smallest (y·∇V)/‖y‖^(2κ), of the smallest slope quotient and of the smallest value quotient."""
-        smallest, steepest = Goal(slope=False, largest=False), Goal(slope=True, largest=False)
-        return (
-            Evaluator(self.quotients.radial(), smallest),
-            Evaluator(self.quotients, steepest),
-            Evaluator(self.quotients, smallest),
-        )
 
     def tell(self, text: str) -> None:
         if self.progress is not None:
@@ -245,73 +230,10 @@ class _Search:
             detail = "This is at the source, so no ball around it works"
             return self.certificate(Verdict.REFUTED, witness=witness, detail=detail)
         self.tell("looking for a radius that works")
-        radius, reason = self.largest_radius(witness.distance)
-        detail = reason
-        return self.certificate(Verdict.REFUTED, witness=witness, largest_radius=radius, detail=detail)
-
-    def largest_radius(self, bad: float) -> tuple[sp.Expr | None, str]:
-        """The largest radius found for which both quotients are certainly positive, and how it was found.
-
-        On a bounded domain the other two constants are finite wherever F is smooth, and the enclosures are.
-        """
-        deadline = time.perf_counter() + 0.25 * self.seconds
-        inner = self.domain.inner
-        ceiling = LARGEST_RADIUS if math.isinf(bad) else sp.Rational(bad)
-        tried = 0
-        good: sp.Expr | None = None
-        trial = sp.Integer(1)
-        if not inner < trial < ceiling:
-            trial = _short_between(inner, ceiling if inner == 0 else min(ceiling, 2 * inner))
-        while good is None and tried < 40:
-            tried += 1
-            obstacle = self.obstacle(inner, trial, deadline)
-            if obstacle is None:
-                good = trial
-            else:
-                ceiling = min(trial, obstacle)
-                trial = _short_between(inner, ceiling)
-        if good is None:
-            return None, f"No smaller ball was certified, down to radius {float(trial):.3g}"
-        failed = not math.isinf(bad) or tried > 1
-        while not failed and good < LARGEST_RADIUS:
-            tried += 1
-            obstacle = self.obstacle(good, 2 * good, deadline)
-            if obstacle is None:
-                good = 2 * good
-            else:
-                failed, ceiling = True, min(2 * good, obstacle)
-        while failed and ceiling - good > RADIUS_RTOL * good and time.perf_counter() < deadline:
-            tried += 1
-            middle = _short_between(good, ceiling)
-            obstacle = self.obstacle(good, middle, deadline)
-            if obstacle is None:
-                good = middle
-            else:
-                ceiling = min(middle, obstacle)
-        if not failed:
-            return good, f"the largest that was tried, by {tried} doublings"
-        return good, f"the largest found by {tried} certified trials; radius {_brief(ceiling)} was not certified"
-
-    def obstacle(self, inner: sp.Expr, outer: sp.Expr, deadline: float) -> sp.Expr | None:
-        """None if both quotients are certainly positive and finite between two radii, else where that may end.
-
-        That is the distance of a witness where one is found, or ``outer``.
-        """
-        shell = Domain(inner, outer)
-        boxes: list[Box] = list(start_boxes(self.quotients, shell))
-        share = time.perf_counter() + max(0.0, deadline - time.perf_counter()) / 4
-        radial, slope, value = self.evaluators
-        for evaluators in ((slope, radial), (value,)):
-            place = positive_everywhere(evaluators, boxes, deadline=share)
-            if place is None:
-                continue
-            if not place.is_limit:
-                prosecutor = Prosecutor(self.field, self.quotients, shell)
-                witness = prosecutor.at_place(place, -math.inf, slope=True)
-                if witness is not None:
-                    return sp.Rational(witness.distance)
-            return outer
-        return None
+        deadline = time.perf_counter() + RADIUS_SHARE * self.seconds
+        search = RadiusSearch(self.field, self.quotients, self.domain.inner, deadline)
+        radius, how = search.run(witness.distance)
+        return self.certificate(Verdict.REFUTED, witness=witness, largest_radius=radius, detail=how)
 
 
 def _range(optimum: Optimum, goal: Goal) -> Range:
@@ -320,17 +242,3 @@ def _range(optimum: Optimum, goal: Goal) -> Range:
         lower = math.nextafter(math.sqrt(lower), 0.0) if lower > 0 else 0.0
         upper = math.nextafter(math.sqrt(upper), math.inf) if upper > 0 else 0.0
     return Range(lower if math.isfinite(lower) else None, upper if math.isfinite(upper) else None)
-
-
-def _short_between(low: sp.Expr, high: sp.Expr) -> sp.Rational:
-    """A fraction with a short decimal form strictly between two numbers, near their middle."""
-    middle = (low + high) / 2
-    for digits in range(1, 30):
-        value = sp.Rational(str(sp.N(middle, digits)))
-        if low < value < high and abs(value - middle) <= (high - low) / 8:
-            return value
-    return sp.Rational(middle)
-
-
-def _brief(value: sp.Expr) -> str:
-    return str(value) if len(str(value)) < 12 else f"{float(value):.6g}"

@@ -3,23 +3,25 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product
 from typing import Any
 
 import sympy as sp
-from flint import arb, arb_mat
+from flint import arb
 
 from ptproof.certify.certificate import FieldWitness
 from ptproof.certify.domain import Domain
-from ptproof.certify.growth import GROWTHS, Exponent, Growth, coordinates
-from ptproof.certify.optimum import Place
+from ptproof.certify.evaluator import Place
+from ptproof.certify.growth import Exponent, Growth, coordinates
+from ptproof.certify.growths import GROWTHS
+from ptproof.certify.newton import krawczyk, newton
 from ptproof.certify.quotients import Quotients
 from ptproof.field import Field
 from ptproof.proof.algebra import NotAlgebraic, is_zero
-from ptproof.proof.ball import BALLS, ball_from, enclose, enclosure_text, interval, separated
+from ptproof.proof.ball import BALLS, ball_from, enclose, enclosure_text, separated
 from ptproof.proof.tape import Undefined, compile_tape
 
 Vector = Sequence[sp.Rational]
@@ -210,7 +212,7 @@ class Prosecutor:
         begin = [start[i] for i in kept]
         if len(kept) < len(start):
             begin = [math.copysign(math.sqrt(sum(entry**2 for entry in start)), begin[0])]
-        found = _iterate(gradient, hessian, begin)
+        found = newton(gradient, hessian, begin)
         if found is None:
             return None
         full = [0.0] * len(start)
@@ -238,7 +240,7 @@ class Prosecutor:
     def _enclosed_critical(
         self, found: Sequence[arb], kept: Sequence[int], gradient: Any, hessian: Any
     ) -> FieldWitness | None:
-        box = _krawczyk(found, gradient, hessian)
+        box = krawczyk(found, gradient, hessian)
         if box is None:
             return None
         square = sum((BALLS.integer_power(ball, 2) for ball in box), arb(0))
@@ -271,49 +273,6 @@ def _head(output: Any, reach: arb) -> tuple[Exponent, int, bool]:
     return degree, 1 if head.low > 0 else -1 if head.high < 0 else 0, finite
 
 
-def _iterate(gradient: Any, hessian: Any, begin: Sequence[float]) -> list[arb] | None:
-    import numpy as np
-
-    n = len(begin)
-    point = np.array(begin, dtype=float)
-    try:
-        for _ in range(60):
-            balls = [arb(float(entry)) for entry in point]
-            value = np.array([float(entry.mid()) for entry in gradient.run(balls, BALLS)])
-            slope = np.array([float(entry.mid()) for entry in hessian.run(balls, BALLS)]).reshape(n, n)
-            if not (np.all(np.isfinite(value)) and np.all(np.isfinite(slope))):
-                return None
-            step = np.linalg.lstsq(slope, value, rcond=1e-12)[0]
-            point = point - step
-            if not np.all(np.isfinite(point)) or np.abs(point).max() > 1e9:
-                return None
-            if np.abs(step).max() <= 1e-13 * max(1.0, float(np.abs(point).max())):
-                return [arb(float(entry)) for entry in point]
-    except (Undefined, np.linalg.LinAlgError, ValueError, OverflowError):
-        return None
-    return None
-
-
-def _krawczyk(found: Sequence[arb], gradient: Any, hessian: Any) -> list[arb] | None:
-    """A box that certainly contains exactly one zero of the gradient, around ``found``."""
-    n = len(found)
-    for radius in ("1e-9", "1e-7", "1e-11", "1e-5"):
-        box = [arb(centre, arb(radius)) for centre in found]
-        try:
-            slope = arb_mat(n, n, hessian.run(box, BALLS))
-            middle = arb_mat(n, n, [entry.mid() for entry in hessian.run(list(found), BALLS)])
-            inverse = arb_mat(n, n, [entry.mid() for entry in middle.inv().entries()])
-            value = arb_mat(n, 1, gradient.run(list(found), BALLS))
-        except (Undefined, ZeroDivisionError):
-            continue
-        offset = arb_mat(n, 1, [ball - centre for ball, centre in zip(box, found, strict=True)])
-        identity = arb_mat(n, n, [int(i == j) for i in range(n) for j in range(n)])
-        image = arb_mat(n, 1, list(found)) - inverse * value + (identity - inverse * slope) * offset
-        if all(ball.contains_interior(new) for ball, new in zip(box, image.entries(), strict=True)):
-            return list(image.entries())
-    return None
-
-
 def _fraction(ball: arb) -> sp.Rational:
     value = ball.fmpq()
     return sp.Rational(int(value.p), int(value.q))
@@ -335,103 +294,6 @@ def _shown(value: sp.Expr) -> str:
     return f"{text} = {ball}" if len(text) < 60 else ball
 
 
-def source_order(field: Field, quotients: Quotients, prosecutor: Prosecutor) -> FieldWitness | None:
-    """Prove that F(x*) − F(x) vanishes to the order 2κ at the source, or say how it fails.
-
-    Returns None where every term of lower order vanishes and one of order 2κ does not; sets
-    ``quotients.vanishing_is_proved``. Raises :class:`Undefined` where that cannot be decided.
-    """
-    top = 2 * field.kappa
-    terms = quotients.expansion.terms
-    for order in range(1, top + 1):
-        found = {key: value for key, value in terms.items() if sum(key) == order}
-        certain = [key for key, value in found.items() if value > 0 or value < 0]
-        if order == top:
-            if certain or not all(_vanishes(quotients, key) for key in found):
-                break
-            return _too_flat(quotients, prosecutor, top)
-        if certain or not all(_vanishes(quotients, key) for key in found):
-            return _too_steep(quotients, prosecutor, order)
-    quotients.vanishing_is_proved = True
-    return None
-
-
-def _vanishes(quotients: Quotients, key: Sequence[int]) -> bool:
-    expression = quotients.drop
-    for y, times in zip(quotients.offsets, key, strict=True):
-        expression = sp.diff(expression, y, times) if times else expression
-    value = expression.subs(dict.fromkeys(quotients.offsets, 0))
-    if certainly_zero(value):
-        return True
-    if separated(value, 0) is None:
-        raise Undefined(f"cannot decide whether the derivative {tuple(key)} vanishes at the source")
-    return False
-
-
-def _leading_form(quotients: Quotients, order: int) -> Callable[[Vector], arb]:
-    terms = {key: value for key, value in quotients.expansion.terms.items() if sum(key) == order}
-
-    def form(direction: Vector) -> arb:
-        total = arb(0)
-        for key, value in terms.items():
-            factor = math.prod(entry**power for entry, power in zip(direction, key, strict=True))
-            total += value * ball_from(factor)
-        return total
-
-    return form
-
-
-def _wide_directions(n: int) -> Iterator[tuple[sp.Rational, ...]]:
-    yield from directions(n)
-    for entries in product(range(-3, 4), repeat=min(n, 4)):
-        yield tuple(map(sp.Integer, (*entries, *([0] * (n - len(entries))))))
-
-
-def _too_steep(quotients: Quotients, prosecutor: Prosecutor, order: int) -> FieldWitness | None:
-    form = _leading_form(quotients, order)
-    signs = {d: form(d) for d in _wide_directions(quotients.n)}
-    for direction, value in signs.items():
-        if value < 0 and (found := prosecutor.not_lower_on_ray(direction, outward=False)):
-            if order == 1:
-                return replace(found, statement=f"the gradient at the source is not zero: {found.statement}")
-            return found
-    for direction, value in signs.items():
-        if value > 0:
-            detail = f"the numerator vanishes only to the order {order}"
-            if order % 2 == 0:
-                detail += f", which is κ = {order // 2}"
-            return prosecutor.limit(direction, False, outward=False, limit="∞", detail=detail)
-    raise Undefined(f"the field has a term of order {order} at the source, of a sign that was not found")
-
-
-def _too_flat(quotients: Quotients, prosecutor: Prosecutor, top: int) -> FieldWitness:
-    direction = next(iter(directions(quotients.n)))
-    detail = f"the numerator vanishes to an order above {top}"
-    return prosecutor.limit(direction, False, outward=False, limit="0", detail=detail)
-
-
-def degenerate_direction(field: Field, quotients: Quotients, prosecutor: Prosecutor) -> FieldWitness | None:
-    """A direction in which the form of order 2κ is not positive, where one can be found exactly."""
-    top = 2 * field.kappa
-    form = _leading_form(quotients, top)
-    for direction in _wide_directions(quotients.n):
-        if not any(direction):
-            continue
-        value = form(direction)
-        if value < 0:
-            return prosecutor.not_lower_on_ray(direction, outward=False)
-        if value.is_zero():
-            detail = f"the terms of order {top} vanish in this direction"
-            return prosecutor.limit(direction, False, outward=False, limit="0", detail=detail)
-    if field.kappa == 1:
-        hessian = field.hessian_at_source
-        for kernel in hessian.nullspace(simplify=True):
-            if all(map(certainly_zero, hessian * kernel)):
-                detail = "the Hessian at the source is singular"
-                return prosecutor.limit(tuple(kernel), False, outward=False, limit="0", detail=detail)
-    return None
-
-
 def certainly_zero(expression: sp.Expr) -> bool:
     """Whether exact algebra shows that the expression is 0; False says only that it does not."""
     if sp.expand(expression) == 0:
@@ -440,6 +302,3 @@ def certainly_zero(expression: sp.Expr) -> bool:
         return is_zero(expression)
     except NotAlgebraic:
         return False
-
-
-__all__ = ["Prosecutor", "degenerate_direction", "directions", "interval", "source_order"]

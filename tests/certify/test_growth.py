@@ -4,7 +4,8 @@ import pytest
 import sympy as sp
 from flint import arb
 
-from ptproof.certify.growth import GROWTHS, Growth, coordinates, power_of
+from ptproof.certify.growth import Growth, coordinates, power_of
+from ptproof.certify.growths import GROWTHS
 from ptproof.proof.ball import enclose, interval
 from ptproof.proof.tape import Undefined, compile_tape
 

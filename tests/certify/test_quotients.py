@@ -4,7 +4,9 @@ import pytest
 import sympy as sp
 from flint import arb
 
-from ptproof.certify.quotients import Box, Face, Quotients, line_bound, reduced_faces, split_polynomial
+from ptproof.certify.cube import Box, Face, reduced_faces
+from ptproof.certify.quotients import Quotients
+from ptproof.certify.rest import line_bound, split_polynomial
 from ptproof.proof.ball import BALLS, enclose, interval, precision
 from ptproof.proof.jet import JETS, variables
 from ptproof.proof.tape import Undefined

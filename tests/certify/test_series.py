@@ -4,7 +4,8 @@ import pytest
 import sympy as sp
 from flint import arb
 
-from ptproof.certify.series import Nested, coefficient_along, taylor
+from ptproof.certify.series import coefficient_along
+from ptproof.certify.taylor import Nested, taylor
 from ptproof.proof.ball import enclose, interval
 from ptproof.proof.jet import JETS, variables
 from ptproof.proof.tape import Undefined, compile_tape

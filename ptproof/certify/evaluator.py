@@ -1,0 +1,156 @@
+"""Certified bounds of a quotient on boxes, and certified values at points, by whichever form is sharpest."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+
+from flint import arb
+
+from ptproof.certify.cube import Box
+from ptproof.certify.domain import Domain
+from ptproof.certify.quotients import Function, Quotients
+from ptproof.proof.ball import BALLS, ball_from
+from ptproof.proof.jet import Bound, Side, upper_bound
+from ptproof.proof.tape import Undefined
+
+TINY = 2.0**-40
+"""The relative width at which a box without an enclosure is given up."""
+
+
+@dataclass(frozen=True)
+class Goal:
+    """What is sought: the supremum or the infimum of the value quotient or of the squared slope quotient."""
+
+    slope: bool
+    largest: bool
+
+
+@dataclass(frozen=True)
+class Place:
+    """A point of the domain in the coordinates of a box; t = 0 stands for the limit there."""
+
+    box: Box
+    point: tuple[arb, ...]
+
+    @property
+    def is_limit(self) -> bool:
+        """Whether it is the source or infinity, approached in one direction."""
+        return bool(self.point[0].is_zero())
+
+    def direction(self) -> list[float]:
+        """The direction y/‖y‖."""
+        u = [float(entry) for entry in self.box.face.cube_point(self.point[1:])]
+        size = math.sqrt(sum(entry * entry for entry in u))
+        return [entry / size for entry in u]
+
+    def offset(self) -> list[float]:
+        """y = x − x* in floating-point numbers; not for a limit at infinity."""
+        t = float(self.point[0])
+        radius = 1 / t if self.box.outer else t
+        return [radius * entry for entry in self.direction()]
+
+
+def start_boxes(quotients: Quotients, domain: Domain) -> Iterator[Box]:
+    """Boxes that cover ``domain``, up to the symmetries of the field."""
+    radial: list[tuple[bool, Side]] = []
+    inner, one = ball_from(domain.inner), arb(1)
+    outer = None if domain.outer is None else ball_from(domain.outer)
+    if outer is not None and (quotients.is_polynomial or not outer > 1):
+        radial.append((False, (inner, outer)))
+    else:
+        if inner < 1:
+            radial.append((False, (inner, one)))
+        far = arb(0) if outer is None else 1 / outer
+        radial.append((True, (far, one if inner < 1 else 1 / inner)))
+    for face in quotients.faces:
+        sides = tuple((arb(low), arb(high)) for low, high in face.sides)
+        for chart, side in radial:
+            yield Box(face, chart, (side, *sides))
+
+
+class Evaluator:
+    """Certified bounds of ± a quotient on boxes, and certified values at points."""
+
+    def __init__(self, quotients: Quotients, goal: Goal) -> None:
+        self.quotients, self.goal = quotients, goal
+        self.sign = 1 if goal.largest else -1
+
+    def value(self, box: Box, point: Sequence[arb]) -> arb:
+        """± the quotient at a point of ``box``, or its limit where t = 0."""
+        if not point[0].is_zero():
+            function = self.quotients.direct(box.face, box.outer, self.goal.slope)
+            return self.sign * function(point, BALLS)
+        here = Box(box.face, box.outer, tuple((end, end) for end in point))
+        main = self.quotients.leading(box.face, box.outer, self.goal.slope)(point, BALLS)
+        return self.sign * (main + self.quotients.remainder(here, self.goal.slope))
+
+    def bound(self, box: Box, enough: float) -> Bound:
+        """An upper bound of ± the quotient; further forms are tried only if the first are above ``enough``."""
+        low, high = box.sides[0]
+        whole = self.quotients.is_polynomial
+        forms: list[Callable[[Box], Bound]] = []
+        if low > 0:
+            forms.append(self._joint)
+            if not (whole or self.quotients.polynomial.is_zero):
+                forms.append(self._separate)
+        if low.is_zero() or box.outer or high < 2:
+            first = low.is_zero() or (not box.outer and (whole or high > 4 * low or high < 0.1))
+            forms.insert(0 if first else len(forms), self._series)
+        best: Bound | None = None
+        for form in forms:
+            if form == self._series and best is not None and box.outer and not high > 2 * low:
+                break  # bounds on growth serve where the radius ranges over more than a factor
+            try:
+                found = form(box)
+            except Undefined:
+                continue
+            if best is None or found.upper < best.upper:
+                best = found
+            if best.upper < enough:
+                break
+        if best is None:
+            raise Undefined("no form of the quotient has a finite value there")
+        return best
+
+    def _joint(self, box: Box) -> Bound:
+        function = self.quotients.direct(box.face, box.outer, self.goal.slope)
+        return upper_bound(lambda values, arithmetic: self.sign * function(values, arithmetic), box.sides)
+
+    def _separate(self, box: Box) -> Bound:
+        function = self.quotients.direct(box.face, box.outer, self.goal.slope, rest=False)
+        return self._with_tail(function, self.quotients.direct_rest(box, self.goal.slope), box)
+
+    def _series(self, box: Box) -> Bound:
+        function = self.quotients.leading(box.face, box.outer, self.goal.slope)
+        return self._with_tail(function, self.quotients.remainder(box, self.goal.slope), box)
+
+    def _with_tail(self, function: Function, missing: arb, box: Box) -> Bound:
+        main = upper_bound(lambda values, arithmetic: self.sign * function(values, arithmetic), box.sides)
+        tail = self.sign * missing
+        if tail.is_zero():
+            return main
+        split = main.split
+        if split is None or main.value is None or tail.upper() > (main.upper - main.value).abs_upper():
+            split = _widest_relative(box)
+        return Bound((main.upper + tail).upper(), main.point, split)
+
+
+def _widest_relative(box: Box) -> int:
+    widths = [float(high - low) for low, high in box.sides]
+    if not box.sides[0][0].is_zero():
+        widths[0] /= float(box.sides[0][1])
+    return max(range(len(widths)), key=widths.__getitem__)
+
+
+def widest(box: Box) -> int | None:
+    """The coordinate with the widest side, None if every side is a point."""
+    widths = [float(high - low) for low, high in box.sides]
+    index = max(range(len(widths)), key=widths.__getitem__)
+    return index if widths[index] > 0 else None
+
+
+def is_tiny(box: Box) -> bool:
+    """Whether halving has become pointless."""
+    return all(float(high - low) <= TINY * max(1.0, abs(float(high))) for low, high in box.sides)

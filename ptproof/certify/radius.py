@@ -1,0 +1,158 @@
+"""The largest radius around the source for which a search can certify that positive constants exist."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import sympy as sp
+
+from ptproof.certify.cube import Box
+from ptproof.certify.domain import Domain
+from ptproof.certify.evaluator import Evaluator, Goal, Place, is_tiny, start_boxes, widest
+from ptproof.certify.quotients import Quotients
+from ptproof.certify.witness import Prosecutor
+from ptproof.field import Field
+from ptproof.proof.jet import middle
+from ptproof.proof.tape import Undefined
+
+LARGEST_RADIUS = sp.Integer(2) ** 20
+RADIUS_RTOL = sp.Rational(1, 1000)
+
+
+@dataclass(frozen=True)
+class RadiusSearch:
+    """Bisection over radii: a radius counts only when a cover shows that both quotients are positive up to it."""
+
+    field: Field
+    quotients: Quotients
+    inner: sp.Expr
+    deadline: float
+
+    @cached_property
+    def evaluators(self) -> tuple[Evaluator, Evaluator, Evaluator]:
+        """Those of the smallest (y·∇V)/‖y‖^(2κ), of the smallest slope quotient and of the smallest value quotient."""
+        smallest, steepest = Goal(slope=False, largest=False), Goal(slope=True, largest=False)
+        return (
+            Evaluator(self.quotients.radial(), smallest),
+            Evaluator(self.quotients, steepest),
+            Evaluator(self.quotients, smallest),
+        )
+
+    def run(self, bad: float) -> tuple[sp.Expr | None, str]:
+        """The largest radius found, or None, and how it was found; every ball of radius ``bad`` or more fails.
+
+        On a bounded domain the other two constants are finite wherever F is smooth, and the enclosures are.
+        """
+        inner = self.inner
+        ceiling = LARGEST_RADIUS if math.isinf(bad) else sp.Rational(bad)
+        tried = 0
+        good: sp.Expr | None = None
+        trial = sp.Integer(1)
+        if not inner < trial < ceiling:
+            trial = _short_between(inner, ceiling if inner == 0 else min(ceiling, 2 * inner))
+        while good is None and tried < 40:
+            tried += 1
+            obstacle = self.obstacle(inner, trial)
+            if obstacle is None:
+                good = trial
+            else:
+                ceiling = min(trial, obstacle)
+                trial = _short_between(inner, ceiling)
+        if good is None:
+            return None, f"No smaller ball was certified, down to radius {float(trial):.3g}"
+        failed = not math.isinf(bad) or tried > 1
+        while not failed and good < LARGEST_RADIUS:
+            tried += 1
+            obstacle = self.obstacle(good, 2 * good)
+            if obstacle is None:
+                good = 2 * good
+            else:
+                failed, ceiling = True, min(2 * good, obstacle)
+        while failed and ceiling - good > RADIUS_RTOL * good and time.perf_counter() < self.deadline:
+            tried += 1
+            middle = _short_between(good, ceiling)
+            obstacle = self.obstacle(good, middle)
+            if obstacle is None:
+                good = middle
+            else:
+                ceiling = min(middle, obstacle)
+        if not failed:
+            return good, f"the largest that was tried, by {tried} doublings"
+        return good, f"the largest found by {tried} certified trials; radius {_brief(ceiling)} was not certified"
+
+    def obstacle(self, inner: sp.Expr, outer: sp.Expr) -> sp.Expr | None:
+        """None if both quotients are certainly positive and finite between two radii, else where that may end.
+
+        That is the distance of a witness where one is found, or ``outer``.
+        """
+        shell = Domain(inner, outer)
+        boxes: list[Box] = list(start_boxes(self.quotients, shell))
+        share = time.perf_counter() + max(0.0, self.deadline - time.perf_counter()) / 4
+        radial, slope, value = self.evaluators
+        for evaluators in ((slope, radial), (value,)):
+            place = positive_everywhere(evaluators, boxes, deadline=share)
+            if place is None:
+                continue
+            if not place.is_limit:
+                prosecutor = Prosecutor(self.field, self.quotients, shell)
+                witness = prosecutor.at_place(place, -math.inf, slope=True)
+                if witness is not None:
+                    return sp.Rational(witness.distance)
+            return outer
+        return None
+
+
+def _short_between(low: sp.Expr, high: sp.Expr) -> sp.Rational:
+    """A fraction with a short decimal form strictly between two numbers, near their middle."""
+    middle = (low + high) / 2
+    for digits in range(1, 30):
+        value = sp.Rational(str(sp.N(middle, digits)))
+        if low < value < high and abs(value - middle) <= (high - low) / 8:
+            return value
+    return sp.Rational(str(sp.N(middle, 30)))
+
+
+def _brief(value: sp.Expr) -> str:
+    return str(value) if len(str(value)) < 12 else f"{float(value):.6g}"
+
+
+def positive_everywhere(
+    evaluators: Sequence[Evaluator], boxes: Sequence[Box], *, deadline: float, max_boxes: int = 50_000
+) -> Place | None:
+    """None if on each box of a cover one of the quotients is certainly positive; else where that was not shown.
+
+    The evaluators are those of smallest values; each box is tried with one after the other. Where the first one's
+    quotient is certainly not positive, the search ends at once.
+    """
+    stack = list(boxes)
+    order = list(evaluators)
+    looked = 0
+    while stack:
+        looked += 1
+        box = stack.pop()
+        splits: list[int] = []
+        hopeless = False
+        for evaluator in tuple(order):
+            try:
+                bound = evaluator.bound(box, 0.0)
+                if bound.upper < 0:
+                    # What has worked here is tried first on the next box.
+                    order.remove(evaluator)
+                    order.insert(0, evaluator)
+                    break
+                if bound.split is not None:
+                    splits.append(bound.split)
+                if evaluator is evaluators[0]:
+                    hopeless = bool(evaluator.value(box, bound.point) >= 0)
+            except Undefined:
+                continue
+        else:
+            split = splits[0] if splits else widest(box)
+            if hopeless or split is None or is_tiny(box) or looked > max_boxes or time.perf_counter() > deadline:
+                return Place(box, tuple(side[0] if side[0] is side[1] else middle(side) for side in box.sides))
+            stack.extend(box.split(split))
+    return None
