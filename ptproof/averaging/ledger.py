@@ -153,7 +153,7 @@ def _where(problem: DitherProblem) -> str:
     if problem.system.time in {s for _, entry in _places(problem) for s in entry.free_symbols}:
         parts.append("all times" if problem.start is None else f"{problem.system.time} >= {problem.start}")
     parts += [f"{symbol} in [{low}, {high}]" for symbol, (low, high) in problem.region.items()]
-    text = f" for {', '.join(parts)}" if parts else " everywhere"
+    text = f" for {', '.join(parts)}" if parts else ""
     if problem.smooth_functions:
         text += f", with {', '.join(map(str, problem.smooth_functions))} smooth as declared"
     return text

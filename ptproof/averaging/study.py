@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import sympy as sp
@@ -11,7 +11,7 @@ from sympy.core.function import AppliedUndef
 
 from ptproof.averaging.average import Pair, derive
 from ptproof.averaging.brackets import Vector
-from ptproof.averaging.coefficients import Coefficients
+from ptproof.averaging.coefficients import Coefficients, v_matrix
 from ptproof.averaging.ledger import Ledger, examine
 from ptproof.averaging.problem import DitherProblem
 from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided
@@ -34,7 +34,7 @@ class Average:
         The Lie bracket system, or None where the theorem does not cover the problem (see ``refusals``) or no
         exact average is known.
     v
-        {(j, i): v_ji} for all pairs i < j; empty where there is none.
+        {(j, i): v_ji} for all pairs i < j; empty where form, period or mean are not as they should be.
     brackets
         {(i, j): [b_i, b_j]} for the pairs with v_ji ≠ 0, at the quasi-steady state.
     ledger
@@ -117,26 +117,23 @@ def study(problem: DitherProblem | DitherSystem) -> Average:
     if isinstance(problem, DitherSystem):
         problem = DitherProblem(problem)
     ledger = examine(problem)
-    nothing = Average(problem, None, {}, {}, ledger, None)
-    refused = ledger.verdict is Verdict.REFUTED
-    unknown = any(ledger.entries[letter].verdict is Verdict.UNDECIDED for letter in ("form", "D"))
-    if problem.fast is not None and ledger.steady is None:
-        unknown = True
-    if not refused and not unknown:
-        try:
-            derived = derive(problem.reduced(ledger.steady or ()))
-        except (AveragingRefused, AveragingUndecided) as error:
-            return _without(nothing, str(error))
-        expected = None if problem.expected is None else compare(derived.system, problem.expected)
-        return Average(problem, derived.system, derived.v, derived.brackets, ledger, expected)
-    return _without(nothing, "there is no average to compare with")
+    known = all(ledger.entries[letter].verdict is Verdict.PROVED for letter in ("form", "D"))
+    solved = problem.fast is None or ledger.steady is not None
+    if ledger.verdict is Verdict.REFUTED or not (known and solved):
+        v = v_matrix(problem.system) if known else {}
+        return _without(Average(problem, None, v, {}, ledger), "there is no average to compare with")
+    try:
+        derived = derive(problem.reduced(ledger.steady or ()))
+    except (AveragingRefused, AveragingUndecided) as error:
+        return _without(Average(problem, None, {}, {}, ledger), str(error))
+    expected = None if problem.expected is None else compare(derived.system, problem.expected)
+    return Average(problem, derived.system, derived.v, derived.brackets, ledger, expected)
 
 
 def _without(average: Average, reason: str) -> Average:
     if average.problem.expected is None:
         return average
-    expected = Evidence("average", Verdict.UNDECIDED, reason)
-    return Average(average.problem, None, {}, {}, average.ledger, expected)
+    return replace(average, expected=Evidence("average", Verdict.UNDECIDED, reason))
 
 
 def compare(system: System, expected: Vector) -> Evidence:

@@ -40,6 +40,13 @@ VALUES = [
     ((s(theta) * c(2 * theta), c(theta)), 2 * sp.pi, R(1, 4)),
     ((SQUARE, QUARTER), 2 * sp.pi, -sp.pi / 4),
     ((sp.sign(s(theta)), sp.sign(c(theta))), 2 * sp.pi, -sp.pi / 4),
+    ((sp.Piecewise((1, (theta < sp.pi / 2) | (theta > 3 * sp.pi / 2)), (-1, True)), s(theta)), 2 * sp.pi, 2 / sp.pi),
+    ((sp.Piecewise((1, s(theta) > 0), (-1, True)), c(theta)), 2 * sp.pi, -2 / sp.pi),
+    (
+        (sp.Piecewise((theta * (sp.pi - theta), theta < sp.pi), (0, True)) - sp.pi**2 / 12, c(theta)),
+        2 * sp.pi,
+        -2 / sp.pi,
+    ),
     ((SQUARE, c(theta)), 2 * sp.pi, -2 / sp.pi),
     ((SQUARE, s(theta)), 2 * sp.pi, 0),
     ((SAW, c(theta)), 2 * sp.pi, 1 / sp.pi),

@@ -98,6 +98,11 @@ def test_smooth_enough_is_enough() -> None:
     assert study(seeker(measured=sp.Abs(x1) ** 3)).ledger.verdict is Verdict.PROVED
 
 
+def test_the_coefficients_are_given_where_only_the_fields_are_unsuitable() -> None:
+    assert study(seeker(sp.Abs(x1))).v == {(2, 1): sp.Rational(1, 2)}
+    assert study(replace(seeker(), period=sp.pi)).v == {}
+
+
 def test_average_raises_where_a_study_refuses() -> None:
     with pytest.raises(AveragingRefused) as caught:
         average(replace(seeker(), dithers=(c(theta), s(theta) + 1)))
