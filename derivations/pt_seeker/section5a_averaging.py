@@ -88,9 +88,14 @@ f_tau = drift_at(chain.clock.to_t)
 p0 = sp.Symbol("p0", real=True)
 
 
+def _rate_of(state: sp.Symbol) -> sp.Expr:
+    """The right-hand side of one state in the closed loop in τ."""
+    return chain.closed_loop_tau.rhs[chain.closed_loop_tau.state.index(state)]
+
+
 @claim(
     "5/step1-p-rate", "p = θ + kz turns at the constant rate ω",
-    eq(omega, chain.closed_loop_tau.derivative_along(theta + k * z)), place="Step 1", uses=[closed_loop_in_tau],
+    eq(omega, sp.Add(_rate_of(theta), k * _rate_of(z), evaluate=False)), place="Step 1", uses=[closed_loop_in_tau],
 )  # fmt: skip
 def p_rate(goal: Goal) -> Evidence:
     """The filter's rate, times k, is what the feedback takes from the heading."""
@@ -99,7 +104,7 @@ def p_rate(goal: Goal) -> Evidence:
 
 @claim(
     "5/step1-p-solution", "p(τ) = ωτ + p₀ solves its equation",
-    eq(sp.diff(omega * tau + p0, tau), chain.with_p.rhs[chain.with_p.state.index(p)]),
+    eq(sp.Derivative(omega * tau + p0, tau), chain.with_p.rhs[chain.with_p.state.index(p)]),
     place="Step 1", uses=[p_rate],
 )  # fmt: skip
 def p_solution(goal: Goal) -> Evidence:
@@ -376,9 +381,6 @@ def assumption_b_drift(goal: Goal) -> Evidence:
     return reals(goal)
 
 
-tau_1, tau_2 = sp.symbols("tau_1 tau_2", real=True)
-
-
 @claim(
     "5/assumption-c", "Assumption 1C: the dithers are bounded by 1 and don't depend on the slow time",
     every(
@@ -397,7 +399,9 @@ _s = sp.Symbol("s", real=True)
 
 @claim(
     "5/assumption-d-period", "Assumption 1D: the dithers have the period 2π",
-    every(eq(sp.cos(phase + 2 * sp.pi), sp.cos(phase)), eq(sp.sin(phase + 2 * sp.pi), sp.sin(phase))),
+    every(*(
+        eq(sp.Subs(function(_s), _s, phase + 2 * sp.pi), function(phase)) for function in (sp.cos, sp.sin)
+    )),
     place="Assumption 1D",
 )  # fmt: skip
 def assumption_d_period(goal: Goal) -> Evidence:

@@ -286,7 +286,9 @@ def exponential_bound(goal: Goal) -> Evidence:
 
 
 growth, decay = sp.exp(drift_rate * T), sp.exp(-decay_rate * elapsed)
-distance_bound = sp.sqrt(a1 / a2) * R0 * sp.exp(drift_rate / 2 * T) * sp.exp(-decay_rate / 2 * elapsed)
+distance_bound = (  # as printed
+    sp.sqrt(a1 / a2) * R0 * sp.exp(c(2, ONE) ** 2 / 2 * E_norm * T) * sp.exp(-k * c(1, ONE) ** 2 / 4 * (tau - t0))
+)
 
 
 @claim(
@@ -295,22 +297,9 @@ distance_bound = sp.sqrt(a1 / a2) * R0 * sp.exp(drift_rate / 2 * T) * sp.exp(-de
     labels=["eq:x_bar_upper_bound"], uses=[exponential_bound, v_bounds],
 )  # fmt: skip
 def distance_bound_tau(goal: Goal) -> Evidence:
-    """V is bounded by the squared distance from below at τ and from above at t₀; then the root is taken. The printed
-    exponents are written with b and a: half of c₂²‖E‖T, and a quarter of k c₁²."""
+    """V is bounded by the squared distance from below at τ and from above at t₀; then the root is taken,
+    which halves both exponents: half of c₂²‖E‖T, and a quarter of k c₁²."""
     return reals(goal)
-
-
-@claim(
-    "5/step4-distance-bound-printed-form", "The printed exponents are those",
-    every(
-        eq(drift_rate / 2 * T, c(2, ONE) ** 2 / 2 * E_norm * T),
-        eq(decay_rate / 2 * elapsed, k * c(1, ONE) ** 2 / 4 * (tau - t0)),
-    ),
-    labels=["eq:x_bar_upper_bound"],
-)  # fmt: skip
-def distance_bound_form(goal: Goal) -> Evidence:
-    """A quarter, because the root halves the rate k c₁²/2."""
-    return exact(goal)
 
 
 @claim(

@@ -1,0 +1,95 @@
+"""Section 7: what the paper says of its simulations, as observations over all initial headings.
+
+The paper leaves the initial heading and the filter's start open. Each statement is looked at for an even grid of
+headings with z₀ = F(x₀) and gets a criterion that decides whether the numbers support it. None of this is a proof, and
+nothing that is proved uses it.
+"""
+
+from __future__ import annotations
+
+import time
+from typing import TYPE_CHECKING
+
+from ptproof.proof.claim import Claim, Goal, claim, engine
+from ptproof.proof.statement import Prose
+from ptproof.proof.verdict import Evidence, Verdict
+
+if TYPE_CHECKING:
+    from ptproof.simulation.section7 import Statement
+
+SECTION = "7.4 Simulation: what is observed"
+
+
+@engine
+def simulation(goal: Goal, statement: str, *arguments: str) -> Evidence:
+    """Run the named statement of :mod:`ptproof.simulation.section7`; numbers that don't support it leave it open."""
+    from ptproof.simulation import section7
+
+    start = time.perf_counter()
+    found: Statement = getattr(section7, statement)(*arguments)
+    verdict = Verdict.OBSERVED if found.supported else Verdict.UNDECIDED
+    return Evidence("simulation", verdict, _detail(found), time.perf_counter() - start)
+
+
+def _detail(found: Statement) -> str:
+    numbers = "; ".join(f"{name} {value:.4g}" for name, value in found.data.items())
+    settings = ", ".join(f"{name} {value}" for name, value in found.settings.items())
+    words = "supported" if found.supported else "not supported"
+    remark = f" ({found.remark})" if found.remark else ""
+    return f"{words}: {found.criterion}. {numbers}. Settings: {settings}{remark}"
+
+
+def observed(
+    id: str, title: str, text: str, place: str, statement: str, *arguments: str, expected: str = "observed"
+) -> Claim:
+    """One statement about simulations."""
+
+    def prove(goal: Goal) -> Evidence:
+        return simulation(goal, statement, *arguments)
+
+    prove.__doc__ = "A numerical experiment over initial headings, repeated by `ptproof verify -k " + id + "`."
+    return claim(id, title, Prose(text), expected=expected, place=place)(prove)
+
+
+vanishing_reaches = observed(
+    "7.1/observed-reaches", "The seeker reaches a neighbourhood of the source in time T, against the vanishing drift",
+    "From every heading the distance at T is at most two hover radii, and so is the field close to its peak",
+    "Section 7.1, fig:trajectories", "reaches_source", "vanishing",
+)  # fmt: skip
+vanishing_away = observed(
+    "7.1/observed-asymptotic-away", "The asymptotic seeker moves away from the source",
+    "From every heading the distance at T is larger than at the start", "Section 7.1, fig:trajectories", "moves_away",
+)  # fmt: skip
+nonvanishing_reaches = observed(
+    "7.2/observed-reaches", "The seeker reaches a neighbourhood of the source in time T, against the bounded drift",
+    "From every heading the distance at T is at most two hover radii, and so is the field close to its peak",
+    "Section 7.2, fig:trajectories_bounded", "reaches_source", "nonvanishing",
+)  # fmt: skip
+nonvanishing_oscillates = observed(
+    "7.2/observed-asymptotic-oscillates", "The asymptotic seeker is bounded and oscillates above the source",
+    "From every heading x₂ stays positive, the field below its peak, and the distance bounded, late in the run",
+    "Section 7.2, fig:trajectories_bounded", "oscillates",
+)  # fmt: skip
+vanishing_inputs = observed(
+    "7.1/observed-inputs", "The inputs are bounded under clipping, with the vanishing drift",
+    "u₁ never exceeds √ω/ν_min², and u₂ stays finite", "Section 7.2, fig:inputs", "bounded_inputs", "vanishing",
+)  # fmt: skip
+nonvanishing_inputs = observed(
+    "7.2/observed-inputs", "The inputs are bounded under clipping, with the nonvanishing drift",
+    "u₁ never exceeds √ω/ν_min², and u₂ stays finite", "Section 7.2, fig:inputs", "bounded_inputs", "nonvanishing",
+)  # fmt: skip
+saturated_reaches = observed(
+    "7.3/observed-reaches", "With the time-varying gain the saturated seeker reaches the peak in time T",
+    "From every heading the distance falls to two hover radii before T", "Section 7.3, fig:field_sat",
+    "saturated_reaches",
+)  # fmt: skip
+three_times = observed(
+    "7.3/observed-three-times", "With the constant gain it takes about three times T",
+    "The median over the headings of the time to two hover radii lies between 2.5 T and 3.5 T",
+    "Section 7.3, fig:field_sat", "three_times_longer", expected="undecided",
+)  # fmt: skip
+effort = observed(
+    "7.3/observed-effort", "The control effort is greater with the constant gain",
+    "From every heading the integral of |sat| over [0, T] is larger with the constant gain",
+    "Section 7.3, fig:acc_sat", "acceleration_saturates",
+)  # fmt: skip
