@@ -125,9 +125,9 @@ def _from_numbers(values: dict[str, Any], picture: str | None, as_json: bool) ->
 
 
 def _from_problem(name: str, radius: Any, values: dict[str, Any], picture: str | None, as_json: bool) -> int:
-    from ptproof.gains.averaged import worst_distance
     from ptproof.gains.study import study
     from ptproof.problem import EXAMPLES, example, load
+    from ptproof.simulation.worst import worst_distance
 
     problem = example(name) if name in EXAMPLES else load(name)
     problem = _changed(problem, values)

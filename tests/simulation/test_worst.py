@@ -6,9 +6,9 @@ import math
 import pytest
 import sympy as sp
 
-from ptproof.gains.averaged import _directions, averaged_system, worst_distance
 from ptproof.problem import example
 from ptproof.simulation import simulate
+from ptproof.simulation.worst import _directions, averaged_system, worst_distance
 
 
 @pytest.mark.parametrize("n", [1, 2, 3])
