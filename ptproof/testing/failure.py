@@ -1,14 +1,15 @@
 """Failing the way an assertion fails: a message for a person, and a traceback that ends in the user's line.
 
-pytest and IPython leave out frames that hold ``__tracebackhide__``, unittest leaves out modules that hold
-``__unittest``. A plain script has no such word, so the first failure puts a hook before ``sys.excepthook`` that cuts
-the same frames off, from the exceptions raised here and from no others.
+pytest leaves out frames that hold ``__tracebackhide__``, unittest leaves out modules that hold ``__unittest``, and a
+notebook asks the exception for its traceback. A plain script has no such word, so the first failure puts a hook before
+``sys.excepthook`` that cuts the same frames off, from the exceptions raised here and from no others.
 """
 
 from __future__ import annotations
 
 import functools
 import sys
+import traceback
 from collections.abc import Callable
 from types import TracebackType
 from typing import ParamSpec
@@ -34,7 +35,7 @@ def assertion(check: Callable[Arguments, str | None]) -> Callable[Arguments, Non
             error = AssertionError(reason)
         except InputError as bad_use:
             error = bad_use.with_traceback(None)
-        setattr(error, _MARK, True)
+        error.__dict__.update({_MARK: True, "_render_traceback_": functools.partial(_render, error)})
         _install_hook()
         raise error from None
 
@@ -60,6 +61,17 @@ def _shortening(show: Hook) -> Hook:
 
     setattr(shorten, _MARK, True)
     return shorten
+
+
+def _render(error: Exception) -> list[str]:
+    """What a notebook shows: its own form of the traceback, without the frames at the end that ask to be hidden."""
+    trace = users_part(error.__traceback__)
+    notebook = sys.modules.get("IPython")
+    shell = notebook.get_ipython() if notebook is not None else None
+    if shell is None:
+        return "".join(traceback.format_exception(type(error), error, trace)).splitlines()
+    shown: list[str] = shell.InteractiveTB.structured_traceback(type(error), error, trace)
+    return shown
 
 
 def users_part(trace: TracebackType | None) -> TracebackType | None:

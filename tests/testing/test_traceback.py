@@ -4,7 +4,11 @@ import subprocess
 import sys
 
 import pytest
+import sympy as sp
 
+from ptproof.testing import assert_identity
+
+x = sp.Symbol("x", real=True)
 pytest_plugins = ["pytester"]
 FAILING = """
 import sympy as sp
@@ -54,13 +58,20 @@ def test_a_hook_of_the_users_is_kept(tmp_path):
     assert "mine: AssertionError" in script(tmp_path, hook + FAILING + "check()\n").stdout
 
 
+def test_in_a_notebook_the_last_frame_is_the_users():
+    with pytest.raises(AssertionError) as failed:
+        assert_identity(x, -x)
+    shown = failed.value._render_traceback_()
+    assert "in test_in_a_notebook" in frames("\n".join(shown))[-1]
+    assert "AssertionError: the two sides are not equal: refuted" in shown
+
+
 def test_under_pytest_the_last_entry_is_the_users(pytester):
     pytester.makepyfile(FAILING.replace("def check", "def test_it"))
     result = pytester.runpytest_inprocess("-q", "-p", "no:cacheprovider", "-p", "no:xdist")
     result.assert_outcomes(failed=1)
     text = result.stdout.str()
-    assert "test_it.py:6: AssertionError" in text or "test_under_pytest" in text
-    assert "> " in text
+    result.stdout.fnmatch_lines([">*assert_identity(x, -x)  # the user's line", "*.py:5: AssertionError"])
     assert "failure.py" not in text
     assert "E       AssertionError: the two sides are not equal: refuted" in text
 
