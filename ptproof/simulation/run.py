@@ -96,6 +96,16 @@ def simulate(
     ------
     InputError
         For bad input. A run that escapes, fails or takes too long is an outcome, not an exception.
+
+    Examples
+    --------
+    >>> from ptproof import simulate
+    >>> run = simulate("vanishing")
+    >>> str(run.outcome), round(run.final_distance, 4)
+    ('reached T', 0.1788)
+    >>> many = simulate("vanishing", ensemble=20, seed=1)
+    >>> many.counts
+    {'reached T': 20}
     """
     if isinstance(target, str):
         target = example(target)

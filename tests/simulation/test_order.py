@@ -12,7 +12,7 @@ from ptproof.problem.models import generic_dithers
 from ptproof.simulation.gallery import problem_order
 from ptproof.simulation.order import fit_order, gap_order, hover_radius
 from ptproof.simulation.run import simulate
-from ptproof.system import System, gradient
+from ptproof.system import DitherSystem, System, gradient
 
 DITHERS, AVERAGE = generic_dithers()
 X1, X2 = DITHERS.state
@@ -72,6 +72,20 @@ def test_the_sharp_comparison_needs_a_dither_system():
 
 def test_the_plain_average_does_not_pass_for_a_corrected_one():
     assert not gap_order(DITHERS, AVERAGE, expected=-1.0, **QUESTION).agrees
+
+
+def test_square_waves_have_the_order_one_half_too():
+    tau, theta, x = (sp.Symbol(name, real=True) for name in ("tau", "theta", "x"))
+    omega = sp.Symbol("omega", positive=True)
+    square = sp.Piecewise((1, theta < sp.pi), (-1, True))
+    shifted = sp.Piecewise((1, theta < sp.pi / 2), (-1, theta < 3 * sp.pi / 2), (1, True))
+    system = DitherSystem(tau, theta, omega, (x,), (0,), ((1,), (x**2 - x / 3,)), (square, shifted))
+    # v_21 = -pi/4 by hand: the mean of the shifted wave times the triangle wave that the square one integrates to.
+    right = System(tau, (x,), (-sp.pi / 4 * (2 * x - sp.Rational(1, 3)),))
+    assert gap_order(system, right, initial=[1], end=1).agrees
+    # What the first harmonics alone would give: (4/pi)^2 / 2 in the place of pi/4.
+    harmonic = System(tau, (x,), (-8 / sp.pi**2 * (2 * x - sp.Rational(1, 3)),))
+    assert not gap_order(system, harmonic, initial=[1], end=1, sharp=True).agrees
 
 
 @pytest.mark.parametrize("name", ["vanishing", "nonvanishing"])
