@@ -61,6 +61,17 @@ def test_every_block_is_run_or_says_what_came_out():
         assert kind in ("sh", "python") or before in ("sh", "python")
 
 
+@pytest.mark.parametrize("shown", ["one\n", "two\none\n", "on…\n…o\n", "a    b\n"])
+def test_what_is_shown_is_found(shown):
+    assert_shown(shown, "two\n  one\ntwo\na b\n")
+
+
+@pytest.mark.parametrize("shown", ["three\n", "one\none\n", "tw\n", "two\none\n", "…\n…\n…\n"])
+def test_what_is_shown_and_does_not_come_out_is_found_out(shown):
+    with pytest.raises(AssertionError, match="the tutorial shows"):
+        assert_shown(shown, "one\ntwo\n")
+
+
 def test_the_commands(tmp_path):
     for step in steps("sh"):
         output = ""
