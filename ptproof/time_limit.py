@@ -38,7 +38,7 @@ def within(seconds: float, work: Callable[[], Answer]) -> Answer:
         except BaseException as error:  # handed over to the thread that waits
             errors.append(error)
 
-    thread = threading.Thread(target=run, daemon=True, name="ptproof assertion")
+    thread = threading.Thread(target=run, daemon=True, name="ptproof time limit")
     thread.start()
     thread.join(min(seconds, threading.TIMEOUT_MAX))
     if answers:

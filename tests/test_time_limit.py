@@ -26,7 +26,7 @@ def test_work_without_end_is_stopped_and_does_not_go_on():
     with pytest.raises(OutOfTime):
         within(0.05, forever)
     for _ in range(1000):
-        if all(thread.name != "ptproof assertion" for thread in threading.enumerate()):
+        if all(thread.name != "ptproof time limit" for thread in threading.enumerate()):
             return
         time.sleep(0.01)
     pytest.fail("the thread still runs")
