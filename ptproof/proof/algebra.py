@@ -25,9 +25,9 @@ class NotAlgebraic(Exception):
 def prepare(expression: sp.Expr) -> sp.Expr:
     """Carry out derivatives, write tan and hyperbolic functions by sin, cos, exp, and split sums of angles."""
     expression = sp.sympify(expression)
-    if expression.has(sp.Limit):
-        # ``doit`` would ask SymPy for it, hint or no hint, and SymPy's limits are not trusted here.
-        raise NotAlgebraic("a limit, about which exact algebra knows nothing")
+    if expression.has(sp.Limit, sp.Sum, sp.Product):
+        # ``doit`` would ask SymPy for it, hint or no hint, and SymPy's answers are not trusted here.
+        raise NotAlgebraic("a limit, a sum or a product over an index, about which exact algebra knows nothing")
     expression = expression.doit(integrals=False)
     if expression.has(sp.Float):
         raise NotAlgebraic("a floating-point number; write it as a fraction or as decimal text")

@@ -13,6 +13,7 @@ from ptproof.proof.algebra import NotAlgebraic
 from ptproof.proof.ball import Undefined
 from ptproof.proof.claim import Goal, engine
 from ptproof.proof.cover import RELATIONS, holds_on_box
+from ptproof.proof.evaluation import carried_out
 from ptproof.proof.reals import follows
 from ptproof.proof.refute import check_witness
 from ptproof.proof.statement import Relation, ge, le, relations_of
@@ -73,7 +74,10 @@ def enclosures(goal: Goal, box: Box | None = None, *, seconds: float = SECONDS) 
 
 
 def _difference(part: Relation) -> sp.Expr:
-    return sp.sympify(part.left - part.right).doit()
+    value = carried_out(sp.sympify(part.left - part.right))
+    if value is None:
+        raise NotAlgebraic("an integral, a limit or a sum for which no rule gives a value")
+    return value
 
 
 def _undecided(detail: str, start: float) -> Evidence:

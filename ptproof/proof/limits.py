@@ -64,7 +64,7 @@ def limit_of(expression: sp.Expr, variable: sp.Symbol, point: sp.Expr, side: str
     >>> limit_of(s / (1 - s / T), s, T, "-"), limit_of(s / (1 + s / T), s, sp.oo, "-")
     (oo, T)
     """
-    if expression.has(sp.Limit):
+    if expression.has(sp.Limit, sp.Sum, sp.Product):
         return None  # ``doit`` would ask SymPy for the inner one
     expression = expression.doit(integrals=False)
     # One variable h that falls to 0 from above stands for every kind of approach.

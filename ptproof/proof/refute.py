@@ -18,11 +18,13 @@ from sympy.core.function import AppliedUndef
 
 from ptproof.proof.algebra import NotAlgebraic, is_zero
 from ptproof.proof.claim import Goal, admissible, engine
+from ptproof.proof.evaluation import carried_out
 from ptproof.proof.statement import (
     All,
     Assumption,
     ForAll,
     Relation,
+    differentiated,
     free_symbols,
     relations_of,
     substitute_in,
@@ -31,7 +33,8 @@ from ptproof.proof.statement import (
 from ptproof.proof.verdict import Evidence, Verdict, Witness
 
 SEARCH_SECONDS = 4.0
-_TRIES = 400
+_TRIES = 440
+_PLAIN_TRIES = 40
 
 
 @engine
@@ -99,12 +102,12 @@ def _at(relation: Relation, values: Mapping[Any, Any]) -> Relation | None:
 def _evaluated(relation: Relation) -> Relation | None:
     """Carry out derivatives, integrals and limits whose values are then plain numbers."""
     try:
-        done = relation.map(lambda side: side.doit())
+        left, right = carried_out(relation.left), carried_out(relation.right)
     except (ValueError, TypeError, NotImplementedError, ZeroDivisionError, AttributeError, RecursionError):
         return None
-    if any(side.has(sp.nan, sp.zoo, sp.oo, -sp.oo, sp.Limit) for side in (done.left, done.right)):
+    if left is None or right is None or any(side.has(sp.nan, sp.zoo, sp.oo, -sp.oo) for side in (left, right)):
         return None
-    return done
+    return Relation(left, relation.sign, right)
 
 
 def _holds(assumption: Assumption, values: Mapping[Any, Any]) -> bool:
@@ -118,7 +121,7 @@ def _holds(assumption: Assumption, values: Mapping[Any, Any]) -> bool:
             # A bound variable may carry the name of a free one: its value at the witness is not meant here.
             values = {key: value for key, value in values.items() if key not in variables}
             free = {key: value for key, value in values.items() if key not in assumption.variables}
-            there = substitute_in(relation, free).map(lambda side: side.doit())
+            there = substitute_in(relation, free).map(differentiated)
             where = [substitute_in(part, free) for part in domain]
             return follows(there, where, seconds=2.0)[0]
     return False
@@ -197,11 +200,23 @@ def _distinct(applied: set[AppliedUndef]) -> list[AppliedUndef]:
     return list(chosen.values())
 
 
+_PLAIN = (sp.S.One, sp.S.Zero, sp.Integer(2), -sp.S.One, sp.Rational(1, 2), sp.Integer(3))
+_FRACTIONS = (sp.Rational(1, 10), sp.Rational(1, 30), sp.Rational(1, 100))
+
+
 def _value(symbol: sp.Symbol, generator: random.Random, attempt: int) -> sp.Expr:
-    size = 3 if attempt < 100 else 8 if attempt < 250 else 40
+    """The plainest values first: a witness is for people. Later also small fractions, and larger numbers."""
+    if attempt < _PLAIN_TRIES:
+        first = attempt < len(_PLAIN)  # the same value for all symbols, then any mixture of them
+        choice = [value for value in _PLAIN if admissible(symbol, value)]
+        if choice:
+            return choice[attempt % len(choice)] if first else generator.choice(choice)
+    size = 3 if attempt < 140 else 8 if attempt < 270 else 40
     numerator = generator.randint(1, size * (1 if symbol.is_integer else 2))
     denominator = 1 if symbol.is_integer else generator.choice((1, 1, 2, 3))
     value = sp.Rational(numerator, denominator)
+    if not symbol.is_integer and generator.random() < 0.15:
+        value = generator.choice(_FRACTIONS)
     if symbol.is_positive:
         return value
     if symbol.is_nonnegative:

@@ -177,6 +177,7 @@ class Implication:
 
 
 _BINDERS = (sp.Derivative, sp.Integral, sp.Limit, sp.Subs, sp.Sum, sp.Product, sp.Lambda)
+_NEVER_BY_SYMPY = (sp.Integral, sp.Limit, sp.Sum, sp.Product)
 
 Statement: TypeAlias = Relation | All | Exists | Smooth | Prose
 Assumption: TypeAlias = Relation | ForAll
@@ -256,6 +257,27 @@ def undefined_functions(statements: Sequence[Statement | Assumption]) -> set[App
     return found
 
 
+def differentiated(expression: sp.Expr) -> sp.Expr:
+    """Carry out derivatives and substitutions and nothing else: SymPy's limits, sums and integrals are not trusted."""
+    masks: dict[sp.Expr, sp.Expr] = {}
+    done: dict[sp.Expr, sp.Expr] = {}
+    traversal = sp.preorder_traversal(expression)
+    for node in traversal:
+        if isinstance(node, _NEVER_BY_SYMPY):
+            inside = node.func(differentiated(node.args[0]), *node.args[1:])
+        elif isinstance(node, sp.Derivative | sp.Subs):
+            traversal.skip()  # what is inside depends on the variable of the derivative
+            if not node.has(sp.Limit, sp.Sum, sp.Product):
+                continue
+            inside = node
+        else:
+            continue
+        masks.setdefault(node, sp.Dummy("mask", real=True))
+        done[masks[node]] = inside
+        traversal.skip()
+    return expression.xreplace(masks).doit(integrals=False).xreplace(done)
+
+
 def substitute_in(relation: Relation, values: Mapping[Any, Any]) -> Relation:
     """Replace symbols and undefined functions in both sides, without carrying out limits or integrals."""
     symbols = {key: sp.sympify(value) for key, value in values.items() if isinstance(key, sp.Symbol)}
@@ -265,7 +287,7 @@ def substitute_in(relation: Relation, values: Mapping[Any, Any]) -> Relation:
         for applied, value in functions.items():
             expression = expression.replace(applied.func, sp.Lambda(applied.args, value))
         if functions:
-            expression = expression.doit(integrals=False, limits=False)
+            expression = differentiated(expression)
         if expression.has(*_BINDERS):
             return expression.subs(symbols, simultaneous=True)
         # All at once, from the leaves up: a Min or Max is then compared once, between its final arguments.

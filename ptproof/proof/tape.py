@@ -15,6 +15,8 @@ import flint
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from ptproof.proof.statement import differentiated
+
 
 class Undefined(ArithmeticError):
     """An expression has no finite real enclosure there: a singularity in reach, or a function not supported."""
@@ -221,8 +223,7 @@ def compile_tape(expressions: Sequence[sp.Expr], symbols: Sequence[sp.Symbol]) -
 
 
 def _carry_out(expression: sp.Expr) -> sp.Expr:
-    pending = expression.atoms(sp.Derivative, sp.Subs)
-    return expression.doit() if pending else expression
+    return differentiated(expression) if expression.has(sp.Derivative, sp.Subs) else expression
 
 
 class _Builder:
