@@ -10,6 +10,7 @@ import click
 if TYPE_CHECKING:
     import sympy as sp
 
+    from ptproof.field import FieldBounds
     from ptproof.gains import Gains
     from ptproof.gains.study import Study
     from ptproof.problem import Problem
@@ -75,8 +76,8 @@ def gains(problem: str | None, picture: str | None, as_json: bool, **texts: str 
     """Compute every gain condition and bound for a problem or for given constants.
 
     Numbers are exact: "1.8", "9/5" and "2*pi/3" all work. For a problem file (or the name of one of the paper's
-    examples) the constants are certified where the averaged system moves, unless all five are given, and a tight
-    bound is computed and compared with simulations of the averaged system.
+    examples) the constants are certified where the averaged system moves, unless a1, a2, b1 and b2 are given; a
+    tight bound is computed and compared with simulations of the averaged system.
 
     \b
     Example:  ptproof gains --kappa 2 --a1 3/2 --a2 1/2 --b1 1.4 --b2 3.3 --drift-norm 1.5 --k 1.8 --T 1 --V0 0.5
@@ -95,9 +96,6 @@ def gains(problem: str | None, picture: str | None, as_json: bool, **texts: str 
         if radius is not None:
             raise InputError("--radius: only a problem file has a field to certify")
         return _from_numbers(values, picture, as_json)
-    found = [name for name in _CONSTANTS if name in values]
-    if found:
-        raise InputError(f"{problem}: has its own field; leave out {', '.join('--' + name for name in found)}")
     return _from_problem(problem, radius, values, picture, as_json)
 
 
@@ -131,7 +129,7 @@ def _from_problem(name: str, radius: Any, values: dict[str, Any], picture: str |
 
     problem = example(name) if name in EXAMPLES else load(name)
     problem = _changed(problem, values)
-    result = study(problem, radius=radius, **values)
+    result = study(problem, bounds=_declared(problem, values), radius=radius, **values)
     simulated = worst_distance(problem, result.curve.initial)
     if picture is not None:
         from ptproof.gains.plot import plot_gains
@@ -147,6 +145,22 @@ def _from_problem(name: str, radius: Any, values: dict[str, Any], picture: str |
         _summary(result, simulated.worst, simulated.why)
         _say_residual(values.get("residual"), met)
     return 1 if met is False or result.answer is None else 0
+
+
+def _declared(problem: Problem, values: dict[str, Any]) -> FieldBounds | None:
+    """The constants out of the options, which then take the place of certified ones."""
+    from ptproof.errors import InputError
+    from ptproof.field import FieldBounds
+
+    kappa = values.pop("kappa", problem.kappa)
+    if kappa != problem.kappa:
+        raise InputError(f"--kappa: {problem.name} has kappa = {problem.kappa}, not {kappa}")
+    given = {name: values.pop(name) for name in _CONSTANTS if name in values}
+    if not given:
+        return None
+    if missing := [f"--{name}" for name in _CONSTANTS if name != "kappa" and name not in given]:
+        raise InputError(f"a problem's constants are certified unless all are given; missing: {', '.join(missing)}")
+    return FieldBounds(kappa, **given)
 
 
 def _changed(problem: Problem, values: dict[str, Any]) -> Problem:
@@ -172,7 +186,8 @@ def _problem_json(result: Study, worst: float | None, why: str) -> dict[str, Any
     from ptproof.gains.entries import ENTRIES
 
     if result.answer is None:
-        reason = f"the field's constants are {result.certificate.verdict}"
+        verdict = None if result.certificate is None else result.certificate.verdict
+        reason = f"the field's constants are {verdict}"
         empty: dict[str, Any] = {section: dict.fromkeys(entries) for section, entries in ENTRIES.items()}
         content = {**empty, "why": {f"{s}.{key}": reason for s, entries in ENTRIES.items() for key in entries}}
     else:
@@ -180,7 +195,7 @@ def _problem_json(result: Study, worst: float | None, why: str) -> dict[str, Any
     return {
         "problem": result.problem.name,
         **content,
-        "certificate": result.certificate.to_json(),
+        "certificate": None if result.certificate is None else result.certificate.to_json(),
         "valid": result.condition,
         "tight": {
             "distance_at_end": result.bounds_at_end["tight"],
@@ -215,8 +230,9 @@ def _table(answer: Gains) -> None:
 
 def _summary(result: Study, worst: float | None, why: str) -> None:
     certificate, curve = result.certificate, result.curve
-    click.echo(f"\nField constants: {certificate.verdict}, valid {result.condition}.")
-    if result.answer is None:
+    status = "declared" if certificate is None else str(certificate.verdict)
+    click.echo(f"\nField constants: {status}, valid {result.condition}.")
+    if result.answer is None and certificate is not None:
         click.echo(f"  {certificate.summary}")
     click.echo(f"Averaged distance at t₀ + T from a start at {float(curve.initial):.6g}, drift and clip included:")
     names = {

@@ -12,6 +12,7 @@ import sympy as sp
 
 from ptproof.certify import FieldCertificate, certify_field
 from ptproof.errors import InputError
+from ptproof.field import FieldBounds
 from ptproof.gains.answer import Gains, gains
 from ptproof.gains.data import GainData
 from ptproof.gains.numbers import sign
@@ -34,19 +35,22 @@ class Study:
     curve
         The certified bound of the averaged distance; it also says which ball is never left.
     certificate
-        The constants of the field on that ball, or on the whole space where no ball is certified.
+        The constants of the field on that ball, or on the whole space where no ball is certified; None where
+        constants were declared.
     answer
         Every condition and bound with these constants; None where there are none.
     """
 
     problem: Problem
     curve: BoundCurve
-    certificate: FieldCertificate
+    certificate: FieldCertificate | None
     answer: Gains | None
 
     @property
     def condition(self) -> str:
         """Under which condition the constants apply along the averaged system."""
+        if self.certificate is None:
+            return "where the declared constants hold"
         if self.certificate.domain.outer is None:
             return "everywhere"
         where = f"within {float(self.certificate.domain.outer):.6g} of the source"
@@ -74,13 +78,18 @@ class Study:
         return {name: None if value is None else value / worst for name, value in self.bounds_at_end.items()}
 
 
-def study(problem: Problem, *, radius: sp.Expr | None = None, rtol: float = 1e-3, **known: Any) -> Study:
+def study(
+    problem: Problem, *, bounds: FieldBounds | None = None, radius: sp.Expr | None = None, rtol: float = 1e-3,
+    **known: Any,
+) -> Study:  # fmt: skip
     """Bound the averaged distance, certify the field's constants where it moves, and answer with them.
 
     Parameters
     ----------
     problem
         Without a ν_min the curve ends at 19/20 of the prescribed time, and nothing is said of its end.
+    bounds
+        Declared constants, to be used in the place of certified ones.
     radius
         Of the ball on which the constants are certified; left out, the largest certified distance.
     rtol
@@ -103,28 +112,33 @@ def study(problem: Problem, *, radius: sp.Expr | None = None, rtol: float = 1e-3
             raise InputError(
                 f"radius must be at least {float(reach):g}, the distance that may be reached, got {radius}"
             )
+    if bounds is not None:
+        return Study(problem, curve, None, gains(gain_data(problem, bounds, radius, **known)))
     certificate = certify_field(
         problem.field, problem.variables, problem.source, problem.kappa, radius=radius, rtol=rtol
     )
     answer = None
     if certificate.verdict is Verdict.PROVED:
-        answer = gains(gain_data(problem, certificate, **known))
+        answer = gains(gain_data(problem, certificate.field_bounds(), radius, **known))
     return Study(problem, curve, certificate, answer)
 
 
-def gain_data(problem: Problem, certificate: FieldCertificate, **known: Any) -> GainData:
-    """The problem's numbers with certified constants on the safe side; ``known`` replaces any of them."""
+def gain_data(problem: Problem, bounds: FieldBounds, radius: sp.Expr | None = None, **known: Any) -> GainData:
+    """The problem's numbers with these constants; ``known`` replaces any of them.
+
+    ``radius`` is that of the ball on which a bounded drift is enclosed, None for the whole space.
+    """
     tuning, drift = problem.tuning, problem.drift
     data: dict[str, Any] = {
-        "bounds": certificate.field_bounds(), "k": tuning.k, "T": tuning.T, "nu_min": tuning.nu_min,
+        "bounds": bounds, "k": tuning.k, "T": tuning.T, "nu_min": tuning.nu_min,
         "t0": tuning.t0, "omega": tuning.omega, "mu": tuning.mu, "x0_norm": distance_from_source(problem),
     }  # fmt: skip
     if "V0" in known and "x0_norm" not in known:
         data.pop("x0_norm")
     if drift.kind == "gradient":
         data["drift_matrix"] = drift.matrix
-    elif drift.kind == "bounded":
-        data["drift_bound"] = largest_drift(problem, certificate.domain.outer)
+    elif drift.kind == "bounded" and known.get("drift_bound") is None:
+        data["drift_bound"] = largest_drift(problem, radius)
     if known.get("drift_norm") is not None:
         data.pop("drift_matrix", None)
     data |= {name: value for name, value in known.items() if value is not None}

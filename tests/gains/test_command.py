@@ -93,7 +93,8 @@ def test_a_residual_that_is_not_guaranteed_is_status_one(residual, status, word)
         ([*ONE, "--k", "x"], "--k: unknown name 'x'"),
         ([*ONE, "--k", "__import__('os')"], "--k"),
         ([*ONE, "--radius", "1"], "only a problem file"),
-        (["vanishing", *ONE], "has its own field"),
+        (["vanishing", "--a1", "2"], "missing: --a2, --b1, --b2"),
+        (["vanishing", "--kappa", "2"], "has kappa = 1"),
         (["nowhere.toml"], "nowhere.toml: cannot be read"),
     ],
 )
@@ -179,6 +180,13 @@ def test_a_field_of_order_four_in_a_file(tmp_path):
     assert content["constants"]["q"]["exact"] == "3/4"
     assert content["critical"]["V0_threshold"] is None
     assert 1 <= content["looseness"]["tight"] <= 3
+
+
+def test_declared_constants_replace_certified_ones():
+    content = answer(["saturated", "--a1", "1", "--a2", "1/4", "--b1", "1/2", "--b2", "2"])
+    assert content["certificate"] is None
+    assert content["valid"] == "where the declared constants hold"
+    assert content["constants"]["c1"]["exact"] == "1/2"
 
 
 def test_a_radius_below_the_reach_is_refused():
