@@ -28,13 +28,17 @@ Vector = Sequence[sp.Rational]
 
 
 def directions(n: int) -> Iterator[tuple[sp.Rational, ...]]:
-    """Simple directions to try: the axes first, then the diagonals (axes only from dimension 5 on)."""
+    """Directions to try: the axes, the diagonals up to dimension 4, and in the plane those of small fractions."""
     for index in range(n):
         for sign in (1, -1):
             yield tuple(sp.Integer(sign * (i == index)) for i in range(n))
     if 1 < n <= 4:
         for entries in product((-1, 0, 1), repeat=n):
             if sum(map(abs, entries)) > 1:
+                yield tuple(map(sp.Integer, entries))
+    if n == 2:
+        for entries in product(range(-4, 5), repeat=2):
+            if max(map(abs, entries)) > 1 and math.gcd(*entries) == 1:
                 yield tuple(map(sp.Integer, entries))
 
 
@@ -104,52 +108,71 @@ class Prosecutor:
 
     # Limits.
 
-    def limit(self, direction: Vector, slope: bool, *, outward: bool, limit: str, detail: str) -> FieldWitness:
-        """The witness that a quotient tends to ``limit`` ("0", "at most 0" or "∞") along a ray."""
+    def limit(
+        self, direction: Vector, slope: bool, *, outward: bool, limit: str, detail: str, start: Vector | None = None
+    ) -> FieldWitness:
+        """The witness that a quotient tends to ``limit`` ("0", "at most 0" or "∞") along the ray x* + start + r·d.
+
+        ``start`` is at right angles to the direction d; left out, it is 0.
+        """
         power = 2 * self.field.kappa - slope
         numerator = "‖∇F(x)‖" if slope else "(F(x*) − F(x))"
         quotient = f"{numerator}/‖x − x*‖^{power}".replace("^1", "") if power == 1 else f"{numerator}/‖x − x*‖^{power}"
         r = sp.Symbol("r", positive=True)
+        begin = start if start is not None else (sp.Integer(0),) * len(direction)
+        origin = "from" if not any(begin) else "beside"
         name = ("b1" if slope else "a2") if limit != "∞" else ("b2" if slope else "a1")
         where = "r → ∞" if outward else "r → 0"
         right = f"{name} > 0" if limit != "∞" else f"a finite {name}"
         return FieldWitness(
-            f"{quotient} tends to {limit} for {where} along a ray from the source ({detail})",
-            self._values([s + r * d for s, d in zip(self.field.source, direction, strict=True)]),
+            f"{quotient} tends to {limit} for {where} along a ray {origin} the source ({detail})",
+            self._values([s + c + r * d for s, c, d in zip(self.field.source, begin, direction, strict=True)]),
             f"{quotient} → {limit} for {where}",
             right,
             math.inf if outward else 0.0,
         )
 
     def at_infinity(self) -> FieldWitness | None:
-        """A ray along which a quotient tends to 0 or to infinity far from the source, found by growth."""
-        for direction in directions(self.quotients.n):
+        """A ray along which a quotient tends to 0 or to infinity far from the source, found by growth.
+
+        The rays start at the source, or beside it at right angles, for a field may behave otherwise there.
+        """
+        n = self.quotients.n
+        rays = [(direction, (sp.Integer(0),) * n) for direction in directions(n)]
+        for index in range(n):
+            ahead = tuple(sp.Integer(i == index) for i in range(n))
+            for other in range(n):
+                if other != index:
+                    beside = tuple(sp.Rational(int(i == other), 2) for i in range(n))
+                    rays += [(ahead, beside), (tuple(-entry for entry in ahead), beside)]
+        for direction, start in rays:
             for slope in (False, True):
-                if found := self._along_ray(direction, slope):
+                if found := self._along_ray(direction, start, slope):
                     return found
         return None
 
-    def _along_ray(self, direction: Vector, slope: bool) -> FieldWitness | None:
+    def _along_ray(self, direction: Vector, start: Vector, slope: bool) -> FieldWitness | None:
         top = 2 * self.field.kappa - slope
         balls = [ball_from(entry) for entry in direction]
         for k in (1, 4, 8, 16, 32):
             reach = arb(1) / 2**k
+            far = [y + ball_from(c) for y, c in zip(coordinates(balls, reach), start, strict=True)]
             try:
-                outputs = self.quotients.tape(slope).run(coordinates(balls, reach), GROWTHS)
+                outputs = self.quotients.tape(slope).run(far, GROWTHS)
             except Undefined:
                 continue
             heads = [_head(output, reach) for output in outputs]
             if all(finite and degree < top for degree, _, finite in heads):
                 degree = max(degree for degree, _, _ in heads)
                 detail = f"the numerator grows no faster than r^{degree}"
-                return self.limit(direction, slope, outward=True, limit="0", detail=detail)
+                return self.limit(direction, slope, outward=True, limit="0", detail=detail, start=start)
             for degree, sign, _ in heads:
                 if degree <= top or sign == 0:
                     continue
                 if sign < 0 and not slope:
                     return self.not_lower_on_ray(direction, outward=True)
                 detail = f"the numerator grows at least like r^{degree}"
-                return self.limit(direction, slope, outward=True, limit="∞", detail=detail)
+                return self.limit(direction, slope, outward=True, limit="∞", detail=detail, start=start)
         return None
 
     # Places that a search has come upon.

@@ -145,6 +145,10 @@ REFUTED = {
     "linear growth": ("-sqrt(1 + x1**2 + x2**2)", (0, 0), 1, {}, "tends to 0 for r → ∞", (1000, math.inf)),
     "exponential growth": ("1 - cosh(x1)", (0,), 1, {}, "tends to ∞ for r → ∞", (100, math.inf)),
     "gradient too steep far out": ("-x1**2 - x2**2 - x1*x2**2", (0, 0), 1, {}, "tends to ∞ for r → ∞", (1.7, 3**0.5)),
+    "valley in a skew direction": (
+        "-(x1 - 2*x2)**2 - x2**2/(1 + x2**2)", (0, 0), 1, {}, "tends to 0 for r → ∞", (1, math.inf)),
+    "steep only beside the axis": (
+        "-x1**2 - x2**2 - x1**2*exp(-x2**2)/4", (0, 0), 1, {}, "along a ray beside the source", (1, math.inf)),
     "second critical point, exact": ("-(x1**2 - 1)**2", (1,), 1, {"radius": R(3, 2)}, "critical", (0.99, 1)),
     "second critical point, enclosed": ("cos(x1)", (0,), 1, {"radius": 4}, "critical", (3.1, math.pi)),
     "critical circle": (
