@@ -179,7 +179,7 @@ def _residual(chain: vanishing.Chain) -> Callable[[GainData], sp.Expr]:
             if sign(data.norm) != 0:
                 raise NotApplicable("both a gradient drift and a bounded one were given; give one")
             if chain == "printed":
-                raise NotApplicable("the paper leaves the function beta of a bounded drift open")
+                return nonvanishing.printed_distance_bound(data, Horizon(T, nu_min))
             return nonvanishing.distance_bound(data, Horizon(T, nu_min), T)
         value = vanishing.distance_bound(data, Horizon(T, nu_min), T, chain)
         if value is None:

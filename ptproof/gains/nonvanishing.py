@@ -110,6 +110,21 @@ def distance_bound(data: GainData, horizon: Horizon, elapsed: sp.Expr) -> sp.Exp
     return bounds.a2 ** (-root) * final
 
 
+def printed_distance_bound(data: GainData, horizon: Horizon) -> sp.Expr:
+    """eq:finale at t₀ + T under a clipped gain, with the explicit β and the printed γ.
+
+    The second half of the stretched time begins after the corner, so that ζ is at most h₂dν_min² there.
+    """
+    bounds, (k, d, nu_min) = data.bounds, data.known("k", "drift_bound", "nu_min")
+    _without_logarithms(k, d, nu_min, horizon.T, data.start_value)
+    distance = data.x0_norm
+    if distance is None:
+        distance = (data.start_value / bounds.a2) ** (1 / (2 * bounds.kappa))
+    half, level = horizon.stretched_end / 2, input_factor(bounds) * d
+    middle = transient(bounds, k, distance, half) + input_gain_printed(bounds, k, level)
+    return transient(bounds, k, middle, half) + input_gain_printed(bounds, k, level * nu_min**2)
+
+
 def _without_logarithms(*numbers: sp.Expr) -> None:
     # In an exponent SymPy turns them into powers, of hundreds of digits where the coefficients are not simple.
     if any(number.has(sp.log) for number in numbers):

@@ -136,6 +136,8 @@ def violations(seed):
             continue
         if data.drift_bound is not None:
             bounds = [nonvanishing.distance_bound(data, horizon, e)]
+            if e == data.T:
+                bounds.append(nonvanishing.printed_distance_bound(data, horizon))
         else:
             bounds = [vanishing.distance_bound(data, horizon, e, chain) for chain in ("printed", "split")]
             if None not in bounds and bounds[1].evalf() > bounds[0].evalf() * (1 + R(1, 10**9)):

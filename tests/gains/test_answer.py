@@ -279,3 +279,9 @@ def test_a_drift_that_helps_lowers_the_bound():
 def test_constants_that_no_field_has_are_noticed(bounds, word):
     reason = GainData(bounds).impossible
     assert (reason is None) if word is None else (word in reason)
+
+
+@pytest.mark.parametrize("bounds", [ONE, TWO, THREE])
+def test_the_printed_estimate_of_a_bounded_drift_is_not_the_smaller_one(bounds):
+    answer = gains(GainData(bounds, k=R(2), T=R(1), nu_min=R(1, 4), drift_bound=R(1, 2), x0_norm=R(1)))
+    assert value(answer, "clip.residual_bound") <= value(answer, "clip.residual_bound_printed")
