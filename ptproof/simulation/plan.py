@@ -40,6 +40,8 @@ class Plan:
         The error asked for, relative and absolute, of the end result; engines work with tighter local tolerances.
     watched, center, radius
         A run has escaped when the states ``watched`` (indices) are further than ``radius`` from ``center``.
+    tightening
+        A power of ten by which relative tolerances shrink, since an angle counts absolutely however far it has turned.
     max_steps, time_limit
         A run that needs more steps, or more seconds, ends with the outcome ``step limit``.
     """
@@ -53,6 +55,7 @@ class Plan:
     radius: float
     max_steps: int = 50_000_000
     time_limit: float = 60.0
+    tightening: float = 1.0
 
     def __post_init__(self) -> None:
         if not 1e-14 <= self.rtol <= 1e-2:

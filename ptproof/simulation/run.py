@@ -11,6 +11,7 @@ import numpy as np
 
 from ptproof.errors import InputError
 from ptproof.problem import Problem, example
+from ptproof.problem import parameters as loop_parameters
 from ptproof.simulation.engines import engine_named, has_heyoka
 from ptproof.simulation.ensembles import Progress, members, run_blocks
 from ptproof.simulation.plan import Array, Batch, Outcome, Plan
@@ -132,8 +133,8 @@ def simulate(
     table: dict[str, Array] = {name: np.full(size, value) for name, value in setup.defaults.items()} | varied
     _check_values(setup, problem, varied)
     batch = Batch(setup.initial(table), completed_parameters(setup, problem, table), setup.edges(table))
-    plan = _plan(setup, batch, samples, rtol, atol, escape_radius, max_steps, time_limit)
-    chosen = engine or _default_engine(setup, batch, ensemble is not None or _turns(setup, table, batch) > _MANY_TURNS)
+    plan = _plan(setup, batch, samples, rtol, atol, escape_radius, max_steps, time_limit, table)
+    chosen = engine or _default_engine(setup, table, batch, ensemble is not None)
     solver = engine_named(chosen)
     settings: dict[str, Any] = {
         "example": problem.name if problem is not None else setup.system.name,
@@ -181,7 +182,7 @@ def _check_values(setup: Setup, problem: Problem | None, varied: Mapping[str, Ar
 
 def _plan(
     setup: Setup, batch: Batch, samples: int, rtol: float, atol: float | None, radius: float | None,
-    max_steps: int, time_limit: float,
+    max_steps: int, time_limit: float, table: Mapping[str, Array],
 ) -> Plan:  # fmt: skip
     start = batch.initial[list(setup.position)] - np.array(setup.source)[:, None]
     reach = max(1.0, float(np.max(np.linalg.norm(start, axis=0))))
@@ -195,20 +196,40 @@ def _plan(
         1e6 * reach if radius is None else as_float(radius, "escape_radius"),
         max_steps,
         as_float(time_limit, "time_limit"),
+        _tightening(setup, batch, table),
     )
 
 
-def _turns(setup: Setup, table: Mapping[str, Array], batch: Batch) -> float:
-    """How often the seeker's dither turns in a run, at most."""
-    if setup.to_tau is None or "omega" not in table:
+def _tightening(setup: Setup, batch: Batch, table: Mapping[str, Array]) -> float:
+    """A hundred radians are within the tolerances' own margin; further turns of heading and dither tighten them."""
+    if loop_parameters.omega not in (setup.system.parameters or ()):
+        return 1.0
+    radians = _radians(setup, table, batch) + float(np.max(np.abs(table.get("theta", np.zeros(1)))))
+    return 10.0 ** -max(0, int(np.ceil(np.log10(max(radians, 1.0) / 100))))
+
+
+def _radians(setup: Setup, table: Mapping[str, Array], batch: Batch) -> float:
+    """How far the dither turns in a run, for the first member, which stands for all in choices of speed."""
+    if setup.to_tau is None:
         return 0.0
     values = {name: entries[0] for name, entries in table.items()}
     first, last = setup.to_tau(batch.edges[[0, -1], 0], values)
-    return float(table["omega"][0] * (last - first) / (2 * np.pi))
+    return float(values["omega"] * (last - first))
 
 
-def _default_engine(setup: Setup, batch: Batch, many: bool) -> str:
-    if not many or not has_heyoka():
+def _default_engine(setup: Setup, table: Mapping[str, Array], batch: Batch, many: bool) -> str:
+    """heyoka where it can follow the system and its steps, bounded by the filter's μ, are worth it; else CasADi."""
+    if not has_heyoka():
+        return "casadi"
+    if setup.to_tau is not None:
+        radians = _radians(setup, table, batch)
+        turns = radians / (2 * np.pi)
+        if not many and turns < _MANY_TURNS:
+            return "casadi"
+        # An explicit method can't step over more than a few μ; CasADi's implicit one takes some hundred steps a turn.
+        if radians / (6 * table["mu"][0] * table["omega"][0]) > 300 * max(turns, 10.0):
+            return "casadi"
+    elif not many:
         return "casadi"
     from ptproof.simulation.engines.taylor import follows
 

@@ -195,6 +195,22 @@ def test_a_high_frequency_goes_to_the_fast_engine():
     assert run.outcome is Outcome.REACHED
 
 
+def test_many_turns_do_not_cost_accuracy():
+    # The heading turns by 11,000 radians; an error relative to it would be seen in the position.
+    problem = example("saturated")
+    fast = replace(problem, tuning=replace(problem.tuning, omega=2000))
+    ends = [
+        simulate(fast, frame=frame, coordinates=coordinates, engine=engine, samples=5).x[:2, -1]
+        for frame, coordinates, engine in (
+            ("t", "full", "heyoka"),
+            ("tau", "reduced", "heyoka"),
+            ("tau", "full", "casadi"),
+        )
+    ]
+    assert np.max(np.abs(ends[0] - ends[1])) < 1e-8
+    assert np.max(np.abs(ends[0] - ends[2])) < 1e-7
+
+
 def test_a_second_run_with_other_values_builds_nothing():
     from ptproof.simulation.engines import cvodes
 

@@ -46,7 +46,7 @@ def integrator(system: System, intervals: int, rtol: float, atol: float, max_ste
 
 def local_tolerances(plan: Plan) -> tuple[float, float]:
     """CVODES keeps each step's error below its tolerance; a fiftieth keeps the whole near what was asked (measured)."""
-    return max(plan.rtol / 50, 1e-14), max(plan.atol / 50, 1e-18)
+    return max(plan.rtol / 50 * plan.tightening, 1e-14), max(plan.atol / 50, 1e-18)
 
 
 @dataclass(frozen=True)

@@ -65,7 +65,7 @@ class SciPy:
         times, columns = [member.edges[0, 0]], [start]
         pieces = member.pieces()
         total = pieces[-1][1] - pieces[0][0]
-        rtol, atol = max(plan.rtol / 10, 3e-14), max(plan.atol / 10, 1e-18)
+        rtol, atol = max(plan.rtol / 10 * plan.tightening, 3e-14), max(plan.atol / 10, 1e-18)
         for a, b in pieces:
             grid = np.linspace(a, b, max(1, math.ceil(plan.samples * (b - a) / total - 1e-9)) + 1)
             try:
