@@ -33,7 +33,9 @@ def assertion(check: Callable[Arguments, str | None]) -> Callable[Arguments, Non
             if reason is None:
                 return
             error = AssertionError(reason)
-        except InputError as bad_use:
+        except (InputError, TypeError) as bad_use:
+            if isinstance(bad_use, TypeError) and not _raised_here(bad_use):
+                raise
             error = bad_use.with_traceback(None)
         error.__dict__.update({_MARK: True, "_render_traceback_": functools.partial(_render, error)})
         _install_hook()
@@ -41,6 +43,14 @@ def assertion(check: Callable[Arguments, str | None]) -> Callable[Arguments, Non
 
     assert_it.__annotations__ = {**check.__annotations__, "return": None}
     return assert_it
+
+
+def _raised_here(error: TypeError) -> bool:
+    """Whether it is about the arguments of an assertion; one from the engines below keeps its whole traceback."""
+    trace = error.__traceback__
+    while trace is not None and trace.tb_next is not None:
+        trace = trace.tb_next
+    return trace is not None and str(trace.tb_frame.f_globals.get("__name__")).startswith("ptproof.testing")
 
 
 def _install_hook() -> None:

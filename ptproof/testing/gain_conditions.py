@@ -15,7 +15,8 @@ from ptproof.testing.wording import lines
 from ptproof.time_limit import OutOfTime, within
 
 if TYPE_CHECKING:
-    from ptproof.gains import GainData
+    from ptproof.gains import GainData, Gains
+    from ptproof.problem import Problem
 
 __unittest = True
 SECONDS = 60.0
@@ -38,13 +39,14 @@ _NUMBERS = (
 
 
 @assertion
-def assert_gain_condition(data: GainData, condition: str, *, seconds: float = SECONDS) -> str | None:
+def assert_gain_condition(data: GainData | Problem, condition: str, *, seconds: float = SECONDS) -> str | None:
     """Assert a condition between the data and the quantities that follow from them, decided on exact numbers.
 
     Parameters
     ----------
     data
-        The constants of the field, the drift and the tuning.
+        The constants of the field, the drift and the tuning; or a seeking problem, whose constants are certified where
+        its average is shown to stay.
     condition
         One of <, <=, > or >= between two expressions in the numbers of ``data`` (``k``, ``T``, ``V0``, …), its
         constants (``kappa``, ``a1``, …) and the keys of :func:`ptproof.gains.gains`: ``"k > asymptotic.k_min"``,
@@ -62,9 +64,10 @@ def assert_gain_condition(data: GainData, condition: str, *, seconds: float = SE
         For a condition that cannot be read, or a name that is unknown or not given in ``data``.
     """
     from ptproof.gains import GainData
+    from ptproof.problem import Problem
 
-    if not isinstance(data, GainData):
-        raise TypeError(f"data: expected GainData, got {type(data).__name__}")
+    if not isinstance(data, GainData | Problem):
+        raise TypeError(f"data: expected GainData or a Problem, got {type(data).__name__}")
     if not isinstance(condition, str):
         raise TypeError(f"condition: expected text such as 'k > asymptotic.k_min', got {type(condition).__name__}")
     match = _RELATION.match(condition.strip())
@@ -76,11 +79,13 @@ def assert_gain_condition(data: GainData, condition: str, *, seconds: float = SE
         return f"the condition {condition} could not be decided: no answer in {seconds:g} s"
 
 
-def _decide(data: GainData, condition: str, left: str, symbol: str, right: str) -> str | None:
-    from ptproof.gains import gains
+def _decide(asked: GainData | Problem, condition: str, left: str, symbol: str, right: str) -> str | None:
     from ptproof.gains.numbers import sign
 
-    answer = gains(data)
+    answer, open_question = _answer(asked)
+    if answer is None:
+        return lines(f"the condition {condition} could not be decided: undecided", [("reason", open_question)])
+    data = answer.data
     keys: dict[str, sp.Expr] = {}
     for section, name in _KEY.findall(condition):
         try:
@@ -113,6 +118,23 @@ def _decide(data: GainData, condition: str, left: str, symbol: str, right: str) 
         (left.strip(), _shown(sides[0])), (right.strip(), _shown(sides[1])),
         ("difference", f"{_shown(gap)}  (left - right)" if gap.is_finite else ""),
     ])  # fmt: skip
+
+
+def _answer(asked: GainData | Problem) -> tuple[Gains | None, str]:
+    """All quantities; None, and why, where the constants of a problem are not certain along its average."""
+    from ptproof.gains import GainData, gains
+    from ptproof.gains.study import study
+    from ptproof.proof.verdict import Verdict
+
+    if isinstance(asked, GainData):
+        return gains(asked), ""
+    found = study(asked)
+    assert found.certificate is not None
+    if found.answer is None:
+        return None, f"the constants of the field are not certified: {found.certificate.summary}"
+    if found.certificate.domain.outer is not None and found.curve.evidence.verdict is not Verdict.PROVED:
+        return None, f"the constants of the field hold {found.condition}, which is not shown"
+    return found.answer, ""
 
 
 def _unlimited(data: GainData, key: str) -> bool:

@@ -1,11 +1,14 @@
 """assert_field_bounds and assert_gain_condition."""
 
+from dataclasses import replace
+
 import pytest
 import sympy as sp
 
 from ptproof.errors import InputError
 from ptproof.field import FieldBounds
 from ptproof.gains import GainData
+from ptproof.problem import example
 from ptproof.testing import assert_field_bounds, assert_gain_condition
 
 x1, x2 = sp.symbols("x1 x2", real=True)
@@ -109,6 +112,19 @@ def test_a_condition_that_holds(condition):
 def test_a_condition_that_does_not_hold_fails_with_both_sides(condition):
     with pytest.raises(AssertionError, match=r"does not hold: refuted"):
         assert_gain_condition(data, condition)
+
+
+def test_a_problems_own_constants_are_certified():
+    problem = example("vanishing")
+    assert_gain_condition(problem, "k > clip.k_min_after_clip")
+    with pytest.raises(AssertionError, match=r"(?s)refuted.*asymptotic.k_min:"):
+        assert_gain_condition(problem, "k > asymptotic.k_min")
+
+
+def test_a_problem_whose_field_has_no_bounds_is_undecided():
+    flat = replace(example("saturated"), field=-(x1**4) / 4 - x2**2, variables=(x1, x2))
+    with pytest.raises(AssertionError, match=r"(?s)undecided.*not certified: refuted"):
+        assert_gain_condition(flat, "k > 0")
 
 
 def test_the_message_has_the_exact_values():

@@ -44,6 +44,19 @@ def test_bad_use_in_a_plain_script_ends_there_too(tmp_path):
     assert "InputError: right: 0.5 is not exact" in done.stderr
 
 
+@pytest.mark.parametrize("call", ["assert_identity(x, None)", "assert_identity(x)", "assert_identity(x, x, foo=1)"])
+def test_so_does_a_wrong_type_or_a_wrong_number_of_arguments(tmp_path, call):
+    done = script(tmp_path, FAILING.replace("assert_identity(x, -x)", call) + "check()\n")
+    assert "in check" in frames(done.stderr)[-1]
+    assert "TypeError: " in done.stderr
+
+
+def test_an_error_in_an_engine_keeps_its_whole_traceback(tmp_path):
+    broken = "import ptproof.proof.exact\nptproof.proof.exact.exact = lambda goal: len(3)\n"
+    done = script(tmp_path, FAILING + broken + "check()\n")
+    assert "in <lambda>" in frames(done.stderr)[-1]
+
+
 def test_other_errors_keep_their_whole_traceback(tmp_path):
     caught = (
         FAILING + "try:\n    check()\nexcept AssertionError:\n    pass\ndef other():\n    raise ValueError(1)\nother()"
