@@ -11,6 +11,7 @@ from typing import TypeVar
 from ptproof.errors import InputError
 
 Answer = TypeVar("Answer")
+_STACK = 64 * 2**20
 
 
 class OutOfTime(Exception):
@@ -39,7 +40,11 @@ def within(seconds: float, work: Callable[[], Answer]) -> Answer:
             errors.append(error)
 
     thread = threading.Thread(target=run, daemon=True, name="ptproof time limit")
-    thread.start()
+    usual = threading.stack_size(_STACK)  # expressions are deep, and some systems give a thread very little
+    try:
+        thread.start()
+    finally:
+        threading.stack_size(usual)
     thread.join(min(seconds, threading.TIMEOUT_MAX))
     if answers:
         return answers[0]
