@@ -11,6 +11,7 @@ from ptproof.errors import InputError
 from ptproof.field import FieldBounds
 from ptproof.gains.numbers import NotApplicable, short, sign
 
+_LARGEST_KAPPA = 1000
 _POSITIVE = ("k", "T", "nu_min", "V0", "x0_norm", "residual", "omega", "mu")
 
 
@@ -61,6 +62,8 @@ class GainData:
     def __post_init__(self) -> None:
         if not isinstance(self.bounds.kappa, sp.Integer):
             raise InputError("kappa must be a number here; symbolic formulas are in ptproof.comparison")
+        if self.bounds.kappa > _LARGEST_KAPPA:
+            raise InputError(f"kappa must be at most {_LARGEST_KAPPA}, got {short(self.bounds.kappa)}")
         for name in (*_POSITIVE, "drift_norm", "drift_bound", "t0", "tau_star"):
             value = getattr(self, name)
             if value is None:

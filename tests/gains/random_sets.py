@@ -100,7 +100,7 @@ def distances(case, elapsed):
     k, T, nu_min = (float(value) for value in (case.data.k, case.data.T, case.data.nu_min))
 
     def rate(e, x):
-        if not np.linalg.norm(x) < 1e3:
+        if not np.linalg.norm(x) < 1e9:
             raise Escape
         g = case.gradient(x)
         return case.drift(e, x, g) + k / 2 / max(nu_min, 1 - e / T) ** 2 * g

@@ -285,3 +285,8 @@ def test_constants_that_no_field_has_are_noticed(bounds, word):
 def test_the_printed_estimate_of_a_bounded_drift_is_not_the_smaller_one(bounds):
     answer = gains(GainData(bounds, k=R(2), T=R(1), nu_min=R(1, 4), drift_bound=R(1, 2), x0_norm=R(1)))
     assert value(answer, "clip.residual_bound") <= value(answer, "clip.residual_bound_printed")
+
+
+def test_an_order_beyond_reason_is_refused():
+    with pytest.raises(InputError, match="at most 1000"):
+        GainData(FieldBounds(100_000, 2, 1, 1, 2))
