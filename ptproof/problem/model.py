@@ -161,6 +161,20 @@ class Problem:
         for where, point in (("field.source", source), ("initial.x", self.initial.x)):
             number_at(self.field, self.variables, point, f"field.expression at {where}")
 
+    def __hash__(self) -> int:
+        return self._hash
+
+    @cached_property
+    def _hash(self) -> int:
+        # Problems are looked up several times in each run; hashing their expressions anew would cost more than a run.
+        return hash(
+            (self.variables, self.field, self.source, self.kappa, self.drift, self.tuning, self.initial, self.name)
+        )
+
+    def __getstate__(self) -> dict[str, Any]:
+        # The hash of a name differs from process to process.
+        return {key: value for key, value in self.__dict__.items() if key != "_hash"}
+
     @cached_property
     def measured(self) -> sp.Expr:
         """z₀: the given filter state, or the field at the initial position."""

@@ -33,6 +33,7 @@ from ptproof.simulation.trajectory import Ensemble, Trajectory
 
 ACCURACY = 1e-6
 _LADDER = (1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 3e-6, 1e-6, 3e-7, 1e-7, 3e-8, 1e-8, 1e-9, 1e-10)
+_ROUNDS = 6
 _OPTIONS: Any = {"frame": "tau", "coordinates": "reduced"}
 
 
@@ -160,17 +161,26 @@ def one_trajectory(problem: Problem, truth: Array) -> list[Row]:
     }
     if has_heyoka():
         codes["heyoka"] = lambda rtol: _run(problem, engine="heyoka", rtol=rtol).x[:2, -1]
-    rows = []
+    met: dict[str, tuple[float, float]] = {}
     for code, work in codes.items():
         for rtol in _LADDER:
             error = float(np.max(np.abs(work(rtol) - truth)))
             if error <= ACCURACY:
                 break
-        seconds = best(partial(work, rtol), 40)
-        rows.append(Row("one trajectory", code, seconds, error, rtol))
-        if code in ("casadi", "heyoka"):
-            inside = min(_run(problem, engine=code, rtol=rtol).seconds for _ in range(40))
-            rows.append(Row("one trajectory", f"{code}, integration alone", inside, error, rtol))
+        met[code] = (rtol, error)
+    # In turns, so that a busy moment of the machine does not fall on one code alone; the best of all counts.
+    whole, inside = dict.fromkeys(codes, np.inf), dict.fromkeys(codes, np.inf)
+    for _ in range(_ROUNDS):
+        for code, work in codes.items():
+            rtol = met[code][0]
+            whole[code] = min(whole[code], best(partial(work, rtol), 10, 0.2))
+            if code in ("casadi", "heyoka"):
+                inside[code] = min(inside[code], *(_run(problem, engine=code, rtol=rtol).seconds for _ in range(5)))
+    rows = []
+    for code, (rtol, error) in met.items():
+        rows.append(Row("one trajectory", code, whole[code], error, rtol))
+        if np.isfinite(inside[code]):
+            rows.append(Row("one trajectory", f"{code}, integration alone", inside[code], error, rtol))
     return rows
 
 
