@@ -12,7 +12,7 @@ from ptproof.proof.lemmas import exp_monotone, power_monotone, power_positive
 from ptproof.proof.limits import limits
 from ptproof.proof.quantified import specialise
 from ptproof.proof.reals import reals
-from ptproof.proof.statement import ForAll, Prose, eq, every, ge, le, lt
+from ptproof.proof.statement import ForAll, Prose, eq, every, ge, gt, le, lt
 from ptproof.proof.verdict import Evidence
 
 from . import chain
@@ -46,6 +46,7 @@ from .section2_preliminaries import boundary_layer as general_boundary_layer
 from .section3_problem import spectral_norm
 from .section4_design import closed_loop_in_t
 from .section5a_averaging import assumption_1, averaged_system, boundary_layer, f_tau, qualitative, stretch
+from .section5a_bounds import assumption_a_drift, assumption_b_drift_derivatives
 
 SECTION = "5.2 Theorem, Steps 4 to 6: stability"
 ONE = sp.S.One
@@ -269,6 +270,19 @@ def drift_integral(goal: Goal) -> Evidence:
     return integrals(goal)
 
 
+lag = sp.Symbol("tau_hat", nonnegative=True)  # τ − t₀
+
+
+@claim(
+    "5/step4-lemma-hypotheses", "What the cited comparison lemma asks of its data",
+    every(ge(drift_rate / (1 + lag / T) ** 2, 0), gt(decay_rate, 0)), place="Step 4, case ii",
+)  # fmt: skip
+def lemma_hypotheses(goal: Goal) -> Evidence:
+    """c = k c₁²/2 > 0, l₁ ≥ 0 and l₂ = 0; that l₁ is integrable is the claim before. The bound itself is proved below
+    without the lemma."""
+    return reals(goal)
+
+
 exponent = drift_rate * (s - t0) / (1 + (s - t0) / T) - decay_rate * (s - t0)
 
 
@@ -367,7 +381,10 @@ step_five = claim(
     Prose("By Theorem 1 the source is singularly semi-globally practically uniformly asymptotically stable for the "
           "closed loop in τ, in both cases of Theorem 2"),
     expected="cited", place="Step 5",
-    uses=[averaging_theorem, *assumption_1, layer_bounds, lyapunov_theorem, guas, qualitative],
+    uses=[
+        averaging_theorem, *assumption_1, assumption_a_drift, assumption_b_drift_derivatives, layer_bounds,
+        lyapunov_theorem, guas, qualitative,
+    ],
 )(cited("the paper's Theorem 1, whose hypotheses are the claims listed"))  # fmt: skip
 
 main_theorem = claim(
