@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import sympy as sp
 
-from ptproof.clock_algebra import is_positive, limit_at_infinity, settle, shown_zero
+from ptproof.clock_algebra import factored, is_positive, limit_at_infinity, settle, shown_zero
 from ptproof.errors import InputError
 from ptproof.proof.algebra import is_zero
 from ptproof.system import System
@@ -130,12 +130,12 @@ class Clock:
     @property
     def rate(self) -> sp.Expr:
         """dτ/dt as an expression in t."""
-        return sp.factor(sp.diff(self.to_tau, self.t))
+        return factored(sp.diff(self.to_tau, self.t))
 
     @property
     def rate_back(self) -> sp.Expr:
         """dt/dτ as an expression in τ."""
-        return sp.factor(sp.diff(self.to_t, self.tau))
+        return factored(sp.diff(self.to_t, self.tau))
 
     @property
     def rate_at_tau(self) -> sp.Expr:
@@ -168,7 +168,7 @@ def _tidy(entry: sp.Expr, rate: sp.Expr) -> sp.Expr:
     """``rate`` times ``entry``, term by term, with rational factors cancelled and arguments in factored form."""
     entry = entry.replace(
         lambda node: isinstance(node, sp.core.function.AppliedUndef),
-        lambda node: node.func(*(sp.factor(sp.cancel(argument)) for argument in node.args)),
+        lambda node: node.func(*(factored(sp.cancel(argument)) for argument in node.args)),
     )
     return sp.Add(*(_cancel_factors(rate * term) for term in sp.Add.make_args(entry)))
 
@@ -178,7 +178,7 @@ def _cancel_factors(term: sp.Expr) -> sp.Expr:
     rest: list[sp.Expr] = []
     for factor in sp.Mul.make_args(term):
         (rational if factor.is_rational_function() and not factor.is_Add else rest).append(factor)
-    return sp.factor(sp.cancel(sp.Mul(*rational))) * sp.Mul(*rest)
+    return factored(sp.cancel(sp.Mul(*rational))) * sp.Mul(*rest)
 
 
 def prescribed_time_clock(

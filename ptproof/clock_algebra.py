@@ -10,6 +10,13 @@ from ptproof.proof.reals import follows
 from ptproof.proof.statement import gt
 
 
+def factored(expression: sp.Expr) -> sp.Expr:
+    """``sp.factor`` with the same signs in every run: left alone, it takes the symbols in the order of their hashes."""
+    if not expression.is_rational_function():
+        return sp.factor(expression)
+    return sp.factor(expression, *sorted(expression.free_symbols, key=lambda symbol: symbol.name))
+
+
 def settle(expression: sp.Expr) -> sp.Expr:
     """Let logarithm, exponential and arctan(tan) undo each other where the signs of the symbols allow it."""
 
