@@ -78,7 +78,9 @@ def as_data(result: Trajectory | Ensemble, name: str) -> dict[str, Any]:
     settings = result.settings
     data: dict[str, Any] = {"example": name, "seeker": settings["seeker"], "frame": settings["frame"]}
     data["engine"] = settings["engine"]
-    if hasattr(result, "outcomes"):
+    from ptproof.simulation.trajectory import Ensemble
+
+    if isinstance(result, Ensemble):
         distance = {key: _finite(getattr(result, key)) for key in ("median", "q95", "max")}
         return data | {
             "N": result.size, "seed": settings["seed"], "outcomes": dict(result.counts), "distance": distance,

@@ -10,14 +10,12 @@ from __future__ import annotations
 import itertools
 import json
 import os
-import platform
 import sys
 import time as clock
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
-from importlib.metadata import version
 from typing import Any
 
 import numpy as np
@@ -26,6 +24,7 @@ from ptproof.problem import Problem, example
 from ptproof.simulation.engines import has_heyoka
 from ptproof.simulation.engines.peers import lambdified
 from ptproof.simulation.ensembles import headings
+from ptproof.simulation.measuring import Row, best, machine, table
 from ptproof.simulation.plan import Array
 from ptproof.simulation.run import simulate
 from ptproof.simulation.setup import completed_parameters, from_problem
@@ -37,67 +36,27 @@ _ROUNDS = 6
 _OPTIONS: Any = {"frame": "tau", "coordinates": "reduced"}
 
 
-@dataclass(frozen=True)
-class Row:
-    """One measurement: seconds per trajectory, the error against the reference, and the tolerance that gave it."""
-
-    item: str
-    code: str
-    seconds: float
-    error: float | None = None
-    rtol: float | None = None
-    note: str = ""
-
-
 def run(members: int = 10_000) -> dict[str, Any]:
     """All items, as JSON-ready data with a description of the machine."""
     problem = example("vanishing")
     truth = _truth(problem)
     rows = [*building(problem), *one_trajectory(problem, truth), *many(problem, members), *growth(problem)]
-    table = {(row.item, row.code): row for row in rows}
+    found = {(row.item, row.code): row for row in rows}
     ratios = {}
     for code in ("casadi", "casadi, integration alone", "heyoka", "heyoka, integration alone"):
         for name in ("lsoda", "radau"):
-            if ("one trajectory", code) in table:
-                slow, fast = (table["one trajectory", which].seconds for which in (name, code))
+            if ("one trajectory", code) in found:
+                slow, fast = (found["one trajectory", which].seconds for which in (name, code))
                 ratios[f"{name} over {code}"] = slow / fast
     if has_heyoka():
-        each, hand = table["many", "ptproof"].seconds, table["many", "heyoka by hand"].seconds
-        ratios["loop of lsoda over ensemble, a trajectory"] = table["many", "lsoda loop"].seconds / each
-        ratios["loop of radau over ensemble, a trajectory"] = table["many", "radau loop"].seconds / each
+        each, hand = found["many", "ptproof"].seconds, found["many", "heyoka by hand"].seconds
+        ratios["loop of lsoda over ensemble, a trajectory"] = found["many", "lsoda loop"].seconds / each
+        ratios["loop of radau over ensemble, a trajectory"] = found["many", "radau loop"].seconds / each
         ratios["ensemble over heyoka by hand"] = each / hand
     return {
         "machine": machine(), "accuracy": ACCURACY, "members": members,
         "rows": [vars(row) for row in rows], "ratios": ratios,
     }  # fmt: skip
-
-
-def machine() -> dict[str, Any]:
-    """What the numbers were measured on."""
-    names = ("casadi", "heyoka", "scipy", "numpy", "sympy")
-    found = {name: version(name) for name in names if name != "heyoka" or has_heyoka()}
-    return {
-        "processor": _processor(), "cores": os.cpu_count(), "system": platform.system(),
-        "python": platform.python_version(), **found,
-    }  # fmt: skip
-
-
-def _processor() -> str:
-    try:
-        with open("/proc/cpuinfo", encoding="utf-8") as file:
-            return next(line.split(":", 1)[1].strip() for line in file if line.startswith("model name"))
-    except (OSError, StopIteration):
-        return platform.processor() or platform.machine()
-
-
-def best(work: Callable[[], Any], repeats: int = 5, budget: float = 3.0) -> float:
-    """The shortest of several runs, in seconds; no more of them than fit into ``budget`` seconds."""
-    times: list[float] = []
-    while len(times) < repeats and sum(times) < budget:
-        begin = clock.perf_counter()
-        work()
-        times.append(clock.perf_counter() - begin)
-    return min(times)
 
 
 def _run(problem: Problem, **options: Any) -> Trajectory:
@@ -280,18 +239,6 @@ def growth(problem: Problem) -> list[Row]:
             work = partial(_run, ideal, nu_end=nu, frame=frame)
             rows.append(Row("growth with 1/nu", f"1/nu = {1 / nu:.3g}, in {frame}", best(work, 2)))
     return rows
-
-
-def table(data: dict[str, Any]) -> str:
-    """The numbers as a Markdown table with the machine below it."""
-    lines = ["| item | code | seconds | error | rtol | note |", "| --- | --- | --- | --- | --- | --- |"]
-    for row in data["rows"]:
-        error, rtol = ("" if row[key] is None else f"{row[key]:.1e}" for key in ("error", "rtol"))
-        lines.append(f"| {row['item']} | {row['code']} | {row['seconds']:.3g} | {error} | {rtol} | {row['note']} |")
-    lines += ["", "| ratio | value |", "| --- | --- |"]
-    lines += [f"| {name} | {value:.3g} |" for name, value in data["ratios"].items()]
-    lines += ["", "; ".join(f"{name} {value}" for name, value in data["machine"].items())]
-    return "\n".join(lines)
 
 
 def main(arguments: list[str]) -> None:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ptproof.problem import Problem
-from ptproof.simulation.setup import field_function
+from ptproof.simulation.quantities import field_function
 
 if TYPE_CHECKING:
     from ptproof.simulation.order import GapOrder

@@ -237,7 +237,7 @@ def _start(problem: Problem) -> float:
 
 
 def _fields(problem: Problem, ends: Ensemble) -> Array:
-    from ptproof.simulation.setup import field_function
+    from ptproof.simulation.quantities import field_function
 
     return field_function(problem)(ends.x[:2])
 
