@@ -13,6 +13,7 @@ from ptproof.problem.model import TIME
 from ptproof.system import System, gradient
 
 _RTOL = 1e-11  # where a bound is attained exactly, a coarser run would seem to violate it
+_ATOL = 1e-18
 
 
 @dataclass(frozen=True)
@@ -55,10 +56,10 @@ def worst_distance(problem: Problem, distance: sp.Expr, *, starts: int = 64, dra
     for direction in _directions(n, starts):
         start = dict(zip(names, source + float(distance) * np.array(direction), strict=True))
         if n == 2:  # the average that averaging itself derives
-            run = simulate(problem, model="average", initial=start, samples=100, rtol=_RTOL)
+            run = simulate(problem, model="average", initial=start, samples=100, rtol=_RTOL, atol=_ATOL)
         else:
             span = (tuning.t0, tuning.t0 + tuning.T)
-            run = simulate(averaged_system(problem), initial=start, span=span, samples=100, rtol=_RTOL)
+            run = simulate(averaged_system(problem), initial=start, span=span, samples=100, rtol=_RTOL, atol=_ATOL)
         assert isinstance(run, Trajectory)
         if run.outcome is not Outcome.REACHED:
             return Simulated(None, (), f"a run of the average ended early: {run.outcome}")
