@@ -30,6 +30,12 @@ if TYPE_CHECKING:
 @click.option("--rtol", type=float, default=1e-8, show_default=True, help="The error asked for.")
 @click.option("--until", metavar="TIME", help="Another end than the prescribed time.")
 @click.option("--ensemble", type=click.IntRange(1, 10_000_000), metavar="N", help="N members with random headings.")
+@click.option(
+    "--vary",
+    multiple=True,
+    metavar="NAME=LOW:HIGH",
+    help="What differs in an ensemble instead of theta; may be repeated.",
+)
 @click.option("--seed", type=click.IntRange(0), default=0, show_default=True)
 @click.option("--workers", type=click.IntRange(1, 1024), default=1, show_default=True, help="Threads for an ensemble.")
 @click.option("--time-limit", type=float, default=60.0, show_default=True, help="Seconds for each run.")
@@ -37,7 +43,8 @@ if TYPE_CHECKING:
 @click.option("--json", "as_json", is_flag=True, help="Print JSON on standard output, and nothing else there.")
 def simulate(
     problem: str, seeker: str | None, frame: str, engine: str | None, model: str, rtol: float, until: str | None,
-    ensemble: int | None, seed: int, workers: int, time_limit: float, plot: str | None, as_json: bool,
+    ensemble: int | None, vary: tuple[str, ...], seed: int, workers: int, time_limit: float, plot: str | None,
+    as_json: bool,
 ) -> None:  # fmt: skip
     """Integrate a seeker to its prescribed time.
 
@@ -54,7 +61,7 @@ def simulate(
             seeker = "saturated" if target.name == "saturated" and target.saturation is not None else "pt"
         options: dict[str, Any] = {
             "model": model, "rtol": rtol, "engine": engine, "until": until, "seed": seed, "workers": workers,
-            "time_limit": time_limit, "ensemble": ensemble,
+            "time_limit": time_limit, "ensemble": ensemble, "vary": _ranges(vary),
         }  # fmt: skip
         result: Trajectory | Ensemble
         if ensemble is None:
@@ -118,6 +125,17 @@ def _target(name: str) -> Problem:
     if name in EXAMPLES or not (name.endswith(".toml") or Path(name).exists()):
         return example(name)
     return load(name)
+
+
+def _ranges(texts: tuple[str, ...]) -> dict[str, tuple[str, str]] | None:
+    ranges = {}
+    for text in texts:
+        name, found, interval = text.partition("=")
+        low, colon, high = interval.partition(":")
+        if not (name and found and colon and low and high):
+            raise InputError(f"--vary: expected NAME=LOW:HIGH, such as k=1:2, got {text!r}")
+        ranges[name.strip()] = (low, high)
+    return ranges or None
 
 
 def _check_plot(plot: str | None) -> None:

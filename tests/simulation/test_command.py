@@ -31,6 +31,14 @@ def test_an_ensemble_as_json_repeats_from_its_seed():
     assert set(results[0]["distance"]) == {"median", "q95", "max"}
 
 
+def test_members_may_differ_in_what_one_says():
+    data = json.loads(call("vanishing", "--ensemble", "6", "--vary", "k=1:9/5", "--vary", "x1=-1:1", "--json").stdout)
+    assert data["outcomes"] == {"reached T": 6}
+    assert call("vanishing", "--ensemble", "6", "--vary", "k=1").exit_code == 2
+    assert call("vanishing", "--ensemble", "6", "--vary", "q=1:2").exit_code == 2
+    assert call("vanishing", "--vary", "k=1:2").exit_code == 2
+
+
 def test_the_example_named_saturated_runs_the_saturated_seeker():
     assert json.loads(call("saturated", "--json").stdout)["seeker"] == "saturated"
 
