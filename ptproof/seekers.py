@@ -68,7 +68,7 @@ def prescribed_time_gain(clock: Clock, minimum: sp.Expr | None = None) -> sp.Exp
     The clipped gain stays at 1/ν_min² from then on, also after t₀ + T.
     """
     if minimum is None:
-        return sp.factor(clock.rate)
+        return clock.rate
     nu = 1 - (clock.t - clock.start) / clock.horizon
     return 1 / sp.Max(minimum, nu) ** 2
 
