@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from rich.console import Console
+from rich.padding import Padding
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Table
 from rich.text import Text
@@ -24,7 +25,7 @@ def claim_progress(total: int) -> Iterator[Callable[[Claim, Evidence], None]]:
     """A bar with the verdicts so far; gives the function to call with each claim that is done."""
     counts = dict.fromkeys(COLOURS, 0)
     bar = Progress(
-        TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn(),
+        TextColumn("{task.description}"), BarColumn(bar_width=20), MofNCompleteColumn(), TimeElapsedColumn(),
         TextColumn("{task.fields[counts]}"), console=Console(stderr=True), transient=True,
     )  # fmt: skip
     with bar:
@@ -40,39 +41,69 @@ def claim_progress(total: int) -> Iterator[Callable[[Claim, Evidence], None]]:
 
 def verification_table(verification: Verification) -> None:
     """The claims with their verdicts, grouped by section, then the witnesses of what is false."""
-    console = Console(soft_wrap=False)
+    console = Console(soft_wrap=False, highlight=False)
     sections: dict[str, list[Result]] = {}
     for result in verification.results:
         sections.setdefault(result.claim.section, []).append(result)
+    # One width for the ids of all tables, so that the columns stand under each other.
+    longest = max((len(result.claim.id) for result in verification.results), default=0)
     for section, results in sections.items():
-        table = Table(title=section or "Claims", title_justify="left", title_style="bold", box=None, pad_edge=False)
-        table.add_column("verdict", no_wrap=True)
-        table.add_column("claim", ratio=3)
-        table.add_column("id", ratio=2, style="dim", overflow="fold")
-        for result in results:
-            word = str(result.verdict)
-            shown = Text(word, style=COLOURS[word])
-            if word == "proved" and not result.fully_proved:
-                shown.append("*")
-            title = Text(result.claim.title)
-            if not result.as_expected:
-                title.append(f"  (expected {result.claim.expected})", style="bold red")
-            table.add_row(shown, title, result.claim.id)
-        console.print(table)
+        console.print(_section_table(section or "Claims", results, min(longest, console.width * 2 // 5)))
         console.print()
     for result in verification.results:
-        for item in result.evidence:
-            if item.witness is not None:
-                values = ", ".join(f"{name} = {value}" for name, value in item.witness.values.items())
-                console.print(Text(f"✗ {result.claim.title} ({result.claim.id})", style="red"))
-                console.print(Text(f"    at {values}:  {item.witness.left}  against  {item.witness.right}"))
-            elif str(result.verdict) == "undecided" and not result.as_expected:
-                console.print(Text(f"? {result.claim.id}: {item.detail}", style="yellow"))
+        _print_witness(console, result)
+    _print_summary(console, verification)
+
+
+def _section_table(title: str, results: Sequence[Result], id_width: int) -> Table:
+    table = Table(
+        title=title, title_justify="left", title_style="bold", box=None, pad_edge=False, show_header=False, expand=True,
+    )  # fmt: skip
+    table.add_column(width=len("undecided"), no_wrap=True)
+    table.add_column(ratio=1)
+    table.add_column(width=id_width, style="dim", overflow="fold")
+    for result in results:
+        word = str(result.verdict)
+        shown = Text(word, style=COLOURS[word])
+        if word == "proved" and not result.fully_proved:
+            shown.append("*")
+        claim = Text(result.claim.title)
+        if not result.as_expected:
+            claim.append(f"  (expected {result.claim.expected})", style="bold red")
+        table.add_row(shown, claim, result.claim.id)
+    return table
+
+
+def _print_witness(console: Console, result: Result) -> None:
+    """Why a claim is false: where, and what the two sides are there; or why it is open though it should not be."""
+    for item in result.evidence:
+        if item.witness is not None:
+            heading = Text("✗ ", style="red").append(result.claim.title, style="red")
+            console.print(heading.append(f"  {result.claim.id}", style="dim"))
+            console.print(Padding(Text(_where(item.witness.values)), (0, 0, 0, 4)))
+            console.print(Padding(Text(f"left side   {item.witness.left}"), (0, 0, 0, 4)))
+            console.print(Padding(Text(f"right side  {item.witness.right}"), (0, 0, 0, 4)))
+            console.print()
+        elif str(result.verdict) == "undecided" and not result.as_expected:
+            console.print(Text("? ", style="yellow").append(f"{result.claim.id}: {item.detail}", style="yellow"))
+            console.print()
+
+
+def _where(values: Mapping[str, str]) -> str:
+    """The values of a witness in words: symbols that may be anything come first."""
+    free = [name for name, value in values.items() if value == "any"]
+    fixed = [f"{name} = {value}" for name, value in values.items() if value != "any"]
+    words = f"for every {', '.join(free)}: " if free else "at "
+    return words + ", ".join(fixed) if fixed else "at all values" if not free else words.rstrip(": ")
+
+
+def _print_summary(console: Console, verification: Verification) -> None:
     summary = verification.summary()
-    words = ", ".join(f"{summary[word]} {word}" for word in COLOURS if summary[word])
-    if summary["proved"] > summary["fully_proved"]:
-        console.print("* modulo citations or open claims that it uses")
-    console.print(
-        f"{summary['total']} claims in {verification.seconds:.1f} s: {words}; "
-        f"{summary['fully_proved']} fully proved, {summary['unexpected']} not as expected"
-    )
+    words = Text(", ").join(Text(f"{summary[word]} {word}", style=COLOURS[word]) for word in COLOURS if summary[word])
+    if any(str(item.verdict) == "proved" and not item.fully_proved for item in verification.results):
+        console.print("* proved from citations or open claims that it uses", style="dim")
+    console.print(Text(f"{summary['total']} claims in {verification.seconds:.1f} s: ").append_text(words))
+    unexpected = summary["unexpected"]
+    verb = "every claim came out as recorded" if not unexpected else f"{unexpected} not as recorded"
+    closing = Text(f"{summary['fully_proved']} fully proved; ")
+    console.print(closing.append(verb, style="bold red" if unexpected else ""))
