@@ -14,7 +14,7 @@ from . import section7a_vanishing, section7b_nonvanishing, section7c_saturated
 from .notation import t, x1, x2
 from .section7_clipping import minimum
 
-SECTION = "7 Simulation: the examples as they are simulated"
+SECTION = "7.5 Simulation: the examples as they are simulated"
 
 vanishing, nonvanishing, saturated = (example(name) for name in ("vanishing", "nonvanishing", "saturated"))
 
