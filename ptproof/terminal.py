@@ -79,7 +79,7 @@ def _print_witness(console: Console, result: Result) -> None:
     for item in result.evidence:
         if item.witness is not None:
             heading = Text("✗ ", style="red").append(result.claim.title, style="red")
-            console.print(heading.append(f"  {result.claim.id}", style="dim"))
+            console.print(heading.append(f" ({result.claim.id})", style="dim"))
             console.print(Padding(Text(_where(item.witness.values)), (0, 0, 0, 4)))
             console.print(Padding(Text(f"left side   {item.witness.left}"), (0, 0, 0, 4)))
             console.print(Padding(Text(f"right side  {item.witness.right}"), (0, 0, 0, 4)))
@@ -102,8 +102,7 @@ def _print_summary(console: Console, verification: Verification) -> None:
     words = Text(", ").join(Text(f"{summary[word]} {word}", style=COLOURS[word]) for word in COLOURS if summary[word])
     if any(str(item.verdict) == "proved" and not item.fully_proved for item in verification.results):
         console.print("* proved from citations or open claims that it uses", style="dim")
-    console.print(Text(f"{summary['total']} claims in {verification.seconds:.1f} s: ").append_text(words))
-    unexpected = summary["unexpected"]
-    verb = "every claim came out as recorded" if not unexpected else f"{unexpected} not as recorded"
-    closing = Text(f"{summary['fully_proved']} fully proved; ")
-    console.print(closing.append(verb, style="bold red" if unexpected else ""))
+    line = Text(f"{summary['total']} claims in {verification.seconds:.1f} s: ").append_text(words)
+    line.append(f"; {summary['fully_proved']} fully proved, ")
+    line.append(f"{summary['unexpected']} not as expected", style="bold red" if summary["unexpected"] else "")
+    console.print(line)

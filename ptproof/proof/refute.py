@@ -201,7 +201,7 @@ def _distinct(applied: set[AppliedUndef]) -> list[AppliedUndef]:
 
 
 _PLAIN = (sp.S.One, sp.S.Zero, sp.Integer(2), -sp.S.One, sp.Rational(1, 2), sp.Integer(3))
-_FRACTIONS = (sp.Rational(1, 10), sp.Rational(1, 30), sp.Rational(1, 100))
+_FRACTIONS = (sp.Rational(1, 4), sp.Rational(1, 10), sp.Rational(1, 30), sp.Rational(1, 100))
 
 
 def _value(symbol: sp.Symbol, generator: random.Random, attempt: int) -> sp.Expr:

@@ -9,18 +9,56 @@ from typing import Any
 import sympy as sp
 
 from ptproof.proof.claim import Claim
-from ptproof.proof.statement import All, Exists, Relation, Smooth, Statement
+from ptproof.proof.statement import All, Exists, Relation, Smooth, Statement, free_symbols
 
 _FLIPPED: dict[str, Any] = {"<=": ">=", "<": ">", ">=": "<=", ">": "<", "=": "!="}
+
+
+_INDEXED = (("a1", "a2"), ("b1", "b2"), ("c_kappa1", "c_kappa2"), ("c1", "c2"), ("E12", "E21"), ("V", "V0"))
+_SCALED = (("k", 2), ("T", sp.Rational(1, 2)), ("mu", 2), ("E_norm", sp.Rational(1, 2)), ("d", sp.Rational(1, 2)))
+
+
+def swapped(claim: Claim) -> Iterator[tuple[str, Claim]]:
+    """The claim with two indices exchanged, or one letter scaled, on one side of one of its relations."""
+    statement = claim.statement
+    if not isinstance(statement, Relation | All):
+        return
+    parts = (statement,) if isinstance(statement, Relation) else statement.parts
+    letters = {symbol.name: symbol for symbol in free_symbols([statement])}
+    for word, change in _letter_changes(letters):
+        for position, part in enumerate(parts):
+            for side in ("left", "right"):
+                old = getattr(part, side)
+                new = old.subs(change, simultaneous=True)
+                if new == old:
+                    continue
+                twin = replace(part, **{side: new})
+                whole = twin if len(parts) == 1 else All((*parts[:position], twin, *parts[position + 1 :]))
+                yield f"part {position}, {side}: {word}", replace(claim, statement=whole)
+
+
+def _letter_changes(letters: dict[str, sp.Symbol]) -> Iterator[tuple[str, dict[sp.Symbol, sp.Expr]]]:
+    for first, second in _INDEXED:
+        if first in letters and second in letters:
+            a, b = letters[first], letters[second]
+            yield f"{first} and {second} exchanged", {a: b, b: a}
+    for name, factor in _SCALED:
+        if name in letters:
+            yield f"{name} times {factor}", {letters[name]: factor * letters[name]}
+
+
+def without_assumptions(claim: Claim) -> Iterator[tuple[str, Claim]]:
+    """The claim with one of its assumptions dropped."""
+    for position, dropped in enumerate(claim.assumptions):
+        rest = claim.assumptions[:position] + claim.assumptions[position + 1 :]
+        yield f"without the assumption {dropped}", replace(claim, assumptions=rest)
 
 
 def mutants(claim: Claim) -> Iterator[tuple[str, Claim]]:
     """Changed claims, each with a word for the change; the same ones in the same order each time."""
     for word, statement in _statements(claim.statement):
         yield word, replace(claim, statement=statement)
-    for position, dropped in enumerate(claim.assumptions):
-        rest = claim.assumptions[:position] + claim.assumptions[position + 1 :]
-        yield f"without the assumption {dropped}", replace(claim, assumptions=rest)
+    yield from without_assumptions(claim)
 
 
 def _statements(statement: Statement) -> Iterator[tuple[str, Statement]]:

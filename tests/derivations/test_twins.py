@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from mutations import mutants
+from mutations import mutants, swapped, without_assumptions
 
 import ptproof.proof.reals
 import ptproof.proof.refute
@@ -44,3 +44,16 @@ def test_corrupted_twin_is_not_proved(claim: Claim) -> None:
         if len(killed) >= 2:
             break
     assert killed, "every change of this claim is still proved: its proof does not look at it"
+
+
+@pytest.mark.parametrize("claim", CLAIMS, ids=lambda claim: claim.id)
+def test_exchanged_index_or_dropped_assumption_proves_nothing_false(
+    claim: Claim, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(ptproof.proof.reals, "SECONDS", 0.3)
+    monkeypatch.setattr(ptproof.proof.refute, "SEARCH_SECONDS", 0.1)
+    twins = [*list(swapped(claim))[:1], *list(without_assumptions(claim))[:1]]
+    for word, twin in twins:
+        if run_one(twin).verdict is Verdict.PROVED:
+            check = or_refute(twin.goal(), _NOT_TRIED, seconds=0.5)
+            assert check.verdict is not Verdict.REFUTED, f"proved and false: {word}: {twin.statement}: {check.witness}"
