@@ -4,11 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from ptproof.problem import Problem
 
 CAPTIONS = {
     "trajectories": "paths of the seekers and of their averages over the field's level lines",
     "field": "field at the vehicle against time; dashed, the peak; dotted, the prescribed time",
-    "distance": "distance from the source against time; dashed, the hover radius $1/\\sqrt{\\omega}$",
+    "distance": "distance from the source against time, with the certified bound of the average; dashed, the hover "
+    "radius $1/\\sqrt{\\omega}$",
     "inputs": "forward and angular velocity of the seeker with clipped gain",
     "phase-portrait": "the averaged system at the initial time",
     "order": "largest gap between the closed loop and its average over a ladder of ω, with the slope of the theory",
@@ -49,13 +56,28 @@ def figures() -> Iterator[Drawn]:
     from ptproof.simulation.figures import png
 
     for name, title in EXAMPLES.items():
-        for kind, figure in gallery.figures(example(name)).items():
+        problem = example(name)
+        bounds = _certified(problem) if problem.saturation is None else {}
+        for kind, figure in gallery.figures(problem, bounds).items():
             how = (
                 "Repeat: `ptproof report`"
                 if kind in ("phase-portrait", "order")
                 else (f"See also: `ptproof simulate {name} --plot run.png`")
             )
             yield Drawn(f"{name}-{kind.removeprefix(f'{name}-')}", f"{title}: {CAPTIONS[kind]}. {how}.", png(figure))
+
+
+def _certified(problem: Problem) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+    """The certified bound of the averaged distance against time, where one is proved."""
+    import numpy as np
+
+    from ptproof.gains.tight import tight_bound
+    from ptproof.proof.verdict import Verdict
+
+    curve = tight_bound(problem)
+    if curve.evidence.verdict is not Verdict.PROVED:
+        return {}
+    return {"certified bound of the average": (np.array(curve.times), np.array(curve.distances))}
 
 
 def tables() -> Iterator[Listed]:
