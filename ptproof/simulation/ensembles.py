@@ -14,6 +14,8 @@ from ptproof.simulation.plan import Array, Batch, Finals, Plan
 from ptproof.simulation.setup import as_float
 
 BLOCK = 256
+# About as long as a block of another engine; its groups are the same in blocks of either size.
+_FAST_BLOCK = 2048
 _LARGEST = 10_000_000
 Progress = Callable[[int], None]
 
@@ -37,6 +39,8 @@ def members(size: Any, seed: Any, vary: Mapping[str, Any], known: Sequence[str])
         if name not in known:
             raise InputError(f"vary: {name!r} is not one of {', '.join(known)}")
     drawn = [name for name, value in vary.items() if isinstance(value, tuple)]
+    if not vary:
+        return {}
     # One row a member: the first rows are the same for every N.
     uniform = np.random.default_rng(np.random.SeedSequence(seed)).random((size, len(drawn)))
     result: dict[str, Array] = {}
@@ -74,7 +78,8 @@ def run_blocks(
     With ``client``, a ``distributed.Client``, each block is a task of that cluster; the scheduler repeats the
     blocks of a worker that is lost.
     """
-    blocks = [batch.slice(i, min(i + BLOCK, batch.size)) for i in range(0, batch.size, BLOCK)]
+    size = BLOCK if client is not None or engine != "heyoka" else _FAST_BLOCK
+    blocks = [batch.slice(i, min(i + size, batch.size)) for i in range(0, batch.size, size)]
     if client is None:
         parts = []
         for block in blocks:

@@ -172,7 +172,8 @@ def draw_order(gaps: GapOrder, ax: Any = None) -> Any:
         _, ax = new_figure()
     omega = np.array(gaps.omegas)
     ax.loglog(omega, gaps.gaps, "o", color=BLUE, label="gap")
-    ax.loglog(omega, np.exp(gaps.intercept) * omega**gaps.slope, color=BLUE, lw=1, label=f"fit: slope {gaps.slope:.3f}")
+    fit = f"fit: slope {gaps.slope:.3f}; between the last two {gaps.tail:.3f}"
+    ax.loglog(omega, np.exp(gaps.intercept) * omega**gaps.slope, color=BLUE, lw=1, label=fit)
     anchor = gaps.gaps[-1] * (omega / omega[-1]) ** gaps.expected
     ax.loglog(omega, anchor, color=RED, lw=1, ls="--", label=f"theory: slope {gaps.expected:g}")
     ax.set(xlabel="ω", ylabel="largest gap over the interval")

@@ -21,7 +21,7 @@ from ptproof.simulation.figures import (
     new_figure,
     paths,
 )
-from ptproof.simulation.order import GapOrder, gap_order, hover_radius
+from ptproof.simulation.order import LADDER, GapOrder, gap_order, hover_radius
 from ptproof.simulation.plan import Array
 from ptproof.simulation.run import simulate
 from ptproof.simulation.trajectory import Trajectory
@@ -134,7 +134,7 @@ def phase_portrait(problem: Problem, seeker: str = "pt") -> Any:
     return figure
 
 
-def problem_order(problem: Problem, omegas: tuple[float, ...] = (50.0, 100.0, 200.0, 400.0)) -> GapOrder:
+def problem_order(problem: Problem, omegas: tuple[float, ...] = LADDER) -> GapOrder:
     """The order of the gap between a problem's closed loop in τ and its average over [t₀, t₀ + 2T] of τ.
 
     The filter's μ = 1/(5ω²) is so fast that its own error, of order μω, does not interfere.

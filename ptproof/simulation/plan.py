@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import enum
 import itertools
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
@@ -67,6 +68,8 @@ class Plan:
 
     def distance(self, x: Array) -> Array:
         """The distance of the watched states from the center, for x (n × …)."""
+        if x.ndim == 1:
+            return np.asarray(math.dist([x[i] for i in self.watched], self.center))
         offset = np.asarray(self.center).reshape((-1,) + (1,) * (x.ndim - 1))
         with np.errstate(all="ignore"):
             return np.sqrt(np.sum((x[list(self.watched)] - offset) ** 2, axis=0))
@@ -85,9 +88,9 @@ class Batch:
 
     def __post_init__(self) -> None:
         for name in ("initial", "parameters", "edges"):
-            if not np.all(np.isfinite(getattr(self, name))):
+            if not np.isfinite(getattr(self, name)).all():
                 raise InputError(f"{name}: contains NaN or infinity; finite numbers are needed")
-        if np.any(np.diff(self.edges, axis=0) < 0) or np.any(self.edges[-1] <= self.edges[0]):
+        if (self.edges[1:] < self.edges[:-1]).any() or (self.edges[-1] <= self.edges[0]).any():
             raise InputError("the time span must end after it starts")
 
     @property

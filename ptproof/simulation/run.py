@@ -173,11 +173,12 @@ def _check_values(setup: Setup, problem: Problem | None, varied: Mapping[str, Ar
     if problem is None:
         return
     for name in _POSITIVE:
-        values = varied.get(name, np.array([setup.defaults.get(name, 1.0)]))
-        if np.any(values <= 0):
-            raise InputError(f"{name}: must be positive, got {values.min():g}")
-        if name == "nu_min" and np.any(values > 1):
-            raise InputError(f"nu_min: must lie in (0, 1], got {values.max():g}")
+        given = setup.defaults.get(name, 1.0)
+        low, high = (varied[name].min(), varied[name].max()) if name in varied else (given, given)
+        if low <= 0:
+            raise InputError(f"{name}: must be positive, got {low:g}")
+        if name == "nu_min" and high > 1:
+            raise InputError(f"nu_min: must lie in (0, 1], got {high:g}")
 
 
 def _plan(

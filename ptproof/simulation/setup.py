@@ -148,6 +148,10 @@ def from_problem(
         full["p0"] = full[theta] + full["k"] * full[z]
         return full
 
+    def initial(table: Mapping[str, Array]) -> Array:
+        full = completed(table)
+        return np.array([full[symbol.name] for symbol in system.state])
+
     complete = until is not None or problem.tuning.nu_min is not None or clock_of(problem, seeker) is None
     last = as_float(until, "until") if until is not None else None
     ending = _Ending(problem, seeker, frame, last, complete, NU_END[model] if nu_end is None else nu_end)
@@ -157,8 +161,7 @@ def from_problem(
     inputs_at = input_function(problem, seeker, system) if full else None
     return Setup(
         system, defaults,
-        initial=lambda table: np.array([completed(table)[symbol.name] for symbol in system.state]),
-        edges=ending, position=(0, 1), source=_source(problem),
+        initial=initial, edges=ending, position=(0, 1), source=_source(problem),
         complete=complete, note=note,
         to_t=_identity if clock is None or frame == "t" else _time_map(clock.to_t, TAU),
         to_tau=_identity if clock is None or frame == "tau" else _time_map(clock.to_tau, TIME),
@@ -237,17 +240,25 @@ class _Ending:
         clock = clock_of(self.problem, self.seeker)
         assert clock is not None
         to_tau = _time_map(clock.to_tau, TIME)
-        return np.array([to_tau(row, table) for row in edges])
+        return to_tau(edges, table)
 
 
 def _identity(times: Array, _: Mapping[str, Any]) -> Array:
     return times
 
 
+def _select(conditions: list[Any], choices: list[Any], default: Any = np.nan) -> Any:
+    # As numpy.select, whose checks take longer than a short run.
+    result = default
+    for condition, choice in zip(reversed(conditions), reversed(choices), strict=True):
+        result = np.where(condition, choice, result)
+    return result
+
+
 @lru_cache(maxsize=16)
 def _time_map(expression: sp.Expr, variable: sp.Symbol) -> Callable[[Array, Mapping[str, Any]], Array]:
     symbols = [parameters.t0, parameters.T, parameters.nu_min]
-    function = sp.lambdify([variable, *symbols], expression, modules="numpy")
+    function = sp.lambdify([variable, *symbols], expression, modules=[{"select": _select}, "numpy"])
 
     def evaluate(times: Array, table: Mapping[str, Any]) -> Array:
         values = [table.get(symbol.name, 1.0) for symbol in symbols]
