@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
-import tomllib
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -12,16 +10,24 @@ import sympy as sp
 
 from ptproof.averaging.problem import MU, OMEGA, PHASE, TIME, DitherProblem, FastStates
 from ptproof.errors import InputError
-from ptproof.parse import CONSTANTS, FUNCTIONS, parse
 from ptproof.system import DitherSystem
+from ptproof.toml_tables import (
+    RESERVED,
+    build_from,
+    check_known,
+    check_name,
+    check_required,
+    finite,
+    hint,
+    read_file,
+)
 
 _TOP = ("system", "expected", "region")
 _SYSTEM = ("state", "parameters", "functions", "bounded", "drift", "period", "dither", "fast", "start", "name")
 _DITHER = ("field", "signal")
 _FAST = ("state", "rate", "quasi_steady_state")
 _FIXED = {symbol.name: symbol for symbol in (TIME, PHASE, OMEGA)}
-_RESERVED = {*_FIXED, "Piecewise", "Derivative", *FUNCTIONS, *CONSTANTS}
-_LARGEST_FILE = 1_000_000
+_RESERVED = RESERVED | _FIXED.keys()
 _MOST = 512
 
 
@@ -41,33 +47,16 @@ def load_dither_system(path: str | Path) -> DitherProblem:
     InputError
         Naming the file and the key, and what would be right.
     """
-    file = Path(path)
-    try:
-        if file.is_file() and file.stat().st_size > _LARGEST_FILE:
-            raise InputError(f"{path}: larger than {_LARGEST_FILE} bytes, not a dither system")
-        text = file.read_text("utf-8")
-    except (OSError, ValueError) as error:
-        if isinstance(error, InputError):
-            raise
-        reason = getattr(error, "strerror", None) or "is not UTF-8 text"
-        raise InputError(f"{path}: cannot be read ({reason})") from None
-    return read_dither_system(text, str(path), name=file.stem)
+    return read_dither_system(read_file(path, "a dither system"), str(path), name=Path(path).stem)
 
 
 def read_dither_system(text: str, where: str = "text", name: str | None = None) -> DitherProblem:
     """The dither system that ``text`` (TOML) describes; ``where`` opens the error messages."""
-    try:
-        data = tomllib.loads(text, parse_float=str)  # decimals stay text, so that 1.8 is 9/5
-    except (tomllib.TOMLDecodeError, RecursionError) as error:
-        raise InputError(f"{where}: not TOML ({error})") from None
-    try:
-        return _problem(data, name or where)
-    except InputError as error:
-        raise InputError(f"{where}: {error}") from None
+    return build_from(text, where, lambda data: _problem(data, name or where))
 
 
 def _problem(data: Mapping[str, Any], name: str) -> DitherProblem:
-    _known(data, _TOP, "table")
+    check_known(data, _TOP, "table")
     system = _table(data, "system", _SYSTEM, ("state", "drift", "period", "dither"))
     fast = _table(system, "fast", _FAST, ("state", "rate"), "system.") if "fast" in system else {}
     taken: dict[str, Any] = dict(_FIXED)
@@ -81,7 +70,7 @@ def _problem(data: Mapping[str, Any], name: str) -> DitherProblem:
 
     def vector(value: Any, where: str, length: int) -> tuple[sp.Expr, ...]:
         entries = _list(value, where, length)
-        return tuple(_parse(entry, f"{where}[{i}]", everything) for i, entry in enumerate(entries, start=1))
+        return tuple(finite(entry, f"{where}[{i}]", everything) for i, entry in enumerate(entries, start=1))
 
     dithers = _list(system["dither"], "system.dither")
     if not dithers:
@@ -93,7 +82,7 @@ def _problem(data: Mapping[str, Any], name: str) -> DitherProblem:
             raise InputError(f"{where}: expected a table [[system.dither]]")
         _keys(dither, _DITHER, _DITHER, where)
         fields.append(vector(dither["field"], f"{where}.field", len(state)))
-        signals.append(_parse(dither["signal"], f"{where}.signal", everything))
+        signals.append(finite(dither["signal"], f"{where}.signal", everything))
         _no_states(signals[-1], {*state, *fast_state}, f"{where}.signal")
     _no_phase(fields, "system.dither[{}].field")
     problem_fast = None
@@ -129,22 +118,9 @@ def _problem(data: Mapping[str, Any], name: str) -> DitherProblem:
     )
 
 
-def _hint(word: str, known: Sequence[str]) -> str:
-    near = difflib.get_close_matches(word, known, n=1)
-    return f" (did you mean {near[0]!r}?)" if near else ""
-
-
-def _known(found: Mapping[str, Any], known: Sequence[str], what: str) -> None:
-    for key in found:
-        if key not in known:
-            raise InputError(f"unknown {what}: {key!r}{_hint(key, known)}; known: {', '.join(known)}")
-
-
 def _keys(table: Mapping[str, Any], known: Sequence[str], required: Sequence[str], where: str) -> None:
-    _known(table, known, f"key in [{where}]")
-    for key in required:
-        if key not in table:
-            raise InputError(f"{where}.{key} is missing")
+    check_known(table, known, f"key in [{where}]")
+    check_required(table, required, where)
 
 
 def _table(
@@ -176,10 +152,7 @@ def _name(value: Any) -> str:
 
 
 def _identifier(name: Any, where: str, taken: Mapping[str, Any]) -> str:
-    if not isinstance(name, str) or not name.isidentifier() or not name.isascii():
-        raise InputError(f"{where}: {name!r} is not a name (letters, digits and _, not starting with a digit)")
-    if name in _RESERVED:
-        raise InputError(f"{where}: {name!r} has a meaning of its own here; choose another name")
+    name = check_name(name, where, _RESERVED)
     if name in taken:
         raise InputError(f"{where}: {name!r} is declared twice")
     return name
@@ -208,7 +181,7 @@ def _functions(value: Any, taken: dict[str, Any]) -> dict[str, tuple[Callable[..
         for argument in _list(arguments, where):
             if argument not in taken or argument in (PHASE.name, OMEGA.name):
                 known = [key for key in taken if key not in (PHASE.name, OMEGA.name)]
-                raise InputError(f"{where}: {argument!r} is not a state{_hint(str(argument), known)}")
+                raise InputError(f"{where}: {argument!r} is not a state{hint(str(argument), known)}")
             symbols.append(taken[argument])
         if not symbols:
             raise InputError(f"{where}: a function needs at least one argument; a constant is a parameter")
@@ -221,8 +194,8 @@ def _bounded(value: Any, functions: Mapping[str, Any]) -> tuple[Any, ...]:
     result = []
     for name in _list(value, "system.bounded"):
         if name not in functions:
-            hint = _hint(str(name), tuple(functions))
-            raise InputError(f"system.bounded: {name!r} is not declared in system.functions{hint}")
+            near = hint(str(name), tuple(functions))
+            raise InputError(f"system.bounded: {name!r} is not declared in system.functions{near}")
         function, arguments = functions[name]
         result.append(function(*arguments))
     return tuple(result)
@@ -237,18 +210,12 @@ def _of_arity(function: Any, count: int) -> Callable[..., Any]:
     return call
 
 
-def _parse(value: Any, where: str, names: Mapping[str, Any]) -> sp.Expr:
-    if isinstance(value, str) and value.strip().lower().lstrip("+-") in ("nan", "inf", "infinity"):
-        raise InputError(f"{where}: {value} is not a finite number")
-    return parse(value, names, where=where)
-
-
 def _number(value: Any, where: str) -> sp.Expr:
-    return _parse(value, where, {})
+    return finite(value, where)
 
 
 def _period(value: Any, parameters: Sequence[sp.Symbol]) -> sp.Expr:
-    period = _parse(value, "system.period", {symbol.name: symbol for symbol in parameters})
+    period = finite(value, "system.period", {symbol.name: symbol for symbol in parameters})
     if period.is_number and period.is_positive is not True:
         raise InputError(f"system.period: {period} is not positive")
     return period
@@ -257,7 +224,7 @@ def _period(value: Any, parameters: Sequence[sp.Symbol]) -> sp.Expr:
 def _region(value: Any, states: Mapping[str, sp.Symbol]) -> dict[sp.Symbol, tuple[sp.Expr, sp.Expr]]:
     if not isinstance(value, dict):
         raise InputError("region: expected a table [region]")
-    _known(value, tuple(states), "state in [region]")
+    check_known(value, tuple(states), "state in [region]")
     result = {}
     for name, interval in value.items():
         where = f"region.{name}"

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import difflib
-import tomllib
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from functools import lru_cache
 from importlib import resources
 from pathlib import Path
@@ -14,8 +12,17 @@ import sympy as sp
 
 from ptproof.drift import Drift, bounded_drift, gradient_drift, no_drift
 from ptproof.errors import InputError
-from ptproof.parse import CONSTANTS, FUNCTIONS, parse
 from ptproof.problem.model import TIME, Initial, Problem, Saturation, Tuning, number, positive
+from ptproof.toml_tables import (
+    RESERVED,
+    build_from,
+    check_known,
+    check_name,
+    check_required,
+    finite,
+    hint,
+    read_file,
+)
 
 EXAMPLES = ("vanishing", "nonvanishing", "saturated")
 _TABLES = {
@@ -33,15 +40,15 @@ _REQUIRED = {
     "initial": ("x",),
 }
 _DRIFT_KEYS = {"none": (), "gradient": ("E",), "bounded": ("f",)}
-_RESERVED = {"t", "tau", "Piecewise", "Derivative", *FUNCTIONS, *CONSTANTS}
-_LARGEST_FILE = 1_000_000
+_RESERVED = RESERVED | {"t", "tau"}
 
 
 @lru_cache(maxsize=8)
 def example(name: str) -> Problem:
     """One of the paper's examples (Section 7): ``vanishing``, ``nonvanishing`` or ``saturated``, with exact numbers."""
     if name not in EXAMPLES:
-        raise InputError(f"{name!r} is not an example{_hint(name, EXAMPLES)}; the examples are {', '.join(EXAMPLES)}")
+        near = hint(name, EXAMPLES, any_case=True)
+        raise InputError(f"{name!r} is not an example{near}; the examples are {', '.join(EXAMPLES)}")
     text = resources.files("ptproof").joinpath("examples", f"{name}.toml").read_text("utf-8")
     return read(text, name)
 
@@ -59,34 +66,16 @@ def load(path: str | Path) -> Problem:
     InputError
         Naming the file and the key, and what would be right.
     """
-    file = Path(path)
-    try:
-        if file.is_file() and file.stat().st_size > _LARGEST_FILE:
-            raise InputError(f"{path}: larger than {_LARGEST_FILE} bytes, not a seeking problem")
-        text = file.read_text("utf-8")
-    except (OSError, ValueError) as error:
-        if isinstance(error, InputError):
-            raise
-        reason = getattr(error, "strerror", None) or "is not UTF-8 text"
-        raise InputError(f"{path}: cannot be read ({reason})") from None
-    return read(text, str(path), name=file.stem)
+    return read(read_file(path, "a seeking problem"), str(path), name=Path(path).stem)
 
 
 def read(text: str, where: str, name: str | None = None) -> Problem:
     """The problem that ``text`` (TOML) describes; ``where`` opens the error messages."""
-    try:
-        # Decimals stay text, so that 1.8 is 9/5.
-        data = tomllib.loads(text, parse_float=str)
-    except (tomllib.TOMLDecodeError, RecursionError) as error:
-        raise InputError(f"{where}: not TOML ({error})") from None
-    try:
-        return _problem(data, name or where)
-    except InputError as error:
-        raise InputError(f"{where}: {error}") from None
+    return build_from(text, where, lambda data: _problem(data, name or where))
 
 
 def _problem(data: Mapping[str, Any], name: str) -> Problem:
-    _known(data, tuple(_TABLES), "table")
+    check_known(data, tuple(_TABLES), "table", any_case=True)
     for table in ("field", "drift", "seeker", "initial"):
         if table not in data:
             raise InputError(f"the table [{table}] is missing")
@@ -96,13 +85,11 @@ def _problem(data: Mapping[str, Any], name: str) -> Problem:
             continue
         if not isinstance(content, dict):
             raise InputError(f"{table}: expected a table [{table}]")
-        _known(content, keys, f"key in [{table}]")
-        for key in _REQUIRED[table]:
-            if key not in content:
-                raise InputError(f"{table}.{key} is missing")
+        check_known(content, keys, f"key in [{table}]", any_case=True)
+        check_required(content, _REQUIRED[table], table)
     field, seeker, initial = data["field"], data["seeker"], data["initial"]
     variables = _variables(field["variables"])
-    expression = _parse(field["expression"], "field.expression", variables)
+    expression = finite(field["expression"], "field.expression", variables)
     return Problem(
         variables=variables,
         field=expression,
@@ -119,19 +106,6 @@ def _problem(data: Mapping[str, Any], name: str) -> Problem:
     )
 
 
-def _hint(word: str, known: Sequence[str]) -> str:
-    near = difflib.get_close_matches(word, known, n=1)
-    if not near:
-        near = [candidate for candidate in known if candidate.lower() == word.lower()]
-    return f" (did you mean {near[0]!r}?)" if near else ""
-
-
-def _known(found: Mapping[str, Any], known: Sequence[str], what: str) -> None:
-    for key in found:
-        if key not in known:
-            raise InputError(f"unknown {what}: {key!r}{_hint(key, known)}; known: {', '.join(known)}")
-
-
 def _list(value: Any, where: str, length: int | None = None) -> list[Any]:
     if not isinstance(value, list):
         raise InputError(f"{where}: expected a list, got {value!r}")
@@ -145,25 +119,14 @@ def _variables(value: Any) -> tuple[sp.Symbol, ...]:
     if not names:
         raise InputError("field.variables: expected at least one name")
     for name in names:
-        if not isinstance(name, str) or not name.isidentifier() or not name.isascii():
-            raise InputError(
-                f"field.variables: {name!r} is not a name (letters, digits and _, not starting with a digit)"
-            )
-        if name in _RESERVED:
-            raise InputError(f"field.variables: {name!r} has a meaning of its own here; choose another name")
+        check_name(name, "field.variables", _RESERVED)
     if len(set(names)) != len(names):
         raise InputError("field.variables: a name stands there twice")
     return tuple(sp.Symbol(name, real=True) for name in names)
 
 
-def _parse(value: Any, where: str, names: Sequence[sp.Symbol] = ()) -> sp.Expr:
-    if isinstance(value, str) and value.strip().lower().lstrip("+-") in ("nan", "inf", "infinity"):
-        raise InputError(f"{where}: {value} is not a finite number")
-    return parse(value, names, where=where)
-
-
 def _number(value: Any, where: str) -> sp.Expr:
-    return number(_parse(value, where), where)
+    return number(finite(value, where), where)
 
 
 def _numbers(value: Any, where: str, length: int) -> tuple[sp.Expr, ...]:
@@ -180,9 +143,8 @@ def _kappa(value: Any) -> int:
 def _drift(table: Mapping[str, Any], field: sp.Expr, variables: tuple[sp.Symbol, ...]) -> Drift:
     kind, n = table["kind"], len(variables)
     if kind not in _DRIFT_KEYS:
-        raise InputError(
-            f"drift.kind: {kind!r} is not one of {', '.join(_DRIFT_KEYS)}{_hint(str(kind), tuple(_DRIFT_KEYS))}"
-        )
+        near = hint(str(kind), tuple(_DRIFT_KEYS), any_case=True)
+        raise InputError(f"drift.kind: {kind!r} is not one of {', '.join(_DRIFT_KEYS)}{near}")
     for key in _DRIFT_KEYS[kind]:
         if key not in table:
             raise InputError(f"drift.{key} is missing; a drift of kind {kind!r} needs it")
@@ -196,8 +158,8 @@ def _drift(table: Mapping[str, Any], field: sp.Expr, variables: tuple[sp.Symbol,
         rows = _list(table["E"], "drift.E", n)
         return gradient_drift([_numbers(row, f"drift.E[{i}]", n) for i, row in enumerate(rows)], field, variables)
     names = (TIME, *variables)
-    rate = [_parse(entry, f"drift.f[{i}]", names) for i, entry in enumerate(_list(table["f"], "drift.f", n))]
-    bound = _parse(table["bound"], "drift.bound", [TIME]) if "bound" in table else None
+    rate = [finite(entry, f"drift.f[{i}]", names) for i, entry in enumerate(_list(table["f"], "drift.f", n))]
+    bound = finite(table["bound"], "drift.bound", [TIME]) if "bound" in table else None
     return bounded_drift(rate, bound)
 
 
@@ -205,6 +167,6 @@ def _saturation(table: Mapping[str, Any] | None) -> Saturation | None:
     if table is None:
         return None
     read_positive: Callable[[str], sp.Expr] = lambda key: positive(  # noqa: E731
-        _parse(table[key], f"saturation.{key}"), f"saturation.{key}"
+        finite(table[key], f"saturation.{key}"), f"saturation.{key}"
     )
     return Saturation(read_positive("epsilon"), read_positive("level"), read_positive("gain"))
