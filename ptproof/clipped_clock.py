@@ -14,6 +14,39 @@ from ptproof.system import System
 
 
 @dataclass(frozen=True)
+class Continuation:
+    """A clock until ``until``, which is ``corner_tau`` in τ, and a straight line of rate ``last_rate`` from then on.
+
+    Nothing is checked here: that the pieces fit together is for those who make one to show, each by their own algebra.
+    """
+
+    clock: Clock
+    until: sp.Expr
+    corner_tau: sp.Expr
+    last_rate: sp.Expr
+
+    @property
+    def late_tau(self) -> sp.Expr:
+        """a(t) from the corner on."""
+        return self.corner_tau + self.last_rate * (self.clock.t - self.until)
+
+    @property
+    def late_t(self) -> sp.Expr:
+        """a⁻¹(τ) from the corner on."""
+        return self.until + (self.clock.tau - self.corner_tau) / self.last_rate
+
+    @cached_property
+    def to_tau(self) -> sp.Expr:
+        """a(t), in two pieces."""
+        return sp.Piecewise((self.clock.to_tau, self.clock.t <= self.until), (self.late_tau, True))
+
+    @cached_property
+    def to_t(self) -> sp.Expr:
+        """a⁻¹(τ), in two pieces."""
+        return sp.Piecewise((self.clock.to_t, self.clock.tau <= self.corner_tau), (self.late_t, True))
+
+
+@dataclass(frozen=True)
 class ClippedClock:
     """τ = a(t) until ``until``, and from then on a straight line with the rate that it has there, for all times.
 
@@ -46,9 +79,9 @@ class ClippedClock:
                 f"interval's end; declare its symbols so that it does, as in t0 + T/(1 + w) with w positive"
             )
         corner = {self.t: self.until}
-        if not (shown_zero(self._late_tau.subs(corner) - self.corner_tau)
-                and shown_zero(self._late_t.subs(self.tau, self.corner_tau) - self.until)
-                and shown_zero(self._late_t.subs(self.tau, self._late_tau) - self.t)
+        if not (shown_zero(self._whole.late_tau.subs(corner) - self.corner_tau)
+                and shown_zero(self._whole.late_t.subs(self.tau, self.corner_tau) - self.until)
+                and shown_zero(self._whole.late_t.subs(self.tau, self._whole.late_tau) - self.t)
                 and is_positive(self.last_rate)):  # fmt: skip
             raise InputError(f"{self.name}: the pieces are not shown to fit together at {self.until}")
 
@@ -84,23 +117,19 @@ class ClippedClock:
         # SymPy would write 1 + tan² as 1/cos², whose denominator hides that it is positive.
         return settle(rate) if rate.has(sp.tan) else sp.simplify(rate)
 
-    @property
-    def _late_tau(self) -> sp.Expr:
-        return self.corner_tau + self.last_rate * (self.t - self.until)
-
-    @property
-    def _late_t(self) -> sp.Expr:
-        return self.until + (self.tau - self.corner_tau) / self.last_rate
+    @cached_property
+    def _whole(self) -> Continuation:
+        return Continuation(self.clock, self.until, self.corner_tau, self.last_rate)
 
     @property
     def to_tau(self) -> sp.Expr:
         """a(t), in two pieces."""
-        return sp.Piecewise((self.clock.to_tau, self.t <= self.until), (self._late_tau, True))
+        return self._whole.to_tau
 
     @property
     def to_t(self) -> sp.Expr:
         """a⁻¹(τ), in two pieces."""
-        return sp.Piecewise((self.clock.to_t, self.tau <= self.corner_tau), (self._late_t, True))
+        return self._whole.to_t
 
     @property
     def rate(self) -> sp.Expr:
@@ -115,14 +144,17 @@ class ClippedClock:
     def dilate(self, system: System) -> System:
         """The system in τ, in two pieces where they differ."""
         early = dilate(self._piece(system, True), self.clock)
-        late = tuple(entry.subs(self.t, self._late_t) / self.last_rate for entry in self._piece(system, False).rhs)
+        late = tuple(
+            entry.subs(self.t, self._whole.late_t) / self.last_rate for entry in self._piece(system, False).rhs
+        )
         return self._joined(early, late, self.tau <= self.corner_tau)
 
     def contract(self, system: System) -> System:
         """The system in t again, in two pieces where they differ."""
         early = contract(self._piece(system, True), self.clock)
         late = tuple(
-            sp.expand(self.last_rate * entry.subs(self.tau, self._late_tau)) for entry in self._piece(system, False).rhs
+            sp.expand(self.last_rate * entry.subs(self.tau, self._whole.late_tau))
+            for entry in self._piece(system, False).rhs
         )
         return self._joined(early, late, self.t <= self.until)
 

@@ -7,6 +7,7 @@ from functools import cached_property
 
 import sympy as sp
 
+from ptproof.clipped_clock import Continuation
 from ptproof.clock import Clock
 from ptproof.errors import InputError
 from ptproof.proof.algebra import is_zero
@@ -16,7 +17,9 @@ from ptproof.proof.algebra import is_zero
 class ClippedClock:
     """τ = a(t) with dτ/dt = 1/max(ν_min, ν)², for all t ≥ t₀ (the rate is the gain of eq:kt).
 
-    It has a :class:`~ptproof.clock.Clock`'s attributes, with expressions in two pieces.
+    It has a :class:`~ptproof.clock.Clock`'s attributes, with expressions in two pieces. The general
+    :class:`ptproof.clipped_clock.ClippedClock` asks for a corner strictly after t₀ for every value of its symbols;
+    ν_min = 1, the gain that is constant from the start, has it at t₀.
 
     Parameters
     ----------
@@ -64,16 +67,18 @@ class ClippedClock:
         return sp.factor(sp.cancel(self.clock.to_tau.subs(self.t, self.corner_t)))
 
     @cached_property
+    def _whole(self) -> Continuation:
+        return Continuation(self.clock, self.corner_t, self.corner_tau, 1 / self.minimum**2)
+
+    @property
     def to_tau(self) -> sp.Expr:
         """a(t)."""
-        late = self.corner_tau + (self.t - self.corner_t) / self.minimum**2
-        return sp.Piecewise((self.clock.to_tau, self.t <= self.corner_t), (late, True))
+        return self._whole.to_tau
 
-    @cached_property
+    @property
     def to_t(self) -> sp.Expr:
         """a⁻¹(τ)."""
-        late = self.corner_t + (self.tau - self.corner_tau) * self.minimum**2
-        return sp.Piecewise((self.clock.to_t, self.tau <= self.corner_tau), (late, True))
+        return self._whole.to_t
 
     @cached_property
     def rate_back(self) -> sp.Expr:
