@@ -1,10 +1,12 @@
-"""The figures and tables of Section 7, drawn from simulations of the examples when the report asks for them."""
+"""The figures of Section 7, drawn from simulations of the examples when the report asks for them, and the benchmark."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import json
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     import numpy as np
@@ -81,23 +83,34 @@ def _certified(problem: Problem) -> dict[str, tuple[np.ndarray, np.ndarray]]:
 
 
 def tables() -> Iterator[Listed]:
-    """What Section 7 says of its simulations, over all initial headings."""
-    from ptproof.simulation.section7 import statements
-
-    rows = [
-        (
-            item.words,
-            "supported" if item.supported else "not supported",
-            item.criterion,
-            "; ".join(f"{key} {value:.4g}" for key, value in item.data.items()),
-            item.remark,
-        )
-        for item in statements()
-    ]
+    """The benchmark as it was stored: speeds belong to a machine and a moment, and a report is the same every time."""
+    data = json.loads(Path(__file__).with_name("benchmark.json").read_text(encoding="utf-8"))
+    machine = ", ".join(f"{name} {value}" for name, value in data["machine"].items())
+    how = f"Measured once on: {machine}. Repeat: `{data['command']} --members {data['members']}`."
     yield Listed(
-        "Section 7, observed",
-        "The statements about simulations, each over an even grid of initial headings with the filter at the measured "
-        "field. This is evidence with its spread, not a proof.",
-        ("statement", "outcome", "criterion", "numbers", "remark"),
-        tuple(rows),
+        "Benchmark: seconds a trajectory",
+        f"The example `vanishing` to T, in τ and reduced coordinates, by each code at the loosest tolerance at which "
+        f"its error is below the limit; the best of several runs. {how}",
+        ("item", "code", "seconds", "error", "rtol", "note"),
+        tuple(
+            (row["item"], row["code"], f"{row['seconds']:.3g}", _short(row["error"]), _short(row["rtol"]), row["note"])
+            for row in data["rows"]
+        ),
     )
+    meant = {target["ratio"]: target for target in data["targets"]}
+    yield Listed(
+        "Benchmark: ratios",
+        f"How many times the one takes of the other's time, for the same rows. {how}",
+        ("ratio", "value", "target"),
+        tuple((name, f"{value:.3g}", _goal(meant.get(name))) for name, value in data["ratios"].items()),
+    )
+
+
+def _short(number: float | None) -> str:
+    return "" if number is None else f"{number:.1e}"
+
+
+def _goal(target: Mapping[str, Any] | None) -> str:
+    from ptproof.simulation.measuring import goal
+
+    return goal(target)

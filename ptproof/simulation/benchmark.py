@@ -158,7 +158,7 @@ def many(problem: Problem, members: int, rungs: dict[str, float]) -> list[Row]:
     each heading that is looked at has it.
     """
     cores = os.cpu_count() or 1
-    members -= members % SMALLEST
+    members -= members % 8
     angles = headings(members)
     picked = np.arange(4) * (members // 4) + 1
     truth = np.array(

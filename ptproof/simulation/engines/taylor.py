@@ -46,7 +46,7 @@ def chosen(system: System, time: float, values: tuple[float, ...], known: bool) 
     if not known or not _all_clipped(system):
         raise InputError("heyoka can't follow a kink in time whose instant it is not told; use the engine casadi")
     _, options = branches
-    return _resolved(system, tuple(int(np.argmax(scores)) for scores in options(time, values)))
+    return _resolved(system, tuple(_highest(scores) for scores in options(time, values)))
 
 
 @lru_cache(maxsize=64)
@@ -73,6 +73,10 @@ def _branches(system: System) -> tuple[tuple[Any, ...], Any] | None:
 def _all_clipped(system: System) -> bool:
     branches = _branches(system)
     return branches is None or all(parameters.nu_min in node.free_symbols for node in branches[0])
+
+
+def _highest(scores: list[float]) -> int:
+    return max(range(len(scores)), key=scores.__getitem__)
 
 
 @lru_cache(maxsize=64)
@@ -125,7 +129,7 @@ def _picker(system: System, tolerance: float, known: bool) -> Callable[[float, t
 
     def pick(time: float, values: tuple[float, ...]) -> Any:
         scores = () if branches is None else branches[1](time, values)
-        picks = tuple(int(np.argmax(entry)) for entry in scores)
+        picks = tuple(_highest(entry) for entry in scores)
         if picks not in made:
             made[picks] = scalar(system if branches is None else _resolved(system, picks), tolerance)
         return made[picks]
@@ -169,7 +173,8 @@ class _Taylor:
         for a, b in pieces:
             solver = pick((a + b) / 2, numbers)
             solver.time, solver.state[:], solver.pars[:] = a, columns[-1], values[: len(solver.pars)]
-            for target in np.linspace(a, b, max(1, math.ceil(plan.samples * (b - a) / total - 1e-9)) + 1)[1:]:
+            intervals = max(1, math.ceil(plan.samples * (b - a) / total - 1e-9))
+            for target in [b] if intervals == 1 else np.linspace(a, b, intervals + 1)[1:]:
                 outcome = hy.taylor_outcome.step_limit
                 while outcome == hy.taylor_outcome.step_limit and clock.monotonic() <= deadline:
                     outcome = solver.propagate_until(float(target), max_steps=_STEPS_A_CALL)[0]
