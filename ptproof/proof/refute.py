@@ -33,7 +33,7 @@ from ptproof.proof.statement import (
 from ptproof.proof.verdict import Evidence, Verdict, Witness
 
 SEARCH_SECONDS = 4.0
-_TRIES = 440
+_TRIES = 3000
 _PLAIN_TRIES = 40
 
 
@@ -211,7 +211,7 @@ def _value(symbol: sp.Symbol, generator: random.Random, attempt: int) -> sp.Expr
         choice = [value for value in _PLAIN if admissible(symbol, value)]
         if choice:
             return choice[attempt % len(choice)] if first else generator.choice(choice)
-    size = 3 if attempt < 140 else 8 if attempt < 270 else 40
+    size = 3 if attempt < 140 else 8 if attempt < 270 else (40, 8, 3)[attempt % 3]
     numerator = generator.randint(1, size * (1 if symbol.is_integer else 2))
     denominator = 1 if symbol.is_integer else generator.choice((1, 1, 2, 3))
     value = sp.Rational(numerator, denominator)
