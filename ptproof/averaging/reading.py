@@ -165,7 +165,8 @@ def _symbols(
     if not names and not empty:
         raise InputError(f"{where}: expected at least one name")
     for name in names:
-        taken[_identifier(name, where, taken)] = sp.Symbol(name, **assumptions)
+        known = _identifier(name, where, taken)
+        taken[known] = sp.Symbol(known, **assumptions)
     return tuple(taken[name] for name in names)
 
 
@@ -179,7 +180,7 @@ def _functions(value: Any, taken: dict[str, Any]) -> dict[str, tuple[Callable[..
         _identifier(name, where, {**taken, **result})
         symbols = []
         for argument in _list(arguments, where):
-            if argument not in taken or argument in (PHASE.name, OMEGA.name):
+            if not isinstance(argument, str) or argument not in taken or argument in (PHASE.name, OMEGA.name):
                 known = [key for key in taken if key not in (PHASE.name, OMEGA.name)]
                 raise InputError(f"{where}: {argument!r} is not a state{hint(str(argument), known)}")
             symbols.append(taken[argument])
@@ -193,7 +194,7 @@ def _functions(value: Any, taken: dict[str, Any]) -> dict[str, tuple[Callable[..
 def _bounded(value: Any, functions: Mapping[str, Any]) -> tuple[Any, ...]:
     result = []
     for name in _list(value, "system.bounded"):
-        if name not in functions:
+        if not isinstance(name, str) or name not in functions:
             near = hint(str(name), tuple(functions))
             raise InputError(f"system.bounded: {name!r} is not declared in system.functions{near}")
         function, arguments = functions[name]

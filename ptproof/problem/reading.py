@@ -142,7 +142,7 @@ def _kappa(value: Any) -> int:
 
 def _drift(table: Mapping[str, Any], field: sp.Expr, variables: tuple[sp.Symbol, ...]) -> Drift:
     kind, n = table["kind"], len(variables)
-    if kind not in _DRIFT_KEYS:
+    if not isinstance(kind, str) or kind not in _DRIFT_KEYS:
         near = hint(str(kind), tuple(_DRIFT_KEYS), any_case=True)
         raise InputError(f"drift.kind: {kind!r} is not one of {', '.join(_DRIFT_KEYS)}{near}")
     for key in _DRIFT_KEYS[kind]:

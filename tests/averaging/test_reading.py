@@ -142,3 +142,18 @@ def test_a_missing_file(tmp_path: Path) -> None:
 def test_a_folder(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="cannot be read"):
         load_dither_system(tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ('["x1", "x2"]\nparameters', '[3, "x2"]\nparameters'),
+        ('parameters = ["k"]', "parameters = [3]"),
+        ('F = ["x1", "x2"]', "F = [[1]]"),
+        ('drift      = ["0", "0"]', 'drift = ["0", "0"]\nbounded = [[1]]'),
+    ],
+)
+def test_a_name_that_is_no_text_is_refused(old: str, new: str) -> None:
+    assert old in TEXT
+    with pytest.raises(InputError, match=r"^system\."):
+        read_dither_system(TEXT.replace(old, new))
