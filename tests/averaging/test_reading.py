@@ -155,5 +155,5 @@ def test_a_folder(tmp_path: Path) -> None:
 )
 def test_a_name_that_is_no_text_is_refused(old: str, new: str) -> None:
     assert old in TEXT
-    with pytest.raises(InputError, match=r"^system\."):
+    with pytest.raises(InputError, match=r"^text: system\."):
         read_dither_system(TEXT.replace(old, new))
