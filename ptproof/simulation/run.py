@@ -15,7 +15,15 @@ from ptproof.problem import parameters as loop_parameters
 from ptproof.simulation.engines import engine_named, has_heyoka
 from ptproof.simulation.ensembles import Progress, members, run_blocks
 from ptproof.simulation.plan import Array, Batch, Outcome, Plan
-from ptproof.simulation.setup import Setup, as_float, by_name, completed_parameters, from_problem, from_system
+from ptproof.simulation.setup import (
+    Setup,
+    as_float,
+    by_name,
+    completed_parameters,
+    from_problem,
+    from_system,
+    with_filter,
+)
 from ptproof.simulation.trajectory import Ensemble, Trajectory
 from ptproof.system import System
 
@@ -130,7 +138,10 @@ def simulate(
             raise InputError("vary: say what differs between the members, such as {'x': (-1, 1)}")
         vary = {"theta": _HEADINGS}
     varied = members(size, seed, vary or {}, setup.free)
-    table: dict[str, Array] = {name: np.full(size, value) for name, value in setup.defaults.items()} | varied
+    rows = np.repeat(np.array(list(setup.defaults.values()), dtype=float)[:, None], size, axis=1)
+    table: dict[str, Array] = dict(zip(setup.defaults, rows, strict=True)) | varied
+    if problem is not None:
+        table = with_filter(problem, table)
     _check_values(setup, problem, varied)
     batch = Batch(setup.initial(table), completed_parameters(setup, problem, table), setup.edges(table))
     plan = _plan(setup, batch, samples, rtol, atol, escape_radius, max_steps, time_limit, table)
@@ -159,6 +170,8 @@ def _override(setup: Setup, initial: Any, parameters: Mapping[Any, Any] | None) 
     if initial is not None and not isinstance(initial, Mapping):
         raise InputError("initial: give a problem's initial states by name, such as {'theta': 1}")
     changes = by_name(initial or {}) | by_name(parameters or {})
+    if not changes:
+        return setup
     for name in changes:
         if name not in setup.free:
             raise InputError(f"initial, parameters: {name!r} is not one of {', '.join(setup.free)}")

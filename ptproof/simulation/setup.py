@@ -134,17 +134,12 @@ def from_problem(
         derive = problem.reduced_model if model == "reduced model" else problem.averaged
         system = derive(seeker, frame, symbolic=True)
     letters = loop_letters(problem)
-    names = [symbol.name for symbol in problem.variables]
-    x1, x2 = names
     theta, z = letters.heading.name, letters.filter.name
     defaults = dict(_defaults(problem))
     field_at = field_function(problem)
 
     def completed(table: Mapping[str, Array]) -> dict[str, Array]:
-        full = dict(table)
-        if z not in full:
-            # The filter starts at the measured field of each member's own position.
-            full[z] = field_at(np.array([full[x1], full[x2]]))
+        full = with_filter(problem, table)
         full["p0"] = full[theta] + full["k"] * full[z]
         return full
 
@@ -187,16 +182,23 @@ def _source(problem: Problem) -> tuple[float, ...]:
     return tuple(float(value) for value in problem.source)
 
 
+def with_filter(problem: Problem, table: Mapping[str, Array]) -> dict[str, Array]:
+    """The table with the filter's start, which is the measured field at each member's position unless it is given."""
+    z = loop_letters(problem).filter.name
+    if z in table:
+        return dict(table)
+    position = np.array([table[symbol.name] for symbol in problem.variables])
+    return dict(table) | {z: field_function(problem)(position)}
+
+
 def completed_parameters(setup: Setup, problem: Problem | None, table: Mapping[str, Array]) -> Array:
     """The parameter values (m × N) in the system's order; p₀ follows from heading and filter of each member."""
     full = dict(table)
     names = [symbol.name for symbol in setup.system.parameters or ()]
     if "p0" in names and problem is not None:
+        full = with_filter(problem, full)
         letters = loop_letters(problem)
-        theta, z = letters.heading.name, letters.filter.name
-        position = np.array([full[symbol.name] for symbol in problem.variables])
-        measured = full[z] if z in full else field_function(problem)(position)
-        full["p0"] = full[theta] + full["k"] * measured
+        full["p0"] = full[letters.heading.name] + full["k"] * full[letters.filter.name]
     size = len(next(iter(full.values())))
     return np.array([full[name] for name in names]).reshape(len(names), size)
 
