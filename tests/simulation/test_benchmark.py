@@ -1,6 +1,7 @@
 """The benchmark measures what it says: every code meets the accuracy, and nothing is built twice."""
 
 import json
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -81,3 +82,14 @@ def test_the_table_has_the_machine_and_the_ratios():
     assert "| one trajectory | casadi | 0.004 | 1.0e-07 | 1.0e-05 |" in text
     assert "| a over b | 12.3 |" in text
     assert "cores" in text
+
+
+def test_the_stored_result_is_accurate_and_goes_into_the_report():
+    path = Path(__file__).parents[2] / "derivations" / "pt_seeker" / "benchmark.json"
+    data = json.loads(path.read_text(encoding="utf-8"))
+    compared = [row for row in data["rows"] if row["item"] == "one trajectory to 1e-09" or row["item"] == "many"]
+    assert len(compared) >= 10
+    assert all(row["error"] <= data["accuracy"] for row in compared)
+    rows = [benchmark.Row(**row) for row in data["rows"]]
+    assert data["ratios"] == pytest.approx(ratios(rows, benchmark.ACCURACY, benchmark.LOOSE))
+    assert data["targets"] == targets(data["ratios"], benchmark.ACCURACY)
