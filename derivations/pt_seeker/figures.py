@@ -88,9 +88,11 @@ def tables() -> Iterator[Listed]:
     machine = ", ".join(f"{name} {value}" for name, value in data["machine"].items())
     how = f"Measured once on: {machine}. Repeat: `{data['command']} --members {data['members']}`."
     yield Listed(
-        "Benchmark: seconds a trajectory",
-        f"The example `vanishing` to T, in τ and reduced coordinates, by each code at the loosest tolerance at which "
-        f"its error is below the limit; the best of several runs. {how}",
+        "Benchmark: seconds",
+        f"The example `vanishing` to T, in τ and reduced coordinates; the best of several runs. One trajectory: a code "
+        f"at the loosest tolerance at which its error is below the limit. Many: seconds a trajectory, to "
+        f"{data['accuracy']:.0e}. Growth: whole calls, of ensembles to that and of one run to 1e-08. "
+        f"{how}",
         ("item", "code", "seconds", "error", "rtol", "note"),
         tuple(
             (row["item"], row["code"], f"{row['seconds']:.3g}", _short(row["error"]), _short(row["rtol"]), row["note"])
