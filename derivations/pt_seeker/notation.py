@@ -92,6 +92,11 @@ def drift_at(time: sp.Expr, where: tuple[sp.Expr, sp.Expr] = position) -> tuple[
     return first.subs(moved, simultaneous=True), second.subs(moved, simultaneous=True)
 
 
+def rate_of(name: str, time: sp.Symbol) -> sp.Expr:
+    """The derivative of a signal, for the left side of a displayed system."""
+    return sp.Derivative(sp.Function(name)(time), time)
+
+
 def nu(elapsed: sp.Expr) -> sp.Expr:
     """ν as printed in eq:nu, a function of the elapsed time t − t₀."""
     return 1 - elapsed / T

@@ -17,7 +17,7 @@ from ptproof.proof.verdict import Evidence
 from ptproof.system import DitherSystem, System, lie_bracket
 
 from .chain import clock
-from .notation import T, k, mu, nu, omega, t, t0, tau, tau_fast, x1, x2, z
+from .notation import T, k, mu, nu, omega, rate_of, t, t0, tau, tau_fast, x1, x2, z
 
 SECTION = "2 Preliminaries"
 
@@ -43,8 +43,8 @@ general_system = definition(
     "2.1/general-system",
     "Slow and fast states with dithers",
     every(
-        eq(sp.Matrix([sp.Symbol("dx1"), sp.Symbol("dx2")]), _slow_rate(omega)),
-        eq(sp.Symbol("dz"), g),
+        eq(sp.Matrix([rate_of("x_1", tau_fast), rate_of("x_2", tau_fast)]), _slow_rate(omega)),
+        eq(rate_of("z", tau_fast), g),
     ),
     labels=["eq:general_nominal_system"],
     prose="The class of systems that the theorem speaks of, written here for n = 2, m = 1 and N = 2; the rates are "
@@ -186,7 +186,7 @@ stretch = 1 + (tau - t0) / T
 nominal = definition(
     "2.2/nominal",
     "The scalar example",
-    eq(sp.Symbol("dx"), control),
+    eq(rate_of("x", t), control),
     labels=["eq:nominal_example_t"],
     prose="A single integrator; its input is to be chosen.",
 )

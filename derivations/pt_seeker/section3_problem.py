@@ -11,7 +11,7 @@ from ptproof.proof.reals import reals
 from ptproof.proof.statement import eq, every, gt, le, lt
 from ptproof.proof.verdict import Evidence
 
-from .notation import E11, E12, E21, E22, E, F, F_source, R, a1, a2, b1, b2, f, kappa, theta
+from .notation import E11, E12, E21, E22, E, F, F_source, R, a1, a2, b1, b2, f, kappa, rate_of, t, theta
 
 SECTION = "3 Problem statement"
 
@@ -19,13 +19,13 @@ u1_input, u2_input, y = (sp.Symbol(name, real=True) for name in ("u1", "u2", "y"
 
 unicycle_position = definition(
     "3/unicycle-position", "The position of the unicycle under a drift",
-    eq(sp.Matrix([sp.Symbol("dx1"), sp.Symbol("dx2")]),
+    eq(sp.Matrix([rate_of("x_1", t), rate_of("x_2", t)]),
        sp.Matrix([f[0] + u1_input * sp.cos(theta), f[1] + u1_input * sp.sin(theta)])),
     labels=["eq:unicycle_with_drift", "eq:unicycle_with_drift-a"],
     prose="Forward velocity u₁ along the heading, plus the drift.",
 )  # fmt: skip
 unicycle_heading = definition(
-    "3/unicycle-heading", "Heading and measurement", every(eq(sp.Symbol("dtheta"), u2_input), eq(y, F)),
+    "3/unicycle-heading", "Heading and measurement", every(eq(rate_of("theta", t), u2_input), eq(y, F)),
     labels=["eq:unicycle_with_drift"], prose="The heading is actuated by u₂; the field is measured at the vehicle.",
 )  # fmt: skip
 

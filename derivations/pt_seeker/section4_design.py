@@ -12,7 +12,7 @@ from ptproof.proof.verdict import Evidence
 from ptproof.system import System
 
 from .chain import clock, closed_loop_t, closed_loop_tau
-from .notation import F, T, drift_at, f, k, mu, nu, omega, t, t0, tau, theta, x1, x2, z
+from .notation import F, T, drift_at, f, k, mu, nu, omega, rate_of, t, t0, tau, theta, x1, x2, z
 from .section2_preliminaries import contraction_rate, dilation_rate
 
 SECTION = "4 Prescribed-time source seeking design"
@@ -50,7 +50,7 @@ filter_rate = (F - z) / mu
 
 law = definition(
     "4/law", "The feedback law in dilated time",
-    every(eq(sp.Symbol("u1"), forward), eq(sp.Symbol("u2"), angular), eq(sp.Symbol("dz"), filter_rate)),
+    every(eq(sp.Symbol("u1"), forward), eq(sp.Symbol("u2"), angular), eq(rate_of("z", tau), filter_rate)),
     labels=["eq:seeker_tau", "eq:filter_tau"],
     prose="A constant forward speed and a heading that is turned back by the filtered rate of the measurement, both "
     "multiplied by what the dilation divides by.",

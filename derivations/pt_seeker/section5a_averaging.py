@@ -31,6 +31,7 @@ from .notation import (
     omega,
     p,
     position,
+    rate_of,
     t,
     t0,
     tau,
@@ -55,7 +56,7 @@ z_rate_printed = K / mu * (F - z)
 
 law = definition(
     "5/law", "The prescribed-time feedback law",
-    every(eq(sp.Symbol("u1"), u1_printed), eq(sp.Symbol("u2"), u2_printed), eq(sp.Symbol("dz"), z_rate_printed)),
+    every(eq(sp.Symbol("u1"), u1_printed), eq(sp.Symbol("u2"), u2_printed), eq(rate_of("z", t), z_rate_printed)),
     labels=["eq:pt_controlla", "eq:u1", "eq:u2", "eq:z"], prose="All three rates carry the gain 1/ν².",
 )  # fmt: skip
 
