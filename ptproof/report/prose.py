@@ -91,7 +91,11 @@ def to_markdown(text: str) -> str:
 def _markdown_piece(piece: Piece) -> str:
     if piece.kind == "math":
         return inline_math(piece.text)
-    return code(piece.text) if piece.kind == "code" else escape(piece.text)
+    if piece.kind == "code":
+        return code(piece.text)
+    # The spaces at its ends set it apart from what stands beside it.
+    before, after = (" " if end.isspace() else "" for end in (piece.text[:1], piece.text[-1:]))
+    return f"{before}{escape(piece.text)}{after}"
 
 
 def escape(text: str) -> str:

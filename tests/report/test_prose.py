@@ -54,3 +54,9 @@ def test_inline_and_display_math():
     assert inline_math("x_1") == "$`x_1`$"
     assert display_math(["x"]) == "```math\nx\n```"
     assert display_math(["& x", "& y"]).count("\\\\") == 1
+
+
+def test_what_stands_inside_a_line_keeps_its_spaces():
+    assert to_markdown("Repeat: `ptproof report`, or take $x$ as given.") == (
+        "Repeat: `ptproof report`, or take $`x`$ as given."
+    )
