@@ -14,6 +14,8 @@ import sympy as sp
 
 from ptproof.errors import InputError
 
+_NEVER_BY_SYMPY = (sp.Integral, sp.Limit, sp.Sum, sp.Product)
+
 
 def gradient(expression: sp.Expr, state: Sequence[sp.Symbol]) -> sp.ImmutableDenseMatrix:
     """The column of partial derivatives of ``expression`` with respect to ``state`` (n × 1)."""
@@ -150,6 +152,27 @@ def substitute(expressions: Sequence[sp.Expr], values: Mapping[Any, Any]) -> tup
             entry = entry.replace(applied.func, sp.Lambda(applied.args, value))
         result.append(entry.doit().subs(symbols, simultaneous=True))
     return tuple(result)
+
+
+def differentiated(expression: sp.Expr) -> sp.Expr:
+    """Carry out derivatives and substitutions and nothing else: SymPy's limits, sums and integrals are not trusted."""
+    masks: dict[sp.Expr, sp.Expr] = {}
+    done: dict[sp.Expr, sp.Expr] = {}
+    traversal = sp.preorder_traversal(expression)
+    for node in traversal:
+        if isinstance(node, _NEVER_BY_SYMPY):
+            inside = node.func(differentiated(node.args[0]), *node.args[1:])
+        elif isinstance(node, sp.Derivative | sp.Subs):
+            traversal.skip()  # what is inside depends on the variable of the derivative
+            if not node.has(sp.Limit, sp.Sum, sp.Product):
+                continue
+            inside = node
+        else:
+            continue
+        masks.setdefault(node, sp.Dummy("mask", real=True))
+        done[masks[node]] = inside
+        traversal.skip()
+    return expression.xreplace(masks).doit(integrals=False).xreplace(done)
 
 
 @dataclass(frozen=True)

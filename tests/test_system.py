@@ -6,8 +6,8 @@ import pytest
 import sympy as sp
 
 from ptproof.errors import InputError
-from ptproof.reduction import split
 from ptproof.system import DitherSystem, System, lie_bracket
+from ptproof.transforms.reduction import split
 
 t, x1, x2, z, phase, omega, mu = sp.symbols("t x1 x2 z phase omega mu", real=True)
 k = sp.Symbol("k", positive=True)

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from ptproof.starter import write_starter
+from ptproof.commands.starter import write_starter
 
 TUTORIAL = Path(__file__).resolve().parents[1] / "TUTORIAL.md"
 BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     import numpy as np
@@ -54,8 +54,9 @@ class Listed:
 def figures() -> Iterator[Drawn]:
     """Every figure of the paper's examples, one after the other."""
     from ptproof.problem import example
-    from ptproof.simulation import gallery
     from ptproof.simulation.figures import png
+
+    from .experiments import gallery
 
     for name, title in EXAMPLES.items():
         problem = example(name)
@@ -104,15 +105,9 @@ def tables() -> Iterator[Listed]:
         "Benchmark: ratios",
         f"How many times the one takes of the other's time, for the same rows. {how}",
         ("ratio", "value", "target"),
-        tuple((name, f"{value:.3g}", _goal(meant.get(name))) for name, value in data["ratios"].items()),
+        tuple((name, f"{value:.3g}", meant.get(name, {}).get("goal", "")) for name, value in data["ratios"].items()),
     )
 
 
 def _short(number: float | None) -> str:
     return "" if number is None else f"{number:.1e}"
-
-
-def _goal(target: Mapping[str, Any] | None) -> str:
-    from ptproof.simulation.measuring import goal
-
-    return goal(target)

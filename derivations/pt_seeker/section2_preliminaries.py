@@ -5,16 +5,16 @@ from __future__ import annotations
 import sympy as sp
 
 from ptproof.averaging import average
-from ptproof.clock import contract, dilate
 from ptproof.proof.claim import Goal, cited, claim, definition
-from ptproof.proof.exact import exact
-from ptproof.proof.integrals import integrals
-from ptproof.proof.limits import limits
-from ptproof.proof.reals import reals
-from ptproof.proof.refute import refute
+from ptproof.proof.engines.exact import exact
+from ptproof.proof.engines.integrals import integrals
+from ptproof.proof.engines.limits import limits
+from ptproof.proof.engines.reals import reals
+from ptproof.proof.engines.witnesses import refute
 from ptproof.proof.statement import Prose, eq, every, ge, gt, le, lt
 from ptproof.proof.verdict import Evidence
 from ptproof.system import DitherSystem, System, lie_bracket
+from ptproof.transforms.time import contract, dilate
 
 from .chain import clock
 from .notation import T, k, mu, nu, omega, rate_of, t, t0, tau, tau_fast, x1, x2, z

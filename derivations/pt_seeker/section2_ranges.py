@@ -6,10 +6,10 @@ import sympy as sp
 
 from ptproof.averaging import average
 from ptproof.proof.claim import Goal, claim
-from ptproof.proof.exact import exact
-from ptproof.proof.integrals import integrals
-from ptproof.proof.reals import reals
-from ptproof.proof.refute import refute
+from ptproof.proof.engines.exact import exact
+from ptproof.proof.engines.integrals import integrals
+from ptproof.proof.engines.reals import reals
+from ptproof.proof.engines.witnesses import refute
 from ptproof.proof.statement import eq, every, ge, gt, le, lt
 from ptproof.proof.verdict import Evidence
 from ptproof.system import DitherSystem, lie_bracket

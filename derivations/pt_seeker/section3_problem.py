@@ -5,9 +5,9 @@ from __future__ import annotations
 import sympy as sp
 
 from ptproof.proof.claim import Goal, claim, definition
+from ptproof.proof.engines.quantified import specialise
+from ptproof.proof.engines.reals import reals
 from ptproof.proof.lemmas import power_positive
-from ptproof.proof.quantified import specialise
-from ptproof.proof.reals import reals
 from ptproof.proof.statement import eq, every, gt, le, lt
 from ptproof.proof.verdict import Evidence
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ptproof.drift import gradient_drift
+from ptproof.problem.drift import gradient_drift
 from ptproof.proof.claim import Goal, claim
-from ptproof.proof.reals import reals
+from ptproof.proof.engines.reals import reals
 from ptproof.proof.statement import eq, le, lt
 from ptproof.proof.verdict import Evidence
 

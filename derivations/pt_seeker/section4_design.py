@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ptproof.clock import contract, dilate
 from ptproof.proof.claim import Goal, claim, definition
-from ptproof.proof.exact import exact
+from ptproof.proof.engines.exact import exact
 from ptproof.proof.statement import eq, every
 from ptproof.proof.verdict import Evidence
 from ptproof.system import System
+from ptproof.transforms.time import contract, dilate
 
 from .chain import clock, closed_loop_t, closed_loop_tau
 from .notation import F, T, drift_at, f, k, mu, nu, omega, rate_of, t, t0, tau, theta, x1, x2, z

@@ -5,9 +5,9 @@ from __future__ import annotations
 import sympy as sp
 
 from ptproof.proof.claim import Goal, claim
-from ptproof.proof.exact import exact
-from ptproof.proof.limits import limits
-from ptproof.proof.refute import refute
+from ptproof.proof.engines.exact import exact
+from ptproof.proof.engines.limits import limits
+from ptproof.proof.engines.witnesses import refute
 from ptproof.proof.statement import Relation, eq
 from ptproof.proof.verdict import Evidence
 from ptproof.system import System

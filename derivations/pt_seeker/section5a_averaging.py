@@ -5,18 +5,18 @@ from __future__ import annotations
 import sympy as sp
 
 from ptproof.averaging import average
-from ptproof.clock import solve_state
 from ptproof.proof.claim import Goal, cited, claim, definition
-from ptproof.proof.exact import exact
-from ptproof.proof.existence import defeats_every_choice
-from ptproof.proof.integrals import integrals
-from ptproof.proof.limits import limits
-from ptproof.proof.reals import reals
-from ptproof.proof.refute import refute
-from ptproof.proof.regularity import smooth
+from ptproof.proof.engines.exact import exact
+from ptproof.proof.engines.existence import defeats_every_choice
+from ptproof.proof.engines.integrals import integrals
+from ptproof.proof.engines.limits import limits
+from ptproof.proof.engines.reals import reals
+from ptproof.proof.engines.regularity import smooth
+from ptproof.proof.engines.witnesses import refute
 from ptproof.proof.statement import Exists, Prose, Smooth, eq, every, ge, le
 from ptproof.proof.verdict import Evidence
 from ptproof.system import lie_bracket
+from ptproof.transforms.states import solve_state
 
 from . import chain
 from .notation import (

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ptproof.drift import gradient_drift
+from ptproof.problem.drift import gradient_drift
 from ptproof.proof.claim import Goal, claim
-from ptproof.proof.reals import reals
-from ptproof.proof.regularity import smooth
+from ptproof.proof.engines.reals import reals
+from ptproof.proof.engines.regularity import smooth
 from ptproof.proof.statement import Smooth, every, ge, le
 from ptproof.proof.verdict import Evidence
 

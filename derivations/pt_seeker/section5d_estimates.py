@@ -9,12 +9,12 @@ from __future__ import annotations
 import sympy as sp
 
 from ptproof.proof.claim import Claim, Goal, claim
-from ptproof.proof.comparisons import comparison
+from ptproof.proof.engines.comparison import comparison
+from ptproof.proof.engines.limits import limits
+from ptproof.proof.engines.quantified import instances, specialise
+from ptproof.proof.engines.reals import reals
+from ptproof.proof.engines.squeeze import squeezed
 from ptproof.proof.lemmas import power_monotone, power_positive, power_strict, superadditive
-from ptproof.proof.limits import limits
-from ptproof.proof.quantified import instances, specialise
-from ptproof.proof.reals import reals
-from ptproof.proof.squeeze import squeezed
 from ptproof.proof.statement import Assumption, ForAll, Implication, Relation, eq, every, ge, gt, le, lt
 from ptproof.proof.verdict import Evidence
 

@@ -5,17 +5,17 @@ from __future__ import annotations
 import sympy as sp
 
 from ptproof.averaging import average, split_dithers
-from ptproof.clock import change_variable, solve_state
 from ptproof.proof.claim import Goal, claim
-from ptproof.proof.comparisons import comparison
-from ptproof.proof.exact import exact
+from ptproof.proof.engines.comparison import comparison
+from ptproof.proof.engines.exact import exact
+from ptproof.proof.engines.limits import limits
+from ptproof.proof.engines.quantified import specialise
+from ptproof.proof.engines.reals import reals
 from ptproof.proof.lemmas import exp_monotone
-from ptproof.proof.limits import limits
-from ptproof.proof.quantified import specialise
-from ptproof.proof.reals import reals
 from ptproof.proof.statement import ForAll, eq, every, ge, gt, le, lt
 from ptproof.proof.verdict import Evidence
-from ptproof.reduction import split
+from ptproof.transforms.reduction import split
+from ptproof.transforms.states import change_variable, solve_state
 
 from . import chain
 from .notation import (

@@ -8,13 +8,13 @@ from __future__ import annotations
 import sympy as sp
 
 from ptproof.proof.claim import Goal, claim
-from ptproof.proof.comparisons import comparison
-from ptproof.proof.exact import exact
-from ptproof.proof.existence import exists_by
+from ptproof.proof.engines.comparison import comparison
+from ptproof.proof.engines.exact import exact
+from ptproof.proof.engines.existence import exists_by
+from ptproof.proof.engines.limits import limits
+from ptproof.proof.engines.quantified import specialise
+from ptproof.proof.engines.reals import reals
 from ptproof.proof.lemmas import power_monotone, power_of_root, power_positive
-from ptproof.proof.limits import limits
-from ptproof.proof.quantified import specialise
-from ptproof.proof.reals import reals
 from ptproof.proof.statement import Exists, ForAll, Relation, eq, every, ge, gt, le, lt
 from ptproof.proof.verdict import Evidence
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import sympy as sp
 
 from ptproof.proof.claim import Claim, Goal, claim
+from ptproof.proof.engines.limits import limits
+from ptproof.proof.engines.quantified import specialise
+from ptproof.proof.engines.reals import reals
 from ptproof.proof.lemmas import power_positive
-from ptproof.proof.limits import limits
-from ptproof.proof.quantified import specialise
-from ptproof.proof.reals import reals
 from ptproof.proof.statement import eq, every, ge, le, lt
 from ptproof.proof.verdict import Evidence
 

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ptproof.drift import bounded_drift
+from ptproof.problem.drift import bounded_drift
 from ptproof.proof.claim import Goal, claim
-from ptproof.proof.enclosures import enclosures
-from ptproof.proof.exact import exact
-from ptproof.proof.existence import defeats_every_choice
+from ptproof.proof.engines.enclosures import enclosures
+from ptproof.proof.engines.exact import exact
+from ptproof.proof.engines.existence import defeats_every_choice
+from ptproof.proof.engines.quantified import specialise
+from ptproof.proof.engines.reals import reals
+from ptproof.proof.engines.regularity import smooth
 from ptproof.proof.lemmas import cosine_parabola, cosine_quartic, norm_below, power_monotone, sine_cubic, sine_square
-from ptproof.proof.quantified import specialise
-from ptproof.proof.reals import reals
-from ptproof.proof.regularity import smooth
 from ptproof.proof.statement import Exists, Relation, Smooth, eq, every, ge, gt, le, lt
 from ptproof.proof.verdict import Evidence
 from ptproof.system import gradient

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import sympy as sp
 
+from ptproof.problem.seekers import feedback, prescribed_time_gain, saturated_seeker
 from ptproof.proof.claim import Goal, claim
-from ptproof.proof.exact import exact
-from ptproof.proof.existence import exists_by
-from ptproof.proof.reals import reals
-from ptproof.proof.refute import refute
-from ptproof.proof.regularity import smooth
+from ptproof.proof.engines.exact import exact
+from ptproof.proof.engines.existence import exists_by
+from ptproof.proof.engines.reals import reals
+from ptproof.proof.engines.regularity import smooth
+from ptproof.proof.engines.witnesses import refute
 from ptproof.proof.statement import Exists, Smooth, eq, every, ge, gt, le, lt
 from ptproof.proof.verdict import Evidence
-from ptproof.seekers import feedback, prescribed_time_gain, saturated_seeker
 from ptproof.system import gradient
 
 from .chain import clock, letters

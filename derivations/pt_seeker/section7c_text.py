@@ -5,7 +5,7 @@ from __future__ import annotations
 import sympy as sp
 
 from ptproof.proof.claim import Goal, claim
-from ptproof.proof.exact import exact
+from ptproof.proof.engines.exact import exact
 from ptproof.proof.statement import eq
 from ptproof.proof.verdict import Evidence
 

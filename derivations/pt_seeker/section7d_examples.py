@@ -6,7 +6,7 @@ import sympy as sp
 
 from ptproof.problem import Problem, example
 from ptproof.proof.claim import Goal, claim
-from ptproof.proof.exact import exact
+from ptproof.proof.engines.exact import exact
 from ptproof.proof.statement import Relation, eq, every
 from ptproof.proof.verdict import Evidence
 

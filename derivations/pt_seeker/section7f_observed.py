@@ -15,7 +15,7 @@ from ptproof.proof.statement import Prose
 from ptproof.proof.verdict import Evidence, Verdict
 
 if TYPE_CHECKING:
-    from ptproof.simulation.section7 import Statement
+    from .experiments.observations import Statement
 
 SECTION = "7.4 Simulation: what is observed"
 
@@ -24,11 +24,11 @@ HEADINGS = 12  # for the saturated seeker, whose runs are long
 
 @engine
 def simulation(goal: Goal, statement: str, *arguments: str | int) -> Evidence:
-    """Run the named statement of :mod:`ptproof.simulation.section7`; numbers that don't support it leave it open."""
-    from ptproof.simulation import section7
+    """Run the named statement of :mod:`.experiments.observations`; numbers that don't support it leave it open."""
+    from .experiments import observations
 
     start = time.perf_counter()
-    found: Statement = getattr(section7, statement)(*arguments)
+    found: Statement = getattr(observations, statement)(*arguments)
     verdict = Verdict.OBSERVED if found.supported else Verdict.UNDECIDED
     return Evidence("simulation", verdict, _detail(found), time.perf_counter() - start)
 

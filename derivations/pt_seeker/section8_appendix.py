@@ -5,10 +5,10 @@ from __future__ import annotations
 import sympy as sp
 
 from ptproof.proof.claim import Goal, claim, definition
-from ptproof.proof.exact import exact
-from ptproof.proof.existence import exists_by
-from ptproof.proof.limits import limits
-from ptproof.proof.reals import reals
+from ptproof.proof.engines.exact import exact
+from ptproof.proof.engines.existence import exists_by
+from ptproof.proof.engines.limits import limits
+from ptproof.proof.engines.reals import reals
 from ptproof.proof.statement import Exists, Prose, eq, every, ge, le, lt
 from ptproof.proof.verdict import Evidence
 

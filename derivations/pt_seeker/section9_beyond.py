@@ -8,14 +8,14 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ptproof.drift import gradient_drift
+from ptproof.problem.drift import gradient_drift
 from ptproof.proof.claim import Goal, cited, claim
-from ptproof.proof.exact import exact
-from ptproof.proof.existence import exists_by
+from ptproof.proof.engines.exact import exact
+from ptproof.proof.engines.existence import exists_by
+from ptproof.proof.engines.quantified import specialise
+from ptproof.proof.engines.reals import reals
+from ptproof.proof.engines.witnesses import refute
 from ptproof.proof.lemmas import power_positive
-from ptproof.proof.quantified import specialise
-from ptproof.proof.reals import reals
-from ptproof.proof.refute import refute
 from ptproof.proof.statement import Exists, Prose, eq, ge, gt, le, lt
 from ptproof.proof.verdict import Evidence
 from ptproof.system import System, gradient

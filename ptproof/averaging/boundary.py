@@ -12,7 +12,7 @@ from ptproof.averaging.fast import SAMPLES, masked_functions
 from ptproof.averaging.problem import FastStates
 from ptproof.averaging.quasipolynomial import exact_sign
 from ptproof.averaging.refusal import AveragingUndecided
-from ptproof.proof.reals import follows
+from ptproof.proof.engines.reals import follows
 from ptproof.proof.statement import Relation
 from ptproof.proof.verdict import Evidence, Verdict, Witness
 

@@ -8,8 +8,8 @@ from collections.abc import Iterable, Sequence
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ptproof.proof.limits import limit_of
-from ptproof.proof.reals import follows
+from ptproof.proof.engines.limits import limit_of
+from ptproof.proof.engines.reals import follows
 from ptproof.proof.statement import Relation
 from ptproof.proof.verdict import Evidence, Verdict, Witness
 

@@ -12,8 +12,8 @@ from ptproof.averaging.enclosure import check_coefficients, sample
 from ptproof.averaging.quasipolynomial import exact_sign
 from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided
 from ptproof.averaging.signal import Signal, common_pieces, period_of, rates_of, read_signal
+from ptproof.balls.ball import separated
 from ptproof.proof.algebra import NotAlgebraic, is_zero
-from ptproof.proof.ball import separated
 from ptproof.system import DitherSystem
 
 Coefficients = dict[tuple[int, int], sp.Expr]

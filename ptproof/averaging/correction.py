@@ -15,7 +15,7 @@ from ptproof.averaging.average import derive
 from ptproof.averaging.brackets import SparseField, sparse_bracket, tidy
 from ptproof.averaging.coefficients import signals, tidy_constant
 from ptproof.averaging.signal import Signal
-from ptproof.proof.smoothness import smoothness
+from ptproof.proof.engines.smoothness import smoothness
 from ptproof.proof.statement import Relation
 from ptproof.proof.verdict import Evidence, Verdict
 from ptproof.system import DitherSystem, System

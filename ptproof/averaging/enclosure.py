@@ -17,8 +17,8 @@ from typing import Any
 import sympy as sp
 
 from ptproof.averaging import switching
-from ptproof.averaging.ball import compile_entire
-from ptproof.proof.ball import enclose, precision
+from ptproof.balls.ball import enclose, precision
+from ptproof.balls.entire import compile_entire
 from ptproof.system import DitherSystem
 
 _BITS = 80

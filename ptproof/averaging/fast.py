@@ -10,13 +10,13 @@ from dataclasses import dataclass
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ptproof import reduction
 from ptproof.averaging.problem import FastStates
 from ptproof.errors import InputError
 from ptproof.proof.algebra import NotAlgebraic, is_zero
-from ptproof.proof.reals import follows
+from ptproof.proof.engines.reals import follows
 from ptproof.proof.statement import Relation
 from ptproof.proof.verdict import Evidence, Verdict, Witness
+from ptproof.transforms import reduction
 
 ENGINE = "quasi-steady state"
 _SECONDS = 3.0

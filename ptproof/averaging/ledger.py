@@ -17,7 +17,7 @@ from ptproof.averaging.coefficients import signals
 from ptproof.averaging.fast import QuasiSteadyState, quasi_steady_state
 from ptproof.averaging.problem import DitherProblem, FastStates
 from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided
-from ptproof.proof.smoothness import smoothness
+from ptproof.proof.engines.smoothness import smoothness
 from ptproof.proof.statement import Relation
 from ptproof.proof.verdict import Evidence, Verdict
 

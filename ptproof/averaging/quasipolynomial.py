@@ -13,8 +13,8 @@ from typing import Any
 import sympy as sp
 
 from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided
+from ptproof.balls.ball import Undefined, separated
 from ptproof.proof.algebra import NotAlgebraic, is_zero
-from ptproof.proof.ball import Undefined, separated
 
 _HIGHEST_POWER = 64
 Key = tuple[int, sp.Expr]

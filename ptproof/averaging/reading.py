@@ -10,8 +10,7 @@ import sympy as sp
 
 from ptproof.averaging.problem import MU, OMEGA, PHASE, TIME, DitherProblem, FastStates
 from ptproof.errors import InputError
-from ptproof.system import DitherSystem
-from ptproof.toml_tables import (
+from ptproof.reading.tables import (
     RESERVED,
     build_from,
     check_known,
@@ -21,6 +20,7 @@ from ptproof.toml_tables import (
     hint,
     read_file,
 )
+from ptproof.system import DitherSystem
 
 _TOP = ("system", "expected", "region")
 _SYSTEM = ("state", "parameters", "functions", "bounded", "drift", "period", "dither", "fast", "start", "name")

@@ -16,7 +16,7 @@ from ptproof.averaging.ledger import Ledger, examine
 from ptproof.averaging.problem import DitherProblem
 from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided
 from ptproof.proof.claim import Goal
-from ptproof.proof.exact import exact
+from ptproof.proof.engines.exact import exact
 from ptproof.proof.statement import Relation
 from ptproof.proof.verdict import Evidence, Verdict
 from ptproof.system import DitherSystem, System

@@ -16,7 +16,7 @@ from sympy.core.relational import Relational
 
 from ptproof.averaging.quasipolynomial import exact_sign, linear_part, read
 from ptproof.averaging.refusal import AveragingUndecided
-from ptproof.proof.ball import enclose
+from ptproof.balls.ball import enclose
 
 _SIMPLE = (sp.Piecewise, sp.Abs, sp.sign, sp.Max, sp.Min, sp.Mod, sp.floor, sp.Heaviside)
 _WAVES = {(sp.asin, sp.sin), (sp.acos, sp.cos), (sp.atan, sp.tan)}

@@ -14,7 +14,7 @@ import sympy as sp
 
 from ptproof.certify.domain import Domain
 from ptproof.errors import InputError
-from ptproof.field import Field, FieldBounds
+from ptproof.problem.field import Field, FieldBounds
 from ptproof.proof.verdict import Verdict
 
 NAMES = ("a1", "a2", "b1", "b2")

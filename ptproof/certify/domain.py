@@ -26,7 +26,7 @@ class Domain:
     outer: sp.Expr | None = None
 
     def __post_init__(self) -> None:
-        from ptproof.proof.ball import separated
+        from ptproof.balls.ball import separated
 
         for name in ("inner", "outer"):
             value = getattr(self, name)

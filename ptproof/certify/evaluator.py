@@ -8,12 +8,12 @@ from dataclasses import dataclass
 
 from flint import arb
 
-from ptproof.certify.cube import Box
+from ptproof.balls.ball import BALLS, ball_from
+from ptproof.balls.cube import Box
+from ptproof.balls.jet import Bound, Side, upper_bound
+from ptproof.balls.tape import Undefined
 from ptproof.certify.domain import Domain
 from ptproof.certify.quotients import Function, Quotients
-from ptproof.proof.ball import BALLS, ball_from
-from ptproof.proof.jet import Bound, Side, upper_bound
-from ptproof.proof.tape import Undefined
 
 TINY = 2.0**-40
 """The relative width at which a box without an enclosure is given up."""

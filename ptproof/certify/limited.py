@@ -9,7 +9,7 @@ import sympy as sp
 
 from ptproof.certify.certificate import FieldCertificate
 from ptproof.errors import InputError
-from ptproof.parse import CONSTANTS, FUNCTIONS, parse
+from ptproof.reading.expressions import CONSTANTS, FUNCTIONS, parse
 
 
 def certify_text(

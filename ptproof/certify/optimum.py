@@ -11,11 +11,11 @@ from itertools import count
 
 from flint import arb
 
-from ptproof.certify.cube import Box
+from ptproof.balls.cube import Box
+from ptproof.balls.jet import middle
+from ptproof.balls.tape import Undefined
 from ptproof.certify.evaluator import Evaluator, Goal, Place, is_tiny, widest
 from ptproof.certify.quotients import Quotients
-from ptproof.proof.jet import middle
-from ptproof.proof.tape import Undefined
 
 
 def down(ball: arb) -> float:

@@ -16,14 +16,14 @@ from typing import Any
 import sympy as sp
 from flint import arb
 
-from ptproof.certify.cube import Box, Face, reduced_faces
-from ptproof.certify.growth import Growth, coordinates, power_of
-from ptproof.certify.growths import GROWTHS
-from ptproof.certify.rest import LineBound, line_bound, split_polynomial
-from ptproof.certify.series import coefficient_along
-from ptproof.certify.taylor import Nested, Taylor, taylor
-from ptproof.proof.ball import BALLS, interval
-from ptproof.proof.tape import Tape, Undefined, compile_tape
+from ptproof.balls.ball import BALLS, interval
+from ptproof.balls.cube import Box, Face, reduced_faces
+from ptproof.balls.growth import Growth, coordinates, power_of
+from ptproof.balls.growths import GROWTHS
+from ptproof.balls.rest import LineBound, line_bound, split_polynomial
+from ptproof.balls.series import coefficient_along
+from ptproof.balls.tape import Tape, Undefined, compile_tape
+from ptproof.balls.taylor import Nested, Taylor, taylor
 
 EXTRA_ORDERS = {1: 9, 2: 5, 3: 3}
 """How many orders beyond the leading one the Taylor polynomial has, by dimension."""

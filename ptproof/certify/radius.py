@@ -10,14 +10,14 @@ from functools import cached_property
 
 import sympy as sp
 
-from ptproof.certify.cube import Box
+from ptproof.balls.cube import Box
+from ptproof.balls.jet import middle
+from ptproof.balls.tape import Undefined
 from ptproof.certify.domain import Domain
 from ptproof.certify.evaluator import Evaluator, Goal, Place, is_tiny, start_boxes, widest
 from ptproof.certify.quotients import Quotients
 from ptproof.certify.witness import Prosecutor
-from ptproof.field import Field
-from ptproof.proof.jet import middle
-from ptproof.proof.tape import Undefined
+from ptproof.problem.field import Field
 
 LARGEST_RADIUS = sp.Integer(2) ** 20
 RADIUS_RTOL = sp.Rational(1, 1000)

@@ -10,6 +10,8 @@ from typing import Any
 
 import sympy as sp
 
+from ptproof.balls.ball import precision
+from ptproof.balls.tape import Undefined
 from ptproof.certify.certificate import FieldCertificate, FieldWitness, Range
 from ptproof.certify.domain import Domain
 from ptproof.certify.evaluator import Goal, Place, start_boxes
@@ -19,9 +21,7 @@ from ptproof.certify.radius import RadiusSearch
 from ptproof.certify.source import degenerate_direction, source_order
 from ptproof.certify.witness import Prosecutor
 from ptproof.errors import InputError
-from ptproof.field import Field
-from ptproof.proof.ball import precision
-from ptproof.proof.tape import Undefined
+from ptproof.problem.field import Field
 from ptproof.proof.verdict import Verdict
 
 GOALS = {

@@ -10,12 +10,12 @@ from itertools import product
 import sympy as sp
 from flint import arb
 
+from ptproof.balls.ball import ball_from, separated
+from ptproof.balls.tape import Undefined
 from ptproof.certify.certificate import FieldWitness
 from ptproof.certify.quotients import Quotients
 from ptproof.certify.witness import Prosecutor, Vector, certainly_zero, directions
-from ptproof.field import Field
-from ptproof.proof.ball import ball_from, separated
-from ptproof.proof.tape import Undefined
+from ptproof.problem.field import Field
 
 
 def source_order(field: Field, quotients: Quotients, prosecutor: Prosecutor) -> FieldWitness | None:

@@ -12,17 +12,17 @@ from typing import Any
 import sympy as sp
 from flint import arb
 
+from ptproof.balls.ball import BALLS, ball_from, enclose, enclosure_text, separated
+from ptproof.balls.growth import Exponent, Growth, coordinates
+from ptproof.balls.growths import GROWTHS
+from ptproof.balls.newton import krawczyk, newton
+from ptproof.balls.tape import Undefined, compile_tape
 from ptproof.certify.certificate import FieldWitness
 from ptproof.certify.domain import Domain
 from ptproof.certify.evaluator import Place
-from ptproof.certify.growth import Exponent, Growth, coordinates
-from ptproof.certify.growths import GROWTHS
-from ptproof.certify.newton import krawczyk, newton
 from ptproof.certify.quotients import Quotients
-from ptproof.field import Field
+from ptproof.problem.field import Field
 from ptproof.proof.algebra import NotAlgebraic, is_zero
-from ptproof.proof.ball import BALLS, ball_from, enclose, enclosure_text, separated
-from ptproof.proof.tape import Undefined, compile_tape
 
 Vector = Sequence[sp.Rational]
 

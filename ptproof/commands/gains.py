@@ -10,10 +10,10 @@ import click
 if TYPE_CHECKING:
     import sympy as sp
 
-    from ptproof.field import FieldBounds
     from ptproof.gains import Gains
     from ptproof.gains.study import Study
     from ptproof.problem import Problem
+    from ptproof.problem.field import FieldBounds
 
 _CONSTANTS = ("kappa", "a1", "a2", "b1", "b2")
 _NUMBERS = {
@@ -83,7 +83,7 @@ def gains(problem: str | None, picture: str | None, as_json: bool, **texts: str 
     Example:  ptproof gains --kappa 2 --a1 3/2 --a2 1/2 --b1 1.4 --b2 3.3 --drift-norm 1.5 --k 1.8 --T 1 --V0 0.5
     """
     from ptproof.errors import InputError
-    from ptproof.parse import parse
+    from ptproof.reading.expressions import parse
 
     values: dict[str, Any] = {
         name: parse(text, where=f"--{name.replace('_', '-')}") for name, text in texts.items() if text is not None
@@ -100,9 +100,9 @@ def gains(problem: str | None, picture: str | None, as_json: bool, **texts: str 
 
 
 def _from_numbers(values: dict[str, Any], picture: str | None, as_json: bool) -> int:
-    from ptproof.field import FieldBounds
     from ptproof.gains import GainData
     from ptproof.gains import gains as answer_for
+    from ptproof.problem.field import FieldBounds
 
     bounds = FieldBounds(*(values.pop(name) for name in _CONSTANTS))
     answer = answer_for(GainData(bounds, **values))
@@ -150,7 +150,7 @@ def _from_problem(name: str, radius: Any, values: dict[str, Any], picture: str |
 def _declared(problem: Problem, values: dict[str, Any]) -> FieldBounds | None:
     """The constants out of the options, which then take the place of certified ones."""
     from ptproof.errors import InputError
-    from ptproof.field import FieldBounds
+    from ptproof.problem.field import FieldBounds
 
     kappa = values.pop("kappa", problem.kappa)
     if kappa != problem.kappa:

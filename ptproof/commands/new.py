@@ -15,7 +15,7 @@ def new(folder: str, as_json: bool) -> int:
 
     One of the claims is false, and recorded as false: it shows what a witness looks like.
     """
-    from ptproof.starter import write_starter
+    from ptproof.commands.starter import write_starter
 
     files = write_starter(folder)
     if as_json:

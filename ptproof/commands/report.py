@@ -23,6 +23,7 @@ def report(paths: tuple[str, ...], out: str, jobs: int | None, timeout: float, n
     Writes index.html, report.md, graph.svg and figures/ into FOLDER. Exit status 1 if a claim did not come out as
     its author recorded, or a figure could not be drawn; the report is written all the same.
     """
+    from ptproof.commands.terminal import COLOURS, claim_progress
     from ptproof.proof.load import load
     from ptproof.proof.run import verify as run
     from ptproof.report.compose import compose
@@ -30,7 +31,6 @@ def report(paths: tuple[str, ...], out: str, jobs: int | None, timeout: float, n
     from ptproof.report.pages import report_files
     from ptproof.report.versions import versions
     from ptproof.report.writing import check_place, write_report
-    from ptproof.terminal import COLOURS, claim_progress
 
     place = check_place(out)
     derivation = load(paths)

@@ -18,9 +18,9 @@ def verify(paths: tuple[str, ...], as_json: bool, jobs: int | None, timeout: flo
 
     Exit status 1 if a claim did not come out as its author recorded.
     """
+    from ptproof.commands.terminal import claim_progress, verification_table
     from ptproof.proof.load import load
     from ptproof.proof.run import verify as run
-    from ptproof.terminal import claim_progress, verification_table
 
     derivation = load(paths)
     with claim_progress(len(derivation.select(select))) as progress:

@@ -54,7 +54,7 @@ def gains(data: GainData) -> Gains:
 
     Examples
     --------
-    >>> from ptproof.field import FieldBounds
+    >>> from ptproof.problem.field import FieldBounds
     >>> answer = gains(GainData(FieldBounds(1, 2, 1, 1, 2), k=1, T=1, drift_norm=1))
     >>> answer["asymptotic.k_min_printed"].exact, answer["asymptotic.k_min"].exact
     (16, 2)

@@ -8,8 +8,8 @@ from functools import cached_property
 import sympy as sp
 
 from ptproof.errors import InputError
-from ptproof.field import FieldBounds
 from ptproof.gains.numbers import NotApplicable, short, sign
+from ptproof.problem.field import FieldBounds
 
 _LARGEST_KAPPA = 1000
 _POSITIVE = ("k", "T", "nu_min", "V0", "x0_norm", "residual", "omega", "mu")

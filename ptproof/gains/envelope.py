@@ -17,9 +17,9 @@ from typing import Any, TypeAlias
 
 import sympy as sp
 
+from ptproof.balls.shells import Piece, down, exact, faces, up
 from ptproof.errors import InputError
 from ptproof.gains.numbers import NotApplicable
-from ptproof.gains.pieces import Piece, down, exact, faces, up
 from ptproof.proof.algebra import NotAlgebraic, is_zero
 from ptproof.system import gradient
 
@@ -72,8 +72,8 @@ class RadialEnvelope:
     _cells: dict[tuple[int, int], float] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        from ptproof.proof.ball import ball_from, precision
-        from ptproof.proof.tape import Undefined, compile_tape
+        from ptproof.balls.ball import ball_from, precision
+        from ptproof.balls.tape import Undefined, compile_tape
 
         if found := [kind.__name__ for kind in _NOT_SMOOTH if self.expression.has(kind)]:
             raise NotApplicable(f"a field with {found[0]}, which is not smooth in closed form")
@@ -137,7 +137,7 @@ class RadialEnvelope:
         return max(self._chord(index, low), self._chord(index, high))
 
     def _chord(self, index: int, w: float) -> float:
-        from ptproof.proof.ball import precision
+        from ptproof.balls.ball import precision
 
         grid = self.weights
         if not grid[0] <= w <= grid[-1]:
@@ -159,7 +159,7 @@ class RadialEnvelope:
 
     def _enclose(self, index: int, M: _Matrix) -> float:
         """Branch and bound over the shell: the piece with the largest upper bound is halved first."""
-        from ptproof.proof.ball import precision
+        from ptproof.balls.ball import precision
 
         low, high = self.boundary(index), self.boundary(index + 1)
         near = index <= -_NEAR or low == 0 or self.dimension > 2
@@ -188,8 +188,8 @@ class RadialEnvelope:
 
     def _at_least(self, piece: Piece, M: _Matrix) -> float:
         """What the middle of the piece certainly reaches, −inf where the field has no value."""
-        from ptproof.proof.ball import BALLS
-        from ptproof.proof.tape import Undefined
+        from ptproof.balls.ball import BALLS
+        from ptproof.balls.tape import Undefined
 
         r, u = piece.middle()
         try:
@@ -200,8 +200,8 @@ class RadialEnvelope:
 
     def _at_most(self, piece: Piece, near: bool, M: _Matrix) -> float:
         """An upper bound of u·M∇F/r on the piece: the least of three enclosures; inf where the field has no value."""
-        from ptproof.proof.ball import BALLS, interval
-        from ptproof.proof.tape import Undefined
+        from ptproof.balls.ball import BALLS, interval
+        from ptproof.balls.tape import Undefined
 
         n, u = self.dimension, piece.direction()
         self.evaluations += 1
@@ -231,7 +231,7 @@ class RadialEnvelope:
 
     def _mean_value(self, piece: Piece, M: _Matrix, u: list[Any], x: list[Any], g: list[Any], H: _Matrix) -> Any:
         """φ(m) + ∇φ·(x − m) for φ(x) = x·M∇F/‖x‖² and the middle m of the piece; ``g``, ``H`` over the box ``x``."""
-        from ptproof.proof.ball import BALLS, interval
+        from ptproof.balls.ball import BALLS, interval
 
         n = self.dimension
         rm, um = piece.middle()

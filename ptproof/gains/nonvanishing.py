@@ -13,10 +13,10 @@ from functools import lru_cache
 import sympy as sp
 
 from ptproof.comparison import DampedBound, fading_input
-from ptproof.field import FieldBounds
 from ptproof.gains.clipped import Horizon
 from ptproof.gains.data import GainData
 from ptproof.gains.numbers import NotApplicable, sign
+from ptproof.problem.field import FieldBounds
 
 STRETCHED = sp.Symbol("tau", real=True)
 # The comparison is checked once in these letters, and the numbers are put in afterwards.

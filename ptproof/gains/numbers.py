@@ -8,9 +8,9 @@ from typing import Any
 
 import sympy as sp
 
+from ptproof.balls.ball import separated
 from ptproof.errors import InputError
 from ptproof.proof.algebra import NotAlgebraic, is_zero
-from ptproof.proof.ball import separated
 
 
 class NotApplicable(InputError):

@@ -12,12 +12,12 @@ import sympy as sp
 
 from ptproof.certify import FieldCertificate, certify_field
 from ptproof.errors import InputError
-from ptproof.field import FieldBounds
 from ptproof.gains.answer import Gains, gains
 from ptproof.gains.data import GainData
 from ptproof.gains.numbers import sign
 from ptproof.gains.tight import BoundCurve, distance_from_source, tight_bound
 from ptproof.problem import Problem
+from ptproof.problem.field import FieldBounds
 from ptproof.problem.model import TIME
 from ptproof.proof.verdict import Verdict
 
@@ -150,8 +150,8 @@ def largest_drift(problem: Problem, radius: sp.Expr | None) -> sp.Rational:
 
     The declared bound is used only where the drift has no finite enclosure there.
     """
-    from ptproof.proof.ball import ball_from, enclose, interval
-    from ptproof.proof.tape import Undefined
+    from ptproof.balls.ball import ball_from, enclose, interval
+    from ptproof.balls.tape import Undefined
 
     t0, T = ball_from(problem.tuning.t0), ball_from(problem.tuning.T)
     inside: dict[sp.Symbol, Any] = {}

@@ -8,10 +8,10 @@ from typing import Any
 
 import sympy as sp
 
+from ptproof.balls.shells import down, up
 from ptproof.gains.clipped import Horizon
 from ptproof.gains.envelope import BITS, RadialEnvelope
 from ptproof.gains.numbers import sign
-from ptproof.gains.pieces import down, up
 from ptproof.problem import Problem
 from ptproof.problem.model import TIME
 
@@ -52,8 +52,8 @@ class UpperSolution:
     """The upper solution y, moved step by step."""
 
     def __init__(self, problem: Problem, initial: sp.Expr, grid: list[Node]) -> None:
-        from ptproof.proof.ball import ball_from, precision
-        from ptproof.proof.tape import compile_tape
+        from ptproof.balls.ball import ball_from, precision
+        from ptproof.balls.tape import compile_tape
 
         self.problem = problem
         drift = problem.drift
@@ -75,7 +75,7 @@ class UpperSolution:
 
     def step(self, left: Node, right: Node) -> str | None:
         """Move y over one step; returns the reason if that fails."""
-        from ptproof.proof.ball import precision
+        from ptproof.balls.ball import precision
 
         with precision(BITS):
             (s0, e0, w0), (s1, e1, w1) = self.balls[left], self.balls[right]
@@ -102,8 +102,8 @@ class UpperSolution:
         """An upper bound of w·‖f‖ on the step for ‖x − x*‖ ≤ reach."""
         from flint import arb
 
-        from ptproof.proof.ball import BALLS, interval
-        from ptproof.proof.tape import Undefined
+        from ptproof.balls.ball import BALLS, interval
+        from ptproof.balls.tape import Undefined
 
         if self.drift is None:
             return 0.0

@@ -15,10 +15,10 @@ from typing import Literal
 import sympy as sp
 
 from ptproof.comparison import DilatedBound
-from ptproof.field import FieldBounds
 from ptproof.gains.clipped import Horizon
 from ptproof.gains.data import GainData
 from ptproof.gains.numbers import sign
+from ptproof.problem.field import FieldBounds
 
 Chain = Literal["printed", "split"]
 STRETCHED = sp.Symbol("tau", real=True)

@@ -7,19 +7,19 @@ from functools import cached_property
 
 import sympy as sp
 
-from ptproof.clipped_clock import Continuation
-from ptproof.clock import Clock
 from ptproof.errors import InputError
 from ptproof.proof.algebra import is_zero
+from ptproof.transforms.clocks.cap import Continuation
+from ptproof.transforms.clocks.clock import Clock
 
 
 @dataclass(frozen=True)
 class ClippedClock:
     """τ = a(t) with dτ/dt = 1/max(ν_min, ν)², for all t ≥ t₀ (the rate is the gain of eq:kt).
 
-    It has a :class:`~ptproof.clock.Clock`'s attributes, with expressions in two pieces. The general
-    :class:`ptproof.clipped_clock.ClippedClock` asks for a corner strictly after t₀ for every value of its symbols;
-    ν_min = 1, the gain that is constant from the start, has it at t₀.
+    It has a :class:`~ptproof.transforms.clocks.clock.Clock`'s attributes, with expressions in two pieces. The general
+    :class:`ptproof.transforms.clocks.cap.ClippedClock` asks for a corner strictly after t₀ for every value of its
+    symbols; ν_min = 1, the gain that is constant from the start, has it at t₀.
 
     Parameters
     ----------

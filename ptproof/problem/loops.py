@@ -13,12 +13,14 @@ from types import MappingProxyType
 
 import sympy as sp
 
-from ptproof.clock import Clock, change_variable, prescribed_time_clock, solve_state
 from ptproof.errors import InputError
 from ptproof.problem.clipped import ClippedClock
 from ptproof.problem.model import TIME, Problem, Saturation
-from ptproof.seekers import Letters, asymptotic_seeker, prescribed_time_gain, saturated_seeker
+from ptproof.problem.seekers import Letters, asymptotic_seeker, prescribed_time_gain, saturated_seeker
 from ptproof.system import System
+from ptproof.transforms.clocks.clock import Clock
+from ptproof.transforms.clocks.named import prescribed_time_clock
+from ptproof.transforms.states import change_variable, solve_state
 
 SEEKERS = ("pt", "asymptotic", "saturated", "saturated-constant")
 FRAMES = ("t", "tau")

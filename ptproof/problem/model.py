@@ -9,8 +9,8 @@ from typing import Any
 
 import sympy as sp
 
-from ptproof.drift import Drift
 from ptproof.errors import InputError
+from ptproof.problem.drift import Drift
 from ptproof.system import System
 
 TIME = sp.Symbol("t", real=True)

@@ -8,7 +8,6 @@ from functools import lru_cache
 import sympy as sp
 
 from ptproof.averaging import average, split_dithers
-from ptproof.clock import change_variable, solve_state
 from ptproof.errors import InputError
 from ptproof.problem.loops import (
     FRAMES,
@@ -26,9 +25,10 @@ from ptproof.problem.loops import (
     without_start,
 )
 from ptproof.problem.model import TIME, Problem
-from ptproof.reduction import split
-from ptproof.seekers import asymptotic_seeker
+from ptproof.problem.seekers import asymptotic_seeker
 from ptproof.system import DitherSystem, System, substitute
+from ptproof.transforms.reduction import split
+from ptproof.transforms.states import change_variable, solve_state
 
 
 def reduced_model(problem: Problem, seeker: str = "pt", frame: str = "t", *, symbolic: bool = False) -> System:

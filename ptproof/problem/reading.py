@@ -10,10 +10,10 @@ from typing import Any
 
 import sympy as sp
 
-from ptproof.drift import Drift, bounded_drift, gradient_drift, no_drift
 from ptproof.errors import InputError
+from ptproof.problem.drift import Drift, bounded_drift, gradient_drift, no_drift
 from ptproof.problem.model import TIME, Initial, Problem, Saturation, Tuning, number, positive
-from ptproof.toml_tables import (
+from ptproof.reading.tables import (
     RESERVED,
     build_from,
     check_known,
@@ -49,7 +49,7 @@ def example(name: str) -> Problem:
     if name not in EXAMPLES:
         near = hint(name, EXAMPLES, any_case=True)
         raise InputError(f"{name!r} is not an example{near}; the examples are {', '.join(EXAMPLES)}")
-    text = resources.files("ptproof").joinpath("examples", f"{name}.toml").read_text("utf-8")
+    text = resources.files("ptproof.problem").joinpath("examples", f"{name}.toml").read_text("utf-8")
     return read(text, name)
 
 

@@ -185,7 +185,7 @@ def definition(
 def facts_of(used: Claim) -> tuple[Implication, ...]:
     """What ``used`` says at its own symbols, as facts under its own assumptions; nothing if those are quantified.
 
-    At other values it is :func:`ptproof.proof.quantified.specialise` that says it.
+    At other values it is :func:`ptproof.proof.engines.quantified.specialise` that says it.
     """
     if isinstance(used.statement, Prose | Smooth | Exists):
         return ()

@@ -60,7 +60,7 @@ class Derivation:
 
 def shipped() -> Path:
     """The folder of the derivations that ship with the package, or that stand beside it in a checkout."""
-    here = Path(__file__).resolve().parents[1]
+    here = Path(__file__).resolve().parents[1]  # the package
     for folder in (here / "_derivations", here.parent / "derivations"):
         if folder.is_dir():
             return folder

@@ -14,6 +14,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from ptproof.errors import InputError
+from ptproof.system import differentiated
 
 RelationSign: TypeAlias = Literal["=", "<=", "<", ">=", ">", "!="]
 _LATEX = {"=": "=", "<=": r"\le", "<": "<", ">=": r"\ge", ">": ">", "!=": r"\ne"}
@@ -177,7 +178,6 @@ class Implication:
 
 
 _BINDERS = (sp.Derivative, sp.Integral, sp.Limit, sp.Subs, sp.Sum, sp.Product, sp.Lambda)
-_NEVER_BY_SYMPY = (sp.Integral, sp.Limit, sp.Sum, sp.Product)
 
 Statement: TypeAlias = Relation | All | Exists | Smooth | Prose
 Assumption: TypeAlias = Relation | ForAll
@@ -255,27 +255,6 @@ def undefined_functions(statements: Sequence[Statement | Assumption]) -> set[App
     for expression in expressions_of(statements):
         found |= expression.atoms(AppliedUndef)
     return found
-
-
-def differentiated(expression: sp.Expr) -> sp.Expr:
-    """Carry out derivatives and substitutions and nothing else: SymPy's limits, sums and integrals are not trusted."""
-    masks: dict[sp.Expr, sp.Expr] = {}
-    done: dict[sp.Expr, sp.Expr] = {}
-    traversal = sp.preorder_traversal(expression)
-    for node in traversal:
-        if isinstance(node, _NEVER_BY_SYMPY):
-            inside = node.func(differentiated(node.args[0]), *node.args[1:])
-        elif isinstance(node, sp.Derivative | sp.Subs):
-            traversal.skip()  # what is inside depends on the variable of the derivative
-            if not node.has(sp.Limit, sp.Sum, sp.Product):
-                continue
-            inside = node
-        else:
-            continue
-        masks.setdefault(node, sp.Dummy("mask", real=True))
-        done[masks[node]] = inside
-        traversal.skip()
-    return expression.xreplace(masks).doit(integrals=False).xreplace(done)
 
 
 def substitute_in(relation: Relation, values: Mapping[Any, Any]) -> Relation:

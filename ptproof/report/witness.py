@@ -9,10 +9,10 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from ptproof.errors import InputError
-from ptproof.parse import parse
 from ptproof.proof.claim import Claim
 from ptproof.proof.statement import free_symbols, undefined_functions
 from ptproof.proof.verdict import Witness
+from ptproof.reading.expressions import parse
 from ptproof.report.formula import Names, latex
 
 

@@ -10,11 +10,9 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from ptproof.simulation.blocks import compare_figure, figure_loop, linearize_at_source, to_control
-    from ptproof.simulation.gallery import figures, problem_order
     from ptproof.simulation.order import GapOrder, gap_order, hover_radius
     from ptproof.simulation.plan import Outcome
     from ptproof.simulation.run import simulate
-    from ptproof.simulation.section7 import Statement, statements
     from ptproof.simulation.trajectory import Ensemble, Trajectory
     from ptproof.simulation.translate import to_function
 
@@ -22,17 +20,13 @@ _HOME = {
     "Ensemble": "trajectory",
     "GapOrder": "order",
     "Outcome": "plan",
-    "Statement": "section7",
     "Trajectory": "trajectory",
     "compare_figure": "blocks",
     "figure_loop": "blocks",
-    "figures": "gallery",
     "gap_order": "order",
     "hover_radius": "order",
     "linearize_at_source": "blocks",
-    "problem_order": "gallery",
     "simulate": "run",
-    "statements": "section7",
     "to_control": "blocks",
     "to_function": "translate",
 }
@@ -40,17 +34,13 @@ __all__ = [
     "Ensemble",
     "GapOrder",
     "Outcome",
-    "Statement",
     "Trajectory",
     "compare_figure",
     "figure_loop",
-    "figures",
     "gap_order",
     "hover_radius",
     "linearize_at_source",
-    "problem_order",
     "simulate",
-    "statements",
     "to_control",
     "to_function",
 ]

@@ -19,7 +19,7 @@ from ptproof.errors import InputError
 from ptproof.problem import Problem, parameters
 from ptproof.problem.loops import gain_of, loop_letters
 from ptproof.problem.model import TIME
-from ptproof.seekers import unicycle
+from ptproof.problem.seekers import unicycle
 from ptproof.simulation.plan import Array
 from ptproof.simulation.run import simulate
 from ptproof.simulation.setup import by_name
@@ -133,7 +133,7 @@ def washout_transfer(problem: Problem) -> Any:
 def _vehicle(problem: Problem, u1: sp.Symbol, u2: sp.Symbol) -> Any:
     import control
 
-    from ptproof.seekers import Feedback
+    from ptproof.problem.seekers import Feedback
 
     letters = loop_letters(problem)
     # The unicycle of the seekers with its inputs left free; its filter state is not part of the vehicle.

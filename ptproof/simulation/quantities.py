@@ -12,7 +12,7 @@ import sympy as sp
 from ptproof.problem import Problem, parameters
 from ptproof.problem.loops import gain_of, loop_letters
 from ptproof.problem.model import TIME
-from ptproof.seekers import feedback
+from ptproof.problem.seekers import feedback
 from ptproof.simulation.plan import Array
 from ptproof.system import System
 

@@ -11,11 +11,11 @@ import numpy as np
 import sympy as sp
 
 from ptproof.errors import InputError
-from ptproof.parse import parse
 from ptproof.problem import Problem, parameters
 from ptproof.problem.clipped import ClippedClock
 from ptproof.problem.loops import TAU, clock_of, loop_letters
 from ptproof.problem.model import TIME
+from ptproof.reading.expressions import parse
 from ptproof.simulation.plan import Array
 from ptproof.simulation.quantities import field_function, input_function
 from ptproof.system import System

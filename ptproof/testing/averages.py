@@ -9,11 +9,11 @@ from typing import Any
 import sympy as sp
 
 from ptproof.errors import InputError
+from ptproof.reading.limits import OutOfTime, within
 from ptproof.system import DitherSystem, System
 from ptproof.testing.failure import assertion
 from ptproof.testing.reading import expression
 from ptproof.testing.wording import lines, simplest, witness_text
-from ptproof.time_limit import OutOfTime, within
 
 __unittest = True
 SECONDS = 60.0

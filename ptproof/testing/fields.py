@@ -8,10 +8,10 @@ from typing import Any
 import sympy as sp
 
 from ptproof.errors import InputError
+from ptproof.reading.limits import OutOfTime, within
 from ptproof.testing.failure import assertion
 from ptproof.testing.reading import expression as read
 from ptproof.testing.wording import lines
-from ptproof.time_limit import OutOfTime, within
 
 __unittest = True
 SECONDS = 60.0
@@ -112,7 +112,7 @@ def _end(value: Any) -> sp.Expr | None:
 
 def _compare(certificate: Any, name: str, value: sp.Expr, seconds: float) -> Any:
     """Whether a claimed constant holds: by the enclosure of the best one, else by a proof for this very number."""
-    from ptproof.proof.ball import separated
+    from ptproof.balls.ball import separated
     from ptproof.proof.verdict import Verdict
 
     best = getattr(certificate, name)

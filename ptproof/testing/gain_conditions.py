@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING
 import sympy as sp
 
 from ptproof.errors import InputError
+from ptproof.reading.limits import OutOfTime, within
 from ptproof.testing.failure import assertion
 from ptproof.testing.wording import lines
-from ptproof.time_limit import OutOfTime, within
 
 if TYPE_CHECKING:
     from ptproof.gains import GainData, Gains
@@ -157,7 +157,7 @@ def _unlimited(data: GainData, key: str) -> bool:
 
 def _value(text: str, data: GainData, keys: Mapping[str, sp.Expr]) -> sp.Expr:
     """A side of the condition: its keys are masked by names that the parser can read."""
-    from ptproof.parse import parse
+    from ptproof.reading.expressions import parse
 
     masks = {key: sp.Symbol(key.replace(".", "__"), real=True) for key in keys}
     masked = _KEY.sub(lambda m: masks[f"{m[1]}.{m[2]}"].name, text)

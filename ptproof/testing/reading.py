@@ -10,8 +10,8 @@ import sympy as sp
 from sympy.core.relational import Relational
 
 from ptproof.errors import InputError
-from ptproof.parse import parse
 from ptproof.proof.statement import All, ForAll, Relation
+from ptproof.reading.expressions import parse
 
 _SIGNS: Mapping[str, Any] = {"==": "=", "!=": "!=", "<=": "<=", "<": "<", ">=": ">=", ">": ">"}
 

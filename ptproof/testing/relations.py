@@ -11,10 +11,10 @@ import sympy as sp
 from ptproof.proof.claim import Goal
 from ptproof.proof.statement import Relation, free_symbols, relations_of
 from ptproof.proof.verdict import Evidence, Verdict
+from ptproof.reading.limits import OutOfTime, within
 from ptproof.testing.failure import assertion
 from ptproof.testing.reading import assumptions, relation, side
 from ptproof.testing.wording import lines, simplest, witness_text
-from ptproof.time_limit import OutOfTime, within
 
 __unittest = True
 SECONDS = 60.0
@@ -89,11 +89,11 @@ def _first_decision(goal: Goal, seconds: float) -> Evidence:
 
 
 def _attempts(goal: Goal, seconds: float) -> Iterator[Evidence]:
-    from ptproof.proof.enclosures import enclosures
-    from ptproof.proof.exact import exact
-    from ptproof.proof.integrals import integrals
-    from ptproof.proof.limits import limits
-    from ptproof.proof.reals import reals
+    from ptproof.proof.engines.enclosures import enclosures
+    from ptproof.proof.engines.exact import exact
+    from ptproof.proof.engines.integrals import integrals
+    from ptproof.proof.engines.limits import limits
+    from ptproof.proof.engines.reals import reals
 
     parts = relations_of(goal.statement)
     equalities = all(part.sign == "=" for part in parts)

@@ -8,7 +8,7 @@ from collections.abc import Iterable
 import sympy as sp
 
 from ptproof.proof.verdict import Witness
-from ptproof.time_limit import OutOfTime, within
+from ptproof.reading.limits import OutOfTime, within
 
 SIMPLIFY_SECONDS = 2.0
 _SMALL = 80

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from ptproof.cli import main
+from ptproof.commands.cli import main
 
 TEXT = """
 [system]

@@ -4,12 +4,12 @@ import pytest
 import sympy as sp
 from flint import arb
 
-from ptproof.certify.cube import Box, Face, reduced_faces
+from ptproof.balls.ball import BALLS, enclose, interval, precision
+from ptproof.balls.cube import Box, Face, reduced_faces
+from ptproof.balls.jet import JETS, variables
+from ptproof.balls.rest import line_bound, split_polynomial
+from ptproof.balls.tape import Undefined
 from ptproof.certify.quotients import Quotients
-from ptproof.certify.rest import line_bound, split_polynomial
-from ptproof.proof.ball import BALLS, enclose, interval, precision
-from ptproof.proof.jet import JETS, variables
-from ptproof.proof.tape import Undefined
 
 y = sp.symbols("y1:4", real=True)
 a, b, c = y

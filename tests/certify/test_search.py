@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 import sympy as sp
 
+from ptproof.balls.ball import enclose
 from ptproof.certify import certify_field
 from ptproof.errors import InputError
-from ptproof.parse import parse
-from ptproof.proof.ball import enclose
 from ptproof.proof.verdict import Verdict
+from ptproof.reading.expressions import parse
 
 pi = sp.pi
 R = sp.Rational

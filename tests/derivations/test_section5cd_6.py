@@ -10,11 +10,11 @@ from pathlib import Path
 import pytest
 import sympy as sp
 
-import ptproof.proof.reals
-import ptproof.proof.refute
+import ptproof.proof.engines.reals
+import ptproof.proof.engines.witnesses
 from ptproof.proof.claim import Claim
+from ptproof.proof.engines.witnesses import refute
 from ptproof.proof.load import load
-from ptproof.proof.refute import refute
 from ptproof.proof.run import run_one
 from ptproof.proof.statement import All, Exists, ForAll, Relation, eq, ge, gt, le, lt
 from ptproof.proof.verdict import Verdict
@@ -214,8 +214,8 @@ TWINS = [
 @pytest.mark.parametrize(("twin", "verdict"), [row[1:] for row in TWINS], ids=[row[0] for row in TWINS])
 def test_corrupted_twin(twin: Claim, verdict: Verdict | None, monkeypatch: pytest.MonkeyPatch) -> None:
     # A failed proof is what is expected here, so it may give up early; that can only lose proofs.
-    monkeypatch.setattr(ptproof.proof.reals, "SECONDS", 2.0)
-    monkeypatch.setattr(ptproof.proof.refute, "SEARCH_SECONDS", 2.0 if verdict is Verdict.REFUTED else 0.0)
+    monkeypatch.setattr(ptproof.proof.engines.reals, "SECONDS", 2.0)
+    monkeypatch.setattr(ptproof.proof.engines.witnesses, "SEARCH_SECONDS", 2.0 if verdict is Verdict.REFUTED else 0.0)
     found = run_one(twin)
     assert found.verdict is not Verdict.PROVED
     assert verdict is None or found.verdict is verdict, found.detail

@@ -11,11 +11,11 @@ from typing import Any
 import pytest
 from mutations import mutants, swapped, without_assumptions
 
-import ptproof.proof.reals
-import ptproof.proof.refute
+import ptproof.proof.engines.reals
+import ptproof.proof.engines.witnesses
 from ptproof.proof.claim import Claim
+from ptproof.proof.engines.witnesses import or_refute
 from ptproof.proof.load import load
-from ptproof.proof.refute import or_refute
 from ptproof.proof.run import run_one
 from ptproof.proof.verdict import Evidence, Verdict
 
@@ -26,8 +26,8 @@ _NOT_TRIED = Evidence("none", Verdict.UNDECIDED, "")
 @pytest.fixture(autouse=True)
 def short_limits(monkeypatch: pytest.MonkeyPatch) -> None:
     """A failed proof is what is expected here, so it may give up early; that can only lose proofs."""
-    monkeypatch.setattr(ptproof.proof.reals, "SECONDS", 2.0)
-    monkeypatch.setattr(ptproof.proof.refute, "SEARCH_SECONDS", 0.3)
+    monkeypatch.setattr(ptproof.proof.engines.reals, "SECONDS", 2.0)
+    monkeypatch.setattr(ptproof.proof.engines.witnesses, "SEARCH_SECONDS", 0.3)
 
 
 @pytest.mark.parametrize("claim", CLAIMS, ids=lambda claim: claim.id)
@@ -50,8 +50,8 @@ def test_corrupted_twin_is_not_proved(claim: Claim) -> None:
 def test_exchanged_index_or_dropped_assumption_proves_nothing_false(
     claim: Claim, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(ptproof.proof.reals, "SECONDS", 0.3)
-    monkeypatch.setattr(ptproof.proof.refute, "SEARCH_SECONDS", 0.1)
+    monkeypatch.setattr(ptproof.proof.engines.reals, "SECONDS", 0.3)
+    monkeypatch.setattr(ptproof.proof.engines.witnesses, "SEARCH_SECONDS", 0.1)
     twins = [*list(swapped(claim))[:1], *list(without_assumptions(claim))[:1]]
     for word, twin in twins:
         if run_one(twin).verdict is Verdict.PROVED:

@@ -12,8 +12,8 @@ import numpy as np
 import sympy as sp
 from scipy.integrate import solve_ivp
 
-from ptproof.field import FieldBounds
 from ptproof.gains import GainData, Horizon, nonvanishing, vanishing
+from ptproof.problem.field import FieldBounds
 
 R = sp.Rational
 

@@ -8,10 +8,10 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import minimize_scalar
 
 from ptproof.errors import InputError
-from ptproof.field import FieldBounds
 from ptproof.gains import GainData, Horizon, NotApplicable, gains, nonvanishing, vanishing
 from ptproof.gains.data import largest_singular_value, smallest_eigenvalue, symmetric_part
 from ptproof.gains.numbers import Quantity, sign
+from ptproof.problem.field import FieldBounds
 
 R = sp.Rational
 ONE = FieldBounds(1, R(3, 2), R(1, 2), R(1, 2), R(13, 4))

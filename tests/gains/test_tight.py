@@ -9,12 +9,12 @@ import sympy as sp
 from scipy.integrate import solve_ivp
 
 import ptproof.gains.upper
-from ptproof.drift import bounded_drift, gradient_drift
+from ptproof.balls.shells import Piece, faces
 from ptproof.errors import InputError
 from ptproof.gains.envelope import RadialEnvelope
-from ptproof.gains.pieces import Piece, faces
 from ptproof.gains.tight import distance_from_source, tight_bound
 from ptproof.problem import example
+from ptproof.problem.drift import bounded_drift, gradient_drift
 from ptproof.problem.model import TIME
 from ptproof.proof.verdict import Verdict
 from ptproof.system import gradient

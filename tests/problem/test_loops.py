@@ -5,14 +5,15 @@ import itertools
 import pytest
 import sympy as sp
 
-from ptproof.clock import dilate, identity_clock, prescribed_time_clock
 from ptproof.errors import InputError
 from ptproof.problem import SEEKERS, example
 from ptproof.problem.clipped import ClippedClock
 from ptproof.problem.loops import TAU, loop_letters, parameters
 from ptproof.problem.model import TIME
+from ptproof.problem.seekers import asymptotic_seeker, prescribed_time_seeker
 from ptproof.proof.algebra import is_zero
-from ptproof.seekers import asymptotic_seeker, prescribed_time_seeker
+from ptproof.transforms.clocks.named import identity_clock, prescribed_time_clock
+from ptproof.transforms.time import dilate
 
 P = parameters
 

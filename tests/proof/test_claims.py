@@ -11,10 +11,10 @@ import sympy as sp
 
 from ptproof.errors import InputError
 from ptproof.proof.claim import Goal, cited, claim
-from ptproof.proof.exact import exact
-from ptproof.proof.existence import defeats_every_choice, exists_by
+from ptproof.proof.engines.exact import exact
+from ptproof.proof.engines.existence import defeats_every_choice, exists_by
+from ptproof.proof.engines.reals import reals
 from ptproof.proof.load import load
-from ptproof.proof.reals import reals
 from ptproof.proof.run import conclude, run_one, verify
 from ptproof.proof.statement import Exists, Prose, Relation, eq, ge, le
 from ptproof.proof.verdict import Evidence, Verdict
@@ -25,7 +25,7 @@ a = sp.Symbol("a", positive=True)
 HEADER = """
 import sympy as sp
 from ptproof.proof.claim import claim
-from ptproof.proof.exact import exact
+from ptproof.proof.engines.exact import exact
 from ptproof.proof.statement import eq
 x = sp.Symbol("x", real=True)
 SECTION = "Test"

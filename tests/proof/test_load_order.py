@@ -5,7 +5,7 @@ from ptproof.proof.load import load
 HEAD = """
 import sympy as sp
 from ptproof.proof.claim import claim
-from ptproof.proof.exact import exact
+from ptproof.proof.engines.exact import exact
 from ptproof.proof.statement import eq
 
 SECTION = "{section}"

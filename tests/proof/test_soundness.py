@@ -4,11 +4,11 @@ import pytest
 import sympy as sp
 
 from ptproof.proof.claim import Goal
-from ptproof.proof.exact import exact
-from ptproof.proof.existence import defeats_every_choice
+from ptproof.proof.engines.exact import exact
+from ptproof.proof.engines.existence import defeats_every_choice
+from ptproof.proof.engines.limits import limits
+from ptproof.proof.engines.reals import reals
 from ptproof.proof.lemmas import power_monotone
-from ptproof.proof.limits import limits
-from ptproof.proof.reals import reals
 from ptproof.proof.statement import Exists, Relation, eq, ge, gt, le
 from ptproof.proof.verdict import Verdict
 

@@ -27,7 +27,7 @@ NOTATION = [
 CLAIMS = '''
 import sympy as sp
 from ptproof.proof.claim import cited, claim, definition
-from ptproof.proof.exact import exact
+from ptproof.proof.engines.exact import exact
 from ptproof.proof.statement import Exists, ForAll, Prose, Smooth, eq, every, ge, gt, le
 from ptproof.proof.verdict import Evidence, Verdict
 from .notation import F, G, k, n, x

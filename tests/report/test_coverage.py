@@ -4,14 +4,14 @@ import json
 
 import pytest
 
-from ptproof.cli import main
+from ptproof.commands.cli import main
 from ptproof.report.coverage import coverage
 
 PAPER = r"\begin{align} a \label{eq:one} \\ b \label{eq:two} \end{align}"
 DERIVATION = '''
 import sympy as sp
 from ptproof.proof.claim import claim, definition
-from ptproof.proof.exact import exact
+from ptproof.proof.engines.exact import exact
 from ptproof.proof.statement import eq
 
 x = sp.Symbol("x", real=True)

@@ -20,7 +20,7 @@ def test_formulas_become_mathml():
 
 
 def test_roles_are_shown_as_code():
-    assert to_html(":func:`~ptproof.clock.dilate`") == "<p><code>dilate</code></p>"
+    assert to_html(":func:`~ptproof.transforms.clocks.clock.dilate`") == "<p><code>dilate</code></p>"
 
 
 @pytest.mark.parametrize("text", ["a*b*c", "x_1 and x_2", "[a](b)", "<b>", "# no", "a | b", "$5", "`", "~~x~~"])

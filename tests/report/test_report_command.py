@@ -2,12 +2,12 @@
 
 import pytest
 
-from ptproof.cli import main
+from ptproof.commands.cli import main
 
 GOOD = '''
 import sympy as sp
 from ptproof.proof.claim import claim
-from ptproof.proof.exact import exact
+from ptproof.proof.engines.exact import exact
 from ptproof.proof.statement import eq
 
 x = sp.Symbol("x", real=True)

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 import sympy as sp
 
+from derivations.pt_seeker.experiments.gallery import problem_order
 from ptproof.averaging.correction import first_correction
 from ptproof.errors import InputError
 from ptproof.problem import example, parameters
 from ptproof.problem.loops import TAU
 from ptproof.problem.models import generic_dithers
-from ptproof.simulation.gallery import problem_order
 from ptproof.simulation.order import fit_order, gap_order, hover_radius
 from ptproof.simulation.run import simulate
 from ptproof.system import DitherSystem, System, gradient

@@ -133,7 +133,7 @@ def test_average_and_reduced_model_run_too():
 
 def test_the_boundary_layer_decays():
     from ptproof.problem.loops import loop_letters, parameters, reduced_loop
-    from ptproof.reduction import split
+    from ptproof.transforms.reduction import split
 
     problem = example("vanishing")
     parts = split(reduced_loop(problem), [loop_letters(problem).filter], parameters.mu)

@@ -6,9 +6,9 @@ import pytest
 import sympy as sp
 
 from ptproof.errors import InputError
-from ptproof.field import FieldBounds
 from ptproof.gains import GainData
 from ptproof.problem import example
+from ptproof.problem.field import FieldBounds
 from ptproof.testing import assert_field_bounds, assert_gain_condition
 
 x1, x2 = sp.symbols("x1 x2", real=True)

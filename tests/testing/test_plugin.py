@@ -3,7 +3,7 @@
 import pytest
 
 # Loaded here, they stay loaded for the runs within this process.
-import ptproof.proof.exact
+import ptproof.proof.engines.exact
 import ptproof.proof.load
 import ptproof.proof.run
 import ptproof.testing.collecting  # noqa: F401
@@ -13,7 +13,7 @@ pytest_plugins = ["pytester"]
 HEAD = """
 import sympy as sp
 from ptproof.proof.claim import cited, claim
-from ptproof.proof.exact import exact
+from ptproof.proof.engines.exact import exact
 from ptproof.proof.statement import Prose, eq
 x = sp.Symbol("x", real=True)
 """

@@ -74,7 +74,7 @@ def test_out_of_time_is_undecided(monkeypatch):
         while True:
             pass
 
-    monkeypatch.setattr("ptproof.proof.exact.exact", slow)
+    monkeypatch.setattr("ptproof.proof.engines.exact.exact", slow)
     with pytest.raises(AssertionError, match=r"(?s)undecided.*no answer in 0.2 s"):
         assert_identity(x, x, seconds=0.2)
 

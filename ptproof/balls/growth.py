@@ -1,0 +1,185 @@
+"""How an expression grows far away from the source: a sum of powers of r with interval coefficients.
+
+A :class:`Growth` encloses a function on the region r ≥ r₀ ≥ 1, for a set of directions: f = Σ cₑ rᵉ, where each
+coefficient may be any function whose values lie in an interval. Sine, cosine and the like are bounded by 1,
+exp(−c rᵈ) by a negative power, log r by a root of r. Intervals may have an infinite end, so that growth that is
+too fast is seen as such.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from typing import Any
+
+from flint import arb, fmpq
+
+from ptproof.balls.ball import interval
+from ptproof.balls.tape import Undefined
+
+
+@dataclass(frozen=True)
+class Span:
+    """The interval from ``low`` to ``high``, whose ends may be infinite."""
+
+    low: arb
+    high: arb
+
+    def __add__(self, other: Span) -> Span:
+        return Span(self.low + other.low, self.high + other.high)
+
+    def __neg__(self) -> Span:
+        return Span(-self.high, -self.low)
+
+    def __mul__(self, other: Span) -> Span:
+        ends = [_times(a, b) for a in (self.low, self.high) for b in (other.low, other.high)]
+        low, high = ends[0], ends[0]
+        for end in ends[1:]:
+            low, high = low.min(end), high.max(end)
+        return Span(low, high)
+
+    def square(self) -> Span:
+        """The interval of the squares."""
+        product = self * self
+        if self.low > 0 or self.high < 0:
+            return product
+        return Span(arb(0), product.high)
+
+    def hull(self, other: Span) -> Span:
+        """The interval that contains both."""
+        return Span(self.low.min(other.low), self.high.max(other.high))
+
+    @property
+    def is_zero(self) -> bool:
+        """Whether the interval is exactly 0."""
+        return bool(self.low.is_zero() and self.high.is_zero())
+
+    def ball(self) -> arb:
+        """The interval as a ball; raises :class:`Undefined` where an end is infinite."""
+        if not (self.low.is_finite() and self.high.is_finite()):
+            raise Undefined("it grows too fast")
+        return self.low if self.is_zero else interval(self.low, self.high)
+
+
+def _times(a: arb, b: arb) -> arb:
+    return arb(0) if a.is_zero() or b.is_zero() else a * b
+
+
+def span(ball: arb) -> Span:
+    """The interval of a ball."""
+    return Span(ball.lower(), ball.upper()) if not ball.is_exact() else Span(ball, ball)
+
+
+INFINITY = arb.pos_inf()
+Exponent = int | Fraction
+
+
+def power_of(base: arb, exponent: Exponent) -> arb:
+    """``base**exponent`` for base ≥ 0, with 0⁰ = 1."""
+    if exponent == 0:
+        return arb(1)
+    if base.is_zero():
+        return arb(0) if exponent > 0 else INFINITY
+    return base ** arb(fmpq(exponent.numerator, exponent.denominator))
+
+
+@dataclass(frozen=True)
+class Growth:
+    """Σ terms[e]·rᵉ for r ≥ 1/``reach``, ``reach`` an exact number in (0, 1].
+
+    ``bounds`` gives an interval of all values that is known otherwise, for instance that a square is not negative; it
+    is computed only where it is needed.
+    """
+
+    terms: Mapping[Exponent, Span]
+    reach: arb
+    bounds: Callable[[], Span] | None = None
+
+    def make(self, terms: Mapping[Exponent, Span], bounds: Callable[[], Span] | None = None) -> Growth:
+        """Another growth on the same region."""
+        return Growth({key: value for key, value in terms.items() if not value.is_zero}, self.reach, bounds)
+
+    def lift(self, other: Any) -> Growth:
+        """``other`` as a growth; a ball is a constant."""
+        return other if isinstance(other, Growth) else self.make({0: span(other)})
+
+    def __add__(self, other: Any) -> Growth:
+        terms = dict(self.terms)
+        lifted = self.lift(other)
+        for exponent, value in lifted.terms.items():
+            terms[exponent] = terms[exponent] + value if exponent in terms else value
+        return self.make(terms, lambda: self.range() + lifted.range())
+
+    __radd__ = __add__
+
+    def __neg__(self) -> Growth:
+        return self.make({exponent: -value for exponent, value in self.terms.items()}, lambda: -self.range())
+
+    def __sub__(self, other: Any) -> Growth:
+        return self + (-self.lift(other))
+
+    def __rsub__(self, other: Any) -> Growth:
+        return (-self) + other
+
+    def __mul__(self, other: Any) -> Growth:
+        terms: dict[Exponent, Span] = {}
+        lifted = self.lift(other)
+        for e, a in self.terms.items():
+            for f, b in lifted.terms.items():
+                product = a * b
+                terms[e + f] = terms[e + f] + product if e + f in terms else product
+        return self.make(terms, lambda: self.range() * lifted.range())
+
+    __rmul__ = __mul__
+
+    def square(self) -> Growth:
+        """The square, which knows that the squares of the terms are not negative."""
+        terms: dict[Exponent, Span] = {}
+        items = list(self.terms.items())
+        two = Span(arb(2), arb(2))
+        for index, (e, a) in enumerate(items):
+            for f, b in items[index:]:
+                product = a.square() if e == f else two * a * b
+                terms[e + f] = terms[e + f] + product if e + f in terms else product
+        return self.make(terms, lambda: self.range().square())
+
+    def head(self) -> tuple[Exponent, Span]:
+        """(d, h) with f = rᵈ·h: the largest exponent, and the interval of what remains."""
+        if not self.terms:
+            return 0, Span(arb(0), arb(0))
+        degree = max(self.terms)
+        total = Span(arb(0), arb(0))
+        for exponent, value in self.terms.items():
+            total = total + value * Span(power_of(arb(0), degree - exponent), self._reach(degree - exponent))
+        return degree, total
+
+    def _reach(self, exponent: Exponent) -> arb:
+        return power_of(self.reach, exponent)
+
+    def range(self) -> Span:
+        """The interval of all values; its ends may be infinite."""
+        return self._range
+
+    @cached_property
+    def _range(self) -> Span:
+        total = Span(arb(0), arb(0))
+        for exponent, value in self.terms.items():
+            near = self._reach(-exponent)
+            powers = Span(near, INFINITY) if exponent > 0 else Span(arb(0) if exponent < 0 else near, near)
+            total = total + value * powers
+        degree, head = self.head()
+        if head.low > 0 and degree > 0:
+            total = Span(total.low.max(head.low * self._reach(-degree)), total.high)
+        if head.high < 0 and degree > 0:
+            total = Span(total.low, total.high.min(head.high * self._reach(-degree)))
+        if self.bounds is None:
+            return total
+        known = self.bounds()
+        return Span(total.low.max(known.low), total.high.min(known.high))
+
+
+def coordinates(directions: Sequence[arb], reach: arb) -> list[Growth]:
+    """The growth of y = r·w, for each coordinate of the directions w."""
+    return [Growth({1: span(w)} if not w.is_zero() else {}, reach) for w in directions]

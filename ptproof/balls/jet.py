@@ -1,0 +1,268 @@
+"""Balls with their partial derivatives, and the mean value form that they give.
+
+For a function that is differentiable on a box, f(x) lies in f(p) + Σ ∂f/∂xᵢ(box)·(xᵢ − pᵢ) for every point p of
+the box, and where ∂f/∂xᵢ has one sign the largest value lies on a side of the box. The error of this form is of
+second order in the width of the box.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from flint import arb
+
+from ptproof.balls.ball import BALLS, interval
+from ptproof.balls.tape import Undefined
+
+Slopes = tuple[arb | None, ...]
+
+
+class Jet:
+    """A ball and the balls of its partial derivatives (None where a derivative is exactly zero)."""
+
+    __slots__ = ("slopes", "value")
+
+    def __init__(self, value: arb, slopes: Slopes) -> None:
+        self.value, self.slopes = value, slopes
+
+    def __add__(self, other: Any) -> Jet:
+        if isinstance(other, Jet):
+            slopes = tuple(
+                b if a is None else a if b is None else a + b for a, b in zip(self.slopes, other.slopes, strict=True)
+            )
+            return Jet(self.value + other.value, slopes)
+        return Jet(self.value + other, self.slopes)
+
+    __radd__ = __add__
+
+    def __neg__(self) -> Jet:
+        return Jet(-self.value, tuple(None if a is None else -a for a in self.slopes))
+
+    def __sub__(self, other: Any) -> Jet:
+        return self + (-other)
+
+    def __rsub__(self, other: Any) -> Jet:
+        return (-self) + other
+
+    def __mul__(self, other: Any) -> Jet:
+        u = self.value
+        if isinstance(other, Jet):
+            v = other.value
+            slopes = tuple(
+                (None if b is None else u * b) if a is None else a * v if b is None else a * v + u * b
+                for a, b in zip(self.slopes, other.slopes, strict=True)
+            )
+            return Jet(_product(u, v), slopes)
+        return self.scaled(_product(u, other) if isinstance(other, arb) else u * other, other)
+
+    __rmul__ = __mul__
+
+    def scaled(self, value: arb, factor: arb) -> Jet:
+        """The jet of a function of this one: its value, and its derivative as factor."""
+        return Jet(value, tuple(None if a is None else a * factor for a in self.slopes))
+
+
+def _product(u: arb, v: arb) -> arb:
+    """The product; of two wide balls by their ends, for a product of balls forgets that both are positive."""
+    if u.rel_accuracy_bits() > 3 or v.rel_accuracy_bits() > 3:
+        return u * v
+    if u < 0:
+        return -_product(-u, v)
+    if not u > 0 or not (v > 0 or v < 0):
+        return u * v
+    return interval(u.lower() * v.lower(), u.upper() * v.upper()) if v > 0 else -_product(u, -v)
+
+
+def variables(box: Sequence[arb]) -> list[Jet]:
+    """One jet per coordinate of ``box``, each with slope 1 in its own direction."""
+    n = len(box)
+    one = arb(1)
+    return [Jet(ball, tuple(one if j == i else None for j in range(n))) for i, ball in enumerate(box)]
+
+
+_DERIVATIVES: Mapping[str, Callable[[arb, arb], arb]] = {
+    "exp": lambda x, y: y,
+    "log": lambda x, y: 1 / x,
+    "sin": lambda x, y: x.cos(),
+    "cos": lambda x, y: -x.sin(),
+    "tan": lambda x, y: 1 + BALLS.integer_power(y, 2),
+    "cot": lambda x, y: -1 - BALLS.integer_power(y, 2),
+    "sinh": lambda x, y: x.cosh(),
+    "cosh": lambda x, y: x.sinh(),
+    "tanh": lambda x, y: 1 / BALLS.integer_power(x.cosh(), 2),
+    "asin": lambda x, y: (1 - BALLS.integer_power(x, 2)).rsqrt(),
+    "acos": lambda x, y: -((1 - BALLS.integer_power(x, 2)).rsqrt()),
+    "atan": lambda x, y: 1 / (1 + BALLS.integer_power(x, 2)),
+    "asinh": lambda x, y: (1 + BALLS.integer_power(x, 2)).rsqrt(),
+    "erf": lambda x, y: 2 / arb.pi().sqrt() * (-BALLS.integer_power(x, 2)).exp(),
+}
+
+
+class _Jets:
+    """The arithmetic of jets; see :class:`ptproof.balls.tape.Arithmetic`."""
+
+    def constant(self, value: arb) -> Any:
+        return value
+
+    def call(self, name: str, value: Any) -> Any:
+        if not isinstance(value, Jet):
+            return BALLS.call(name, value)
+        result = BALLS.call(name, value.value)
+        return _checked(value.scaled(result, _DERIVATIVES[name](value.value, result)))
+
+    def integer_power(self, base: Any, exponent: int) -> Any:
+        if not isinstance(base, Jet):
+            return BALLS.integer_power(base, exponent)
+        if exponent == 0:
+            return arb(1)
+        value = BALLS.integer_power(base.value, exponent)
+        return base.scaled(value, exponent * BALLS.integer_power(base.value, exponent - 1))
+
+    def root(self, base: Any, numerator: int, denominator: int, nonnegative: bool) -> Any:
+        if not isinstance(base, Jet):
+            return BALLS.root(base, numerator, denominator, nonnegative)
+        value = BALLS.root(base.value, numerator, denominator, nonnegative)
+        slope = BALLS.root(base.value, numerator - denominator, denominator, nonnegative)
+        return base.scaled(value, slope * numerator / denominator)
+
+    def power(self, base: Any, exponent: Any) -> Any:
+        if not isinstance(base, Jet) and not isinstance(exponent, Jet):
+            return BALLS.power(base, exponent)
+        return self.call("exp", exponent * self.call("log", base))
+
+    def absolute(self, value: Any) -> Any:
+        return self.maximum(value, -value)
+
+    def sign(self, value: Any) -> Any:
+        known = self.order(value)
+        if known is None:
+            raise Undefined("a jump of sign")
+        return arb(known)
+
+    def maximum(self, left: Any, right: Any) -> Any:
+        if not isinstance(left, Jet) and not isinstance(right, Jet):
+            return BALLS.maximum(left, right)
+        known = self.order(left - right)
+        if known is not None:
+            return left if known >= 0 else right
+        # Both may be the larger one. The slope of a maximum lies between the slopes of the two.
+        either = self.hull([left, right])
+        return Jet(_value(left).max(_value(right)), either.slopes)
+
+    def minimum(self, left: Any, right: Any) -> Any:
+        return -self.maximum(-left, -right)
+
+    def floor(self, value: Any) -> Any:
+        result = BALLS.floor(_value(value))
+        if not result.is_exact():
+            raise Undefined("a jump of floor")
+        return result
+
+    def angle(self, y: Any, x: Any) -> Any:
+        if not isinstance(y, Jet) and not isinstance(x, Jet):
+            return BALLS.angle(y, x)
+        first, second = _value(y), _value(x)
+        if second <= 0 and not (first > 0 or first < 0):
+            raise Undefined("a jump of the angle")
+        square = BALLS.integer_power(first, 2) + BALLS.integer_power(second, 2)
+        turned = y * second - x * first
+        return _checked(turned.scaled(BALLS.angle(first, second), 1 / square))
+
+    def hull(self, values: Sequence[Any]) -> Any:
+        """The hull of the values of continuous pieces; their slopes enclose every slope in between."""
+        n = next(len(value.slopes) for value in values if isinstance(value, Jet))
+        rows = [value.slopes if isinstance(value, Jet) else (None,) * n for value in values]
+        slopes = tuple(
+            None if all(a is None for a in column) else BALLS.hull([arb(0) if a is None else a for a in column])
+            for column in zip(*rows, strict=True)
+        )
+        return Jet(BALLS.hull([_value(value) for value in values]), slopes)
+
+    def either(self, values: Sequence[Any]) -> Any:
+        raise Undefined("a Piecewise that may jump")
+
+    def order(self, value: Any) -> int | None:
+        return BALLS.order(_value(value))
+
+
+def _value(number: Any) -> arb:
+    return number.value if isinstance(number, Jet) else number
+
+
+def _checked(jet: Jet) -> Jet:
+    if not all(slope is None or slope.is_finite() for slope in jet.slopes):
+        raise Undefined("a derivative has no finite value there")
+    return jet
+
+
+JETS = _Jets()
+
+Side = tuple[arb, arb]
+"""The two ends of one coordinate of a box; each is exact, or a ball around an exact end."""
+
+
+@dataclass(frozen=True)
+class Bound:
+    """An upper bound of a function on a box, and where to look next.
+
+    ``upper`` bounds every value, ``point`` is a point of the box, ``split`` the coordinate whose halving promises
+    most, or None where the function is monotone in every coordinate. ``value`` is the function at ``point``, where
+    it has been computed.
+    """
+
+    upper: arb
+    point: tuple[arb, ...]
+    split: int | None
+    value: arb | None = None
+
+
+def middle(side: Side) -> arb:
+    """An exact point strictly inside ``side``."""
+    return ((side[0] + side[1]) / 2).mid()
+
+
+def upper_bound(function: Callable[[Sequence[Any], Any], Any], box: Sequence[Side]) -> Bound:
+    """Bound ``function(coordinates, arithmetic)`` from above on ``box`` by the mean value form.
+
+    Raises :class:`Undefined` where the function or a derivative has no finite enclosure on the box.
+    """
+    balls = [interval(low, high) for low, high in box]
+    try:
+        jet = function(variables(balls), JETS)
+    except Undefined:
+        jet = None
+    if not isinstance(jet, Jet):
+        # Not differentiable here, or constant: what remains is the range of the function on the balls.
+        natural = (function(balls, BALLS) if jet is None else jet).upper()
+        widest = max(range(len(box)), key=lambda index: float(balls[index].rad()), default=None)
+        return Bound(_finite(natural), tuple(map(middle, box)), None if jet is not None else widest)
+    point: list[arb] = []
+    spread = arb(0)
+    split, largest = None, -1.0
+    for index, (side, ball, slope) in enumerate(zip(box, balls, jet.slopes, strict=True)):
+        if slope is None or ball.is_exact() or slope >= 0:
+            point.append(side[1])
+        elif slope <= 0:
+            point.append(side[0])
+        else:
+            centre = middle(side)
+            point.append(centre)
+            step = slope * (ball - centre)
+            spread += step
+            size = float(step.abs_upper())
+            if size > largest:
+                split, largest = index, size
+    value = function(point, BALLS)
+    upper = (value + spread).upper()
+    natural = jet.value.upper()
+    if not upper.is_finite() or natural < upper:
+        upper = natural
+    return Bound(_finite(upper), tuple(point), split, value)
+
+
+def _finite(ball: arb) -> arb:
+    if not ball.is_finite():
+        raise Undefined("no finite value there")
+    return ball

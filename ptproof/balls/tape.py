@@ -1,0 +1,300 @@
+"""A SymPy expression as a list of instructions that runs on any kind of number.
+
+The same tape is run on real balls (an enclosure), on balls with partial derivatives (a mean value form) and on
+power series of balls (a Taylor form with an enclosed remainder). What a kind of number has to offer is the
+protocol :class:`Arithmetic`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+import flint
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from ptproof.system import differentiated
+
+
+class Undefined(ArithmeticError):
+    """An expression has no finite real enclosure there: a singularity in reach, or a function not supported."""
+
+
+class Arithmetic(Protocol):
+    """What the instructions need of one kind of number, besides ``+`` and ``*``."""
+
+    def constant(self, value: flint.arb) -> Any:
+        """The number that is certainly in ``value``."""
+
+    def call(self, name: str, value: Any) -> Any:
+        """The function of that name out of :data:`METHODS`; raises :class:`Undefined` where it is not finite."""
+
+    def integer_power(self, base: Any, exponent: int) -> Any:
+        """``base**exponent``; raises :class:`Undefined` where a negative exponent meets zero."""
+
+    def root(self, base: Any, numerator: int, denominator: int, nonnegative: bool) -> Any:
+        """``base**(numerator/denominator)`` of a base >= 0; ``nonnegative`` says that it is so by its form."""
+
+    def power(self, base: Any, exponent: Any) -> Any:
+        """``base**exponent`` of a positive base."""
+
+    def absolute(self, value: Any) -> Any:
+        """The absolute value."""
+
+    def sign(self, value: Any) -> Any:
+        """The sign, -1, 0 or 1."""
+
+    def maximum(self, left: Any, right: Any) -> Any:
+        """The larger one."""
+
+    def minimum(self, left: Any, right: Any) -> Any:
+        """The smaller one."""
+
+    def floor(self, value: Any) -> Any:
+        """The largest integer that is not above."""
+
+    def angle(self, y: Any, x: Any) -> Any:
+        """The angle of the point (x, y), in (-π, π]."""
+
+    def either(self, values: Sequence[Any]) -> Any:
+        """One of ``values``, which are branches of a Piecewise; may raise :class:`Undefined`."""
+
+    def order(self, value: Any) -> int | None:
+        """The sign of ``value`` where it is certain (0 only for exactly zero), else None."""
+
+
+METHODS: Mapping[Any, str] = {
+    sp.exp: "exp", sp.log: "log", sp.sin: "sin", sp.cos: "cos", sp.tan: "tan", sp.cot: "cot",
+    sp.sinh: "sinh", sp.cosh: "cosh", sp.tanh: "tanh", sp.asin: "asin", sp.acos: "acos", sp.atan: "atan",
+    sp.asinh: "asinh", sp.erf: "erf",
+}  # fmt: skip
+"""The functions of one argument, and their names in :meth:`Arithmetic.call`."""
+
+_CONSTANTS: Mapping[Any, Callable[[], flint.arb]] = {
+    sp.pi: flint.arb.pi,
+    sp.E: flint.arb.const_e,
+    sp.GoldenRatio: lambda: (1 + flint.arb(5).sqrt()) / 2,
+    sp.EulerGamma: flint.arb.const_euler,
+    sp.Catalan: flint.arb.const_catalan,
+}
+
+
+def number(value: sp.Expr) -> flint.arb | None:
+    """The ball at the present precision of a rational number or a named constant; None for anything else."""
+    if isinstance(value, sp.Rational):
+        return flint.arb(flint.fmpq(int(value.p), int(value.q)))
+    return _CONSTANTS[value]() if value in _CONSTANTS else None
+
+
+def nonnegative_by_form(expression: sp.Expr) -> bool:
+    """Whether every real value of the symbols makes the expression >= 0, seen from its form alone.
+
+    Assumptions on symbols are not consulted, since the values that are put in later need not satisfy them.
+    """
+    if isinstance(expression, sp.Rational):
+        return bool(expression >= 0)
+    if expression in _CONSTANTS or isinstance(expression, sp.Abs | sp.exp | sp.cosh):
+        return True
+    if isinstance(expression, sp.Pow):
+        even = isinstance(expression.exp, sp.Integer) and expression.exp % 2 == 0
+        half = isinstance(expression.exp, sp.Rational) and expression.exp.q % 2 == 0
+        return bool(even or half or nonnegative_by_form(expression.base))
+    if isinstance(expression, sp.Add | sp.Mul):
+        return all(map(nonnegative_by_form, expression.args))
+    return False
+
+
+@dataclass(frozen=True)
+class Condition:
+    """A three-valued condition: ``kind`` is and, or, not, a relation with 0 of ``tape``, true or false."""
+
+    kind: str
+    parts: tuple[Condition, ...] = ()
+    tape: Tape | None = None
+
+    def decide(self, values: Sequence[Any], arithmetic: Arithmetic) -> bool | None:
+        """True or False where it is certain at ``values``, else None."""
+        if self.kind in ("true", "false"):
+            return self.kind == "true"
+        if self.tape is not None:
+            try:
+                sign = arithmetic.order(self.tape.run(values, arithmetic)[0])
+            except Undefined:
+                return None
+            return None if sign is None else _RELATIONS[self.kind](sign)
+        found = [part.decide(values, arithmetic) for part in self.parts]
+        if self.kind == "not":
+            return None if found[0] is None else not found[0]
+        stop = self.kind == "or"
+        if stop in found:
+            return stop
+        return None if None in found else not stop
+
+
+_RELATIONS: Mapping[str, Callable[[int], bool]] = {
+    "<": lambda sign: sign < 0,
+    "<=": lambda sign: sign <= 0,
+    ">": lambda sign: sign > 0,
+    ">=": lambda sign: sign >= 0,
+    "==": lambda sign: sign == 0,
+    "!=": lambda sign: sign != 0,
+}
+
+
+@dataclass(frozen=True)
+class Tape:
+    """Instructions (operation, arguments, extra) in order; slot i < len(symbols) is an input.
+
+    ``run`` returns one number per compiled expression, at the present precision of python-flint.
+    """
+
+    symbols: tuple[sp.Symbol, ...]
+    code: tuple[tuple[str, tuple[int, ...], Any], ...]
+    outputs: tuple[int, ...]
+
+    def run(self, values: Sequence[Any], arithmetic: Arithmetic) -> list[Any]:
+        """Execute on ``values``, one number per symbol; raises :class:`Undefined`."""
+        slots = list(values)
+        push = slots.append
+        for operation, args, extra in self.code:
+            if operation == "add":
+                total = slots[args[0]]
+                for index in args[1:]:
+                    total = total + slots[index]
+                push(total)
+            elif operation == "mul":
+                total = slots[args[0]]
+                for index in args[1:]:
+                    total = total * slots[index]
+                push(total)
+            elif operation == "pow":
+                push(arithmetic.integer_power(slots[args[0]], extra))
+            elif operation == "const":
+                push(arithmetic.constant(_constant(extra, flint.ctx.prec)))
+            elif operation == "call":
+                push(arithmetic.call(extra, slots[args[0]]))
+            elif operation == "root":
+                push(arithmetic.root(slots[args[0]], *extra))
+            elif operation == "piecewise":
+                push(_piecewise(extra, slots[: len(self.symbols)], arithmetic))
+            else:
+                push(getattr(arithmetic, operation)(*(slots[index] for index in args)))
+        return [slots[index] for index in self.outputs]
+
+
+_CACHE: dict[tuple[sp.Expr, int], flint.arb] = {}
+
+
+def _constant(value: sp.Expr, bits: int) -> flint.arb:
+    ball = _CACHE.get((value, bits))
+    if ball is None:
+        if len(_CACHE) > 10_000:
+            _CACHE.clear()
+        ball = _CACHE[value, bits] = number(value)
+    return ball
+
+
+def _piecewise(branches: Sequence[tuple[Tape, Condition]], values: Sequence[Any], arithmetic: Arithmetic) -> Any:
+    candidates = []
+    for tape, condition in branches:
+        holds = condition.decide(values, arithmetic)
+        if holds is False:
+            continue
+        candidates.append(tape)
+        if holds:
+            found = [tape.run(values, arithmetic)[0] for tape in candidates]
+            return found[0] if len(found) == 1 else arithmetic.either(found)
+    raise Undefined("a Piecewise whose conditions may all fail here")
+
+
+def compile_tape(expressions: Sequence[sp.Expr], symbols: Sequence[sp.Symbol]) -> Tape:
+    """Compile ``expressions`` in ``symbols``; equal subexpressions are computed once.
+
+    Raises
+    ------
+    Undefined
+        For what has no enclosure: an unknown symbol or function, infinity, the imaginary unit, a SymPy Float.
+    """
+    builder = _Builder(tuple(symbols))
+    outputs = tuple(builder.visit(_carry_out(sp.sympify(item))) for item in expressions)
+    return Tape(builder.symbols, tuple(builder.code), outputs)
+
+
+def _carry_out(expression: sp.Expr) -> sp.Expr:
+    return differentiated(expression) if expression.has(sp.Derivative, sp.Subs) else expression
+
+
+class _Builder:
+    def __init__(self, symbols: tuple[sp.Symbol, ...]) -> None:
+        self.symbols = symbols
+        self.code: list[tuple[str, tuple[int, ...], Any]] = []
+        self.known: dict[sp.Basic, int] = {symbol: index for index, symbol in enumerate(symbols)}
+
+    def emit(self, operation: str, *args: int, extra: Any = None) -> int:
+        self.code.append((operation, args, extra))
+        return len(self.symbols) + len(self.code) - 1
+
+    def visit(self, node: sp.Basic) -> int:
+        if node not in self.known:
+            self.known[node] = self.build(node)
+        return self.known[node]
+
+    def build(self, node: sp.Basic) -> int:
+        if isinstance(node, sp.Float):
+            raise Undefined(f"the floating-point number {node} in an exact expression; write a fraction")
+        if isinstance(node, sp.Rational) or node in _CONSTANTS:
+            return self.emit("const", extra=node)
+        if isinstance(node, sp.Add):
+            return self.emit("add", *map(self.visit, node.args))
+        if isinstance(node, sp.Mul):
+            return self.emit("mul", *map(self.visit, node.args))
+        if isinstance(node, sp.Pow):
+            return self.build_power(node)
+        if node.func in METHODS and len(node.args) == 1:
+            return self.emit("call", self.visit(node.args[0]), extra=METHODS[node.func])
+        simple = {sp.Abs: "absolute", sp.sign: "sign", sp.floor: "floor", sp.atan2: "angle"}
+        if node.func in simple:
+            return self.emit(simple[node.func], *map(self.visit, node.args))
+        if isinstance(node, sp.Max | sp.Min):
+            operation = "maximum" if isinstance(node, sp.Max) else "minimum"
+            result, *rest = map(self.visit, node.args)
+            for index in rest:
+                result = self.emit(operation, result, index)
+            return result
+        if isinstance(node, sp.Mod):
+            dividend, divisor = node.args
+            return self.visit(dividend - divisor * sp.floor(dividend / divisor))
+        if isinstance(node, sp.Piecewise):
+            branches = tuple(
+                (compile_tape([value], self.symbols), self.condition(condition)) for value, condition in node.args
+            )
+            return self.emit("piecewise", extra=branches)
+        if isinstance(node, sp.Symbol):
+            raise Undefined(f"the symbol {node} has no value")
+        if isinstance(node, AppliedUndef | sp.Derivative):
+            raise Undefined(f"{node} is an undefined function")
+        raise Undefined(f"no enclosure for {node.func.__name__}: {node}")
+
+    def build_power(self, node: sp.Pow) -> int:
+        base, exponent = node.args
+        if isinstance(exponent, sp.Integer):
+            return self.emit("pow", self.visit(base), extra=int(exponent))
+        if base is sp.S.Exp1:
+            return self.emit("call", self.visit(exponent), extra="exp")
+        if isinstance(exponent, sp.Rational):
+            extra = (int(exponent.p), int(exponent.q), nonnegative_by_form(base))
+            return self.emit("root", self.visit(base), extra=extra)
+        return self.emit("power", self.visit(base), self.visit(exponent))
+
+    def condition(self, node: Any) -> Condition:
+        if node == sp.true or node == sp.false:
+            return Condition("true" if node == sp.true else "false")
+        if isinstance(node, sp.And | sp.Or | sp.Not):
+            kind = {sp.And: "and", sp.Or: "or", sp.Not: "not"}[node.func]
+            return Condition(kind, tuple(map(self.condition, node.args)))
+        kinds = {sp.Lt: "<", sp.Le: "<=", sp.Gt: ">", sp.Ge: ">=", sp.Eq: "==", sp.Ne: "!="}
+        if node.func in kinds and not any(side.is_infinite for side in node.args):
+            return Condition(kinds[node.func], tape=compile_tape([node.lhs - node.rhs], self.symbols))
+        raise Undefined(f"no enclosure for the condition {node}")

@@ -1,0 +1,192 @@
+"""The field's Taylor polynomial at the source, in all its variables, and polynomials in nested form."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
+
+from flint import arb, arb_series
+
+from ptproof.balls.ball import BALLS
+from ptproof.balls.series import SERIES, series_length
+from ptproof.balls.tape import Tape, Undefined
+
+Exponents = tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class Taylor:
+    """A polynomial in ``dimension`` variables, with balls as coefficients, cut off above total degree ``order``."""
+
+    terms: Mapping[Exponents, arb]
+    order: int
+    dimension: int
+
+    def make(self, terms: Mapping[Exponents, arb]) -> Taylor:
+        """Another one of the same kind; coefficients that are exactly zero are left out."""
+        kept = {key: value for key, value in terms.items() if not value.is_zero()}
+        return Taylor(kept, self.order, self.dimension)
+
+    def constant(self, value: arb) -> Taylor:
+        """The constant polynomial."""
+        return self.make({self.origin: value})
+
+    def __add__(self, other: Any) -> Taylor:
+        terms = dict(self.terms)
+        for key, value in (other if isinstance(other, Taylor) else self.constant(other)).terms.items():
+            terms[key] = terms[key] + value if key in terms else value
+        return self.make(terms)
+
+    __radd__ = __add__
+
+    def __neg__(self) -> Taylor:
+        return self.make({key: -value for key, value in self.terms.items()})
+
+    def __sub__(self, other: Any) -> Taylor:
+        return self + (-other)
+
+    def __rsub__(self, other: Any) -> Taylor:
+        return (-self) + other
+
+    def __mul__(self, other: Any) -> Taylor:
+        if not isinstance(other, Taylor):
+            return self.make({key: value * other for key, value in self.terms.items()})
+        terms: dict[Exponents, arb] = {}
+        for e, a in self.terms.items():
+            room = self.order - sum(e)
+            for f, b in other.terms.items():
+                if sum(f) <= room:
+                    key = tuple(i + j for i, j in zip(e, f, strict=True))
+                    terms[key] = terms[key] + a * b if key in terms else a * b
+        return self.make(terms)
+
+    __rmul__ = __mul__
+
+    @property
+    def origin(self) -> Exponents:
+        """The exponents of the constant term."""
+        return (0,) * self.dimension
+
+    @property
+    def start(self) -> arb:
+        """The constant term."""
+        return self.terms.get(self.origin, arb(0))
+
+    def compose(self, outer: Any) -> Taylor:
+        """The composition with a function of one variable, given on power series."""
+        with series_length(self.order + 1):
+            series = outer(arb_series([self.start, 1], self.order + 1))
+            if isinstance(series, arb):
+                return self.constant(series)
+            coefficients = [series[k] for k in range(self.order + 1)]
+        step = self.make({key: value for key, value in self.terms.items() if key != self.origin})
+        result = self.constant(coefficients[-1])
+        for coefficient in reversed(coefficients[:-1]):
+            result = result * step + coefficient
+        return result
+
+    def derivative(self, index: int) -> Taylor:
+        """The partial derivative in variable ``index``."""
+        lowered = {}
+        for key, value in self.terms.items():
+            if key[index]:
+                lowered[(*key[:index], key[index] - 1, *key[index + 1 :])] = value * key[index]
+        return self.make(lowered)
+
+
+class _Taylors:
+    """The arithmetic of Taylor polynomials: what is not a sum or a product is a composition with a series."""
+
+    def constant(self, value: arb) -> Any:
+        return value
+
+    def __getattr__(self, name: str) -> Any:
+        method = getattr(SERIES, name)
+
+        def apply(*args: Any) -> Any:
+            inner = [arg for arg in args if isinstance(arg, Taylor)]
+            if not inner:
+                return method(*args)
+            if len(inner) > 1:
+                raise Undefined(f"no Taylor polynomial for {name}")
+            return inner[0].compose(lambda series: method(*(series if arg is inner[0] else arg for arg in args)))
+
+        return apply
+
+    def integer_power(self, base: Any, exponent: int) -> Any:
+        if not isinstance(base, Taylor):
+            return BALLS.integer_power(base, exponent)
+        if exponent < 0:
+            return self.integer_power(base, -exponent).compose(lambda series: SERIES.integer_power(series, -1))
+        result = base.constant(arb(1))
+        for bit in bin(exponent)[2:]:
+            result = result * result * base if bit == "1" else result * result
+        return result
+
+    def power(self, base: Any, exponent: Any) -> Any:
+        return self.call("exp", exponent * self.call("log", base))
+
+    def maximum(self, left: Any, right: Any) -> Any:
+        known = self.order(left - right)
+        if known is None or known == 0:
+            raise Undefined("a kink")
+        return left if known > 0 else right
+
+    def minimum(self, left: Any, right: Any) -> Any:
+        return -self.maximum(-left, -right)
+
+    def order(self, value: Any) -> int | None:
+        known = BALLS.order(value.start if isinstance(value, Taylor) else value)
+        return None if known == 0 and isinstance(value, Taylor) else known
+
+
+TAYLORS = _Taylors()
+
+
+def taylor(tape: Tape, dimension: int, order: int) -> list[Taylor]:
+    """The Taylor polynomials of the outputs of ``tape`` around the origin, up to total degree ``order``."""
+    units = [tuple(int(i == j) for j in range(dimension)) for i in range(dimension)]
+    inputs = [Taylor({unit: arb(1)}, order, dimension) for unit in units]
+    return [
+        output if isinstance(output, Taylor) else inputs[0].constant(output) for output in tape.run(inputs, TAYLORS)
+    ]
+
+
+class Nested:
+    """A polynomial in nested form, which runs on any kind of number.
+
+    ``terms`` maps exponents to balls; ``run`` takes one number per variable.
+    """
+
+    def __init__(self, terms: Mapping[Exponents, arb]) -> None:
+        self.form = _nest(terms)
+
+    def run(self, values: Sequence[Any]) -> Any:
+        """The value, a number or a ball."""
+        return _horner(self.form, values, 0)
+
+
+def _nest(terms: Mapping[Exponents, arb]) -> Any:
+    if not terms:
+        return arb(0)
+    if not next(iter(terms)):
+        return next(iter(terms.values()))
+    groups: dict[int, dict[Exponents, arb]] = {}
+    for key, value in terms.items():
+        groups.setdefault(key[0], {})[key[1:]] = value
+    return sorted(((power, _nest(rest)) for power, rest in groups.items()), key=lambda item: -item[0])
+
+
+def _horner(form: Any, values: Sequence[Any], depth: int) -> Any:
+    if isinstance(form, arb):
+        return form
+    total: Any = None
+    x = values[depth]
+    for (power, inner), (following, _) in pairwise([*form, (0, None)]):
+        value = _horner(inner, values, depth + 1)
+        total = value if total is None else total + value
+        for _ in range(power - following):
+            total = total * x
+    return total

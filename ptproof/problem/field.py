@@ -1,0 +1,212 @@
+"""The signal field with its source, and the constants that bound it.
+
+A field F with source x* satisfies, for one positive integer κ and every x of its domain,
+
+    F(x*) − a₁‖x − x*‖^(2κ)  ≤  F(x)  ≤  F(x*) − a₂‖x − x*‖^(2κ),
+    b₁‖x − x*‖^(2κ−1)  ≤  ‖∇F(x)‖  ≤  b₂‖x − x*‖^(2κ−1)
+
+(eq:assumption2, eq:assumption3). :class:`FieldBounds` holds the constants, :class:`Field` the field itself.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import sympy as sp
+
+from ptproof.errors import InputError
+from ptproof.system import gradient
+
+
+@dataclass(frozen=True)
+class FieldBounds:
+    """The constants of eq:assumption2 and eq:assumption3, and what the convergence analysis makes of them.
+
+    Parameters
+    ----------
+    kappa
+        κ: a positive integer, or a symbol declared as positive integer.
+    a1, a2
+        The largest and the smallest (F(x*) − F(x))/‖x − x*‖^(2κ): exact positive numbers or positive symbols.
+    b1, b2
+        The smallest and the largest ‖∇F(x)‖/‖x − x*‖^(2κ−1), likewise.
+
+    Raises
+    ------
+    InputError
+        If a constant is not exact or not positive, κ is not a positive integer, or a₂ > a₁ or b₁ > b₂.
+
+    Examples
+    --------
+    >>> FieldBounds(2, 3, 1, 4, 5).q
+    3/4
+    """
+
+    kappa: sp.Expr
+    a1: sp.Expr
+    a2: sp.Expr
+    b1: sp.Expr
+    b2: sp.Expr
+
+    def __post_init__(self) -> None:
+        kappa = _exact(self.kappa, "kappa")
+        if not (kappa.is_integer and kappa.is_positive):
+            raise InputError(f"kappa must be a positive integer or a symbol declared as one, not {_short(kappa)}")
+        object.__setattr__(self, "kappa", kappa)
+        for name in ("a1", "a2", "b1", "b2"):
+            value = _exact(getattr(self, name), name)
+            if not _positive(value):
+                raise InputError(f"{name} must be a positive number or a positive symbol, not {_short(value)}")
+            object.__setattr__(self, name, value)
+        if _exceeds(self.a2, self.a1):
+            raise InputError(f"a2 must not exceed a1, but a2 = {_short(self.a2)} and a1 = {_short(self.a1)}")
+        if _exceeds(self.b1, self.b2):
+            raise InputError(f"b1 must not exceed b2, but b1 = {_short(self.b1)} and b2 = {_short(self.b2)}")
+
+    @property
+    def q(self) -> sp.Expr:
+        """The exponent q = (2κ − 1)/(2κ), in [1/2, 1)."""
+        return (2 * self.kappa - 1) / (2 * self.kappa)
+
+    @property
+    def sigma(self) -> sp.Expr:
+        """The exponent σ = 2q − 1 = (κ − 1)/κ, in [0, 1)."""
+        return (self.kappa - 1) / self.kappa
+
+    @property
+    def c1(self) -> sp.Expr:
+        """c₁ = b₁/a₁^q, the smaller factor between ‖∇F‖ and V^q, V = F(x*) − F(x) (eq:ass4)."""
+        return self.b1 / self.a1**self.q
+
+    @property
+    def c2(self) -> sp.Expr:
+        """c₂ = b₂/a₂^q, the larger factor between ‖∇F‖ and V^q (eq:ass4)."""
+        return self.b2 / self.a2**self.q
+
+
+@dataclass(frozen=True)
+class Field:
+    """A signal field F with its source x* and the order κ with which it falls off around it.
+
+    Parameters
+    ----------
+    variables
+        n ≥ 1 distinct real symbols.
+    expression
+        F, in these variables and nothing else that is free.
+    source
+        The n exact coordinates of x*.
+    kappa
+        κ: a positive integer.
+
+    Raises
+    ------
+    InputError
+        If the lengths differ, a coordinate is not an exact real number, F has other symbols or is not defined at
+        the source, or κ is not a positive integer. That x* is a maximum is not checked here but proved by
+        :func:`ptproof.certify.certify_field`.
+    """
+
+    variables: tuple[sp.Symbol, ...]
+    expression: sp.Expr
+    source: tuple[sp.Expr, ...]
+    kappa: int
+
+    def __post_init__(self) -> None:
+        variables = tuple(self.variables)
+        if not variables or not all(isinstance(item, sp.Symbol) for item in variables):
+            raise InputError("the field needs at least one variable, and each must be a symbol")
+        if len(set(variables)) != len(variables):
+            raise InputError("the variables of the field must be distinct")
+        source = tuple(_exact(item, "source") for item in self.source)
+        if len(source) != len(variables):
+            raise InputError(f"the source has {len(source)} coordinates, but the field has {len(variables)} variables")
+        for item in source:
+            if item.free_symbols or not (item.is_real and item.is_finite):
+                raise InputError(f"the coordinates of the source must be real numbers, not {_short(item)}")
+        kappa = _exact(self.kappa, "kappa")
+        if not (isinstance(kappa, sp.Integer) and kappa > 0):
+            raise InputError(f"kappa must be a positive integer, not {_short(kappa)}")
+        expression = _exact(self.expression, "field")
+        if unknown := expression.free_symbols - set(variables):
+            names = ", ".join(sorted(str(symbol) for symbol in unknown))
+            raise InputError(f"the field contains {names}, which is not among its variables")
+        object.__setattr__(self, "variables", variables)
+        object.__setattr__(self, "expression", expression)
+        object.__setattr__(self, "source", source)
+        object.__setattr__(self, "kappa", int(kappa))
+        peak = self.peak
+        if peak.has(sp.zoo, sp.nan, sp.oo, -sp.oo) or peak.is_real is False:
+            raise InputError(f"the field has no real value at the source, where it is {_short(peak)}")
+
+    @property
+    def dimension(self) -> int:
+        """The number n of variables."""
+        return len(self.variables)
+
+    @cached_property
+    def gradient(self) -> sp.ImmutableDenseMatrix:
+        """∇F as a column (n × 1)."""
+        return gradient(self.expression, self.variables)
+
+    @cached_property
+    def hessian(self) -> sp.ImmutableDenseMatrix:
+        """The matrix of second partial derivatives of F (n × n)."""
+        return sp.ImmutableDenseMatrix(sp.hessian(self.expression, self.variables))
+
+    @cached_property
+    def hessian_at_source(self) -> sp.ImmutableDenseMatrix:
+        """The Hessian of F at the source (n × n, exact)."""
+        return sp.ImmutableDenseMatrix(self.hessian.subs(self._at(self.source), simultaneous=True))
+
+    @cached_property
+    def peak(self) -> sp.Expr:
+        """F(x*), exact."""
+        return self.value(self.source)
+
+    def value(self, x: Sequence[Any] | Mapping[sp.Symbol, Any]) -> sp.Expr:
+        """F at ``x``: n coordinates, or a mapping from variable to coordinate."""
+        return self.expression.subs(x if isinstance(x, Mapping) else self._at(x), simultaneous=True)
+
+    def _at(self, x: Sequence[Any]) -> dict[sp.Symbol, sp.Expr]:
+        return dict(zip(self.variables, map(sp.sympify, x), strict=True))
+
+
+def _exact(value: Any, name: str) -> sp.Expr:
+    if isinstance(value, bool | float | str):
+        raise InputError(f"{name} must be exact, not {value!r}: give an integer, a fraction or an expression")
+    try:
+        expression = sp.sympify(value)
+    except (sp.SympifyError, TypeError, AttributeError):
+        raise InputError(f"{name} must be a number or an expression, not {value!r}") from None
+    if not isinstance(expression, sp.Expr) or expression.has(sp.Float):
+        raise InputError(f"{name} must be exact, not {_short(expression)}: give a fraction")
+    if expression.has(sp.zoo, sp.nan, sp.oo, -sp.oo):
+        raise InputError(f"{name} must be finite, not {_short(expression)}")
+    return expression
+
+
+def _positive(value: sp.Expr) -> bool:
+    if value.free_symbols or value.is_positive is not None:
+        return bool(value.is_positive)
+    from ptproof.balls.ball import separated
+
+    return separated(value, 0) == 1
+
+
+def _exceeds(smaller: sp.Expr, larger: sp.Expr) -> bool:
+    """Whether it is certain that ``smaller > larger``; what is not certain is not refused."""
+    difference = smaller - larger
+    if difference.free_symbols:
+        return bool(difference.is_positive)
+    from ptproof.balls.ball import separated
+
+    return separated(smaller, larger) == 1
+
+
+def _short(expression: Any) -> str:
+    text = str(expression)
+    return text if len(text) <= 60 else text[:57] + "..."

@@ -1,0 +1,1 @@
+"""What decides: one file an engine, each for one kind of statement."""

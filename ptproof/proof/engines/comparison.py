@@ -1,0 +1,247 @@
+"""The comparison lemma for scalar differential inequalities v' ≤ φ(τ, v).
+
+If v' ≤ φ(τ, v) and u' ≥ φ(τ, u) on [τ₀, τ₁], v(τ₀) ≤ u(τ₀), and φ is continuous in τ and locally Lipschitz in
+its second argument, then v ≤ u on [τ₀, τ₁] (Khalil, Nonlinear Systems, Lemma 3.4, for the rate φ + δ with
+δ(τ) = u' − φ(τ, u) ≥ 0, which v' satisfies as well and u solves). What is checked here is every hypothesis of
+it: that the inequality is assumed on the whole of [τ₀, τ], that u solves the equation (exact algebra) or rises
+faster (z3), starts at v(τ₀) or above, stays where φ is Lipschitz, and is regular on the interval together with φ; the
+rest of the bound is a real inequality.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from ptproof.proof.algebra import NotAlgebraic, is_zero
+from ptproof.proof.claim import Goal, engine
+from ptproof.proof.engines.quantified import at_point, mask_positive
+from ptproof.proof.engines.reals import follows
+from ptproof.proof.engines.witnesses import or_refute
+from ptproof.proof.statement import ForAll, Implication, Relation, ge, gt, le, relations_of
+from ptproof.proof.verdict import Evidence, Verdict
+
+ENGINE = "comparison lemma"
+_REGULAR = (sp.Symbol, sp.Number, sp.NumberSymbol, sp.Add, sp.Mul, sp.Pow, sp.exp, sp.sin, sp.cos, sp.atan, sp.tanh)
+
+
+@engine
+def comparison(
+    goal: Goal, solution: sp.Expr, *, denominators: Sequence[sp.Expr] = (), lemmas: Sequence[Implication] = ()
+) -> Evidence:
+    """Show ``v(τ) ≤ bound`` from the goal's assumption ``Derivative(v(s), s) ≤ φ(s, v(s))`` for all s.
+
+    Parameters
+    ----------
+    goal
+        Its statement is v(τ) ≤ bound(τ); among its assumptions are the differential inequality as a
+        :class:`ForAll` over one time s whose domain has s ≥ τ₀, and that τ ≥ τ₀.
+    solution
+        u as an expression in the same time as the assumption and in v(τ₀): u' = φ(s, u), or u' ≥ φ(s, u).
+    denominators
+        Expressions in s whose positivity on the whole of [τ₀, τ] makes u defined there; each is shown positive
+        from the goal's assumptions.
+    lemmas
+        Facts for the real inequalities.
+    """
+    start = time.perf_counter()
+    try:
+        detail = _check(goal, solution, denominators, lemmas)
+    except _Failed as failure:
+        tried = Evidence(ENGINE, Verdict.UNDECIDED, str(failure), time.perf_counter() - start)
+        return or_refute(goal, tried)
+    return Evidence(ENGINE, Verdict.PROVED, detail, time.perf_counter() - start)
+
+
+class _Failed(Exception):
+    """A hypothesis of the lemma that could not be shown."""
+
+
+@dataclass(frozen=True)
+class _Interval:
+    """What is known at an arbitrary time of [τ₀, τ]."""
+
+    s: sp.Symbol
+    known: tuple[Relation, ...]
+    facts: tuple[Implication, ...]
+
+    def positive(self, expression: sp.Expr) -> bool:
+        return bool(expression.is_positive) or follows(gt(expression, 0), self.known, self.facts)[0]
+
+
+def _check(goal: Goal, solution: sp.Expr, denominators: Sequence[sp.Expr], lemmas: Sequence[Implication]) -> str:
+    (statement,) = relations_of(goal.statement)
+    if statement.sign != "<=" or not isinstance(statement.left, AppliedUndef):
+        raise _Failed(f"not of the form v(time) <= bound: {statement}")
+    at = statement.left
+    inequality, s, v = _differential_inequality(goal, at)
+    start, end = _initial_time(inequality, s), at.args[0]
+    initial = v.subs(s, start)
+    first = sp.Dummy("v0", positive=True) if _signed(goal, v, "positive") else (
+        sp.Dummy("v0", nonnegative=True) if _signed(goal, v, "nonnegative") else sp.Dummy("v0", real=True))  # fmt: skip
+
+    def read(item: Relation) -> Relation:
+        return item.map(lambda side: side.subs(initial, first))
+
+    facts = tuple(_map(fact, read) for fact in (*goal.facts, *lemmas))
+    outside = tuple(read(item) for item in goal.relations)
+    if not follows(ge(end, start), outside, facts)[0]:
+        raise _Failed(f"nothing says that {end} >= {start}")
+    interval = _interval(goal, inequality, s, (start, end), outside, facts, read)
+    for denominator in denominators:
+        if not interval.positive(denominator.subs(initial, first)):
+            raise _Failed(f"{denominator} > 0 is not shown on the whole interval")
+
+    value = sp.Dummy("v", real=True) if first.is_nonnegative is None else sp.Dummy("v", nonnegative=True)
+    phi = inequality.relation.right.subs(v, value)
+    if phi.has(AppliedUndef):
+        raise _Failed("the rate depends on the function otherwise than through its value")
+    if not _lipschitz(phi, value):
+        raise _Failed(f"the rate {inequality.relation.right} is not recognised as locally Lipschitz in {v}")
+    u = solution.subs(initial, first)
+    hints = [item.subs(initial, first) for item in denominators]
+    for expression in (phi, u):
+        _regular(expression, interval, hints)
+    if value.is_nonnegative and not _polynomial(phi, value):
+        _stays(u, interval)
+    how = _solves(u, phi.subs(value, u), interval, hints, solution)
+    begin = u.subs(s, start)
+    if not _same(begin, first) and not follows(ge(begin, first), outside, facts)[0]:
+        raise _Failed(f"{solution} does not start at {initial}, nor above it")
+    bound, reached = statement.right.subs(initial, first), u.subs(s, end)
+    if not _same(bound, reached):
+        shown, why = follows(ge(bound, reached), outside, facts)
+        if not shown:
+            raise _Failed(f"the solution of the equation is not shown to stay below the bound: {why}")
+    return f"u = {solution} {how}, starts at or above {initial}, and is defined on the whole interval"
+
+
+def _differential_inequality(goal: Goal, at: AppliedUndef) -> tuple[ForAll, sp.Symbol, AppliedUndef]:
+    for item in goal.assumptions:
+        if isinstance(item, ForAll) and len(item.variables) == 1 and item.relation.sign == "<=":
+            (s,) = item.variables
+            v = at.func(s)
+            if item.relation.left == sp.Derivative(v, s):
+                return item, s, v
+    raise _Failed(f"no assumption of the form Derivative({at.func}(s), s) <= rate")
+
+
+def _initial_time(inequality: ForAll, s: sp.Symbol) -> sp.Expr:
+    for part in inequality.domain:
+        if part.sign == ">=" and part.left == s:
+            return part.right
+    raise _Failed(f"the domain of {inequality} does not begin with {s} >= a time")
+
+
+def _interval(
+    goal: Goal, inequality: ForAll, s: sp.Symbol, ends: tuple[sp.Expr, sp.Expr], outside: tuple[Relation, ...],
+    facts: tuple[Implication, ...], read: Callable[[Relation], Relation],
+) -> _Interval:  # fmt: skip
+    """What holds on [τ₀, τ]; the inequality has to be assumed on all of it."""
+    if any(item.left.has(s) or item.right.has(s) for item in outside):
+        raise _Failed(f"{s} is bound in the differential inequality and free in an assumption")
+    known = [ge(s, ends[0]), le(s, ends[1]), *outside]
+    for part in inequality.domain:
+        if not follows(part, known, facts)[0]:
+            raise _Failed(
+                f"the inequality is assumed for {part} only, which is not shown between {ends[0]} and {ends[1]}"
+            )
+    for item in goal.assumptions:
+        if isinstance(item, ForAll) and item is not inequality and not item.relation.left.has(sp.Derivative):
+            there = at_point(item, s, known, facts)
+            if there is not None:
+                known.append(read(there))
+    return _Interval(s, tuple(known), facts)
+
+
+def _lipschitz(phi: sp.Expr, value: sp.Symbol) -> bool:
+    """Combinations of powers of the value, with exponents 0 or ≥ 1, or integers ≥ 0, are locally Lipschitz.
+
+    A power that is not an integer is so on [0, ∞), where a value that is declared not negative stays.
+    """
+    for term in sp.Add.make_args(sp.expand_mul(phi)):
+        independent, dependent = term.as_independent(value, as_Add=False)
+        if independent.has(value):
+            return False
+        if dependent == 1:
+            continue
+        base, exponent = dependent.as_base_exp()
+        if base != value or exponent.has(value) or not sp.factor(sp.together(exponent - 1)).is_nonnegative:
+            return False
+        if not value.is_nonnegative and not exponent.is_integer:
+            return False
+    return True
+
+
+def _polynomial(phi: sp.Expr, value: sp.Symbol) -> bool:
+    """Whether the rate makes sense for every real value."""
+    powers = [node for node in sp.expand_mul(phi).atoms(sp.Pow) if node.base == value]
+    return all(node.exp.is_integer for node in powers)
+
+
+def _signed(goal: Goal, v: AppliedUndef, sign: str) -> bool:
+    if getattr(v, f"is_{sign}"):
+        return True
+    wanted = gt(v, 0) if sign == "positive" else ge(v, 0)
+    # Only without a domain: the sign is needed at every time of the interval.
+    return any(isinstance(item, ForAll) and item.relation == wanted and not item.domain for item in goal.assumptions)
+
+
+def _stays(u: sp.Expr, interval: _Interval) -> None:
+    if mask_positive(u, interval.known, interval.facts).is_nonnegative:
+        return
+    if not follows(ge(u, 0), interval.known, interval.facts)[0]:
+        raise _Failed(f"{u} is not shown to stay at or above 0, where the rate is defined")
+
+
+def _solves(u: sp.Expr, rate: sp.Expr, interval: _Interval, hints: Sequence[sp.Expr], solution: sp.Expr) -> str:
+    slope = sp.diff(u, interval.s)
+    # A denominator that was shown positive becomes a positive symbol, so that its powers can be split off.
+    masks = {item: sp.Dummy(f"D{i}", positive=True) for i, item in enumerate(hints)}
+
+    def mask(item: Relation) -> Relation:
+        return item.map(lambda side: side.xreplace(masks))
+
+    if _same(slope, rate) or _same(slope.xreplace(masks), rate.xreplace(masks)):
+        return "solves the equation"
+    known = [mask(item) for item in interval.known] + [Relation(symbol, "=", item) for item, symbol in masks.items()]
+    facts = [_map(fact, mask) for fact in interval.facts]
+    if follows(mask(ge(slope, rate)), known, facts)[0]:
+        return "rises at least as fast as the equation asks"
+    raise _Failed(f"{solution} neither solves the equation nor stays above it")
+
+
+def _map(fact: Implication, change: Callable[[Relation], Relation]) -> Implication:
+    return Implication(tuple(map(change, fact.hypotheses)), change(fact.conclusion), fact.source)
+
+
+def _same(left: sp.Expr, right: sp.Expr) -> bool:
+    try:
+        return is_zero(left - right)
+    except NotAlgebraic:
+        return False
+
+
+def _regular(expression: sp.Expr, interval: _Interval, hints: Sequence[sp.Expr]) -> None:
+    """No pole and no root of a negative number on the interval: every such base is shown positive there."""
+    shown = {sp.factor(sp.together(item)) for item in hints}
+    for node in sp.preorder_traversal(expression):
+        if not node.has(interval.s):
+            continue
+        if not isinstance(node, _REGULAR):
+            raise _Failed(f"{node} is not known to be regular in {interval.s}")
+        if not isinstance(node, sp.Pow) or (node.exp.is_integer and node.exp.is_nonnegative):
+            continue
+        base = sp.factor(sp.together(node.base))
+        numerator, denominator = sp.fraction(base)
+        if denominator.has(interval.s) and not interval.positive(denominator):
+            raise _Failed(f"{denominator} may vanish, and nothing shows that it is positive")
+        moving = numerator.has(interval.s) or node.exp.has(interval.s)
+        if base in shown or not moving or interval.positive(numerator):
+            continue
+        if not interval.positive(base):
+            raise _Failed(f"{base} may vanish, and nothing shows that it is positive")

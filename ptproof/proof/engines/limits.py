@@ -1,0 +1,189 @@
+"""Limits by the limit theorems: rational functions by their leading terms, then sums, products and composition.
+
+No answer is guessed: where a sign is not known, or a form is indeterminate, there is none.
+"""
+
+from __future__ import annotations
+
+import time
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from ptproof.proof.algebra import NotAlgebraic, is_zero
+from ptproof.proof.claim import Goal, engine
+from ptproof.proof.engines.witnesses import or_refute
+from ptproof.proof.statement import relations_of
+from ptproof.proof.verdict import Evidence, Verdict
+
+_INFINITE = (sp.oo, -sp.oo)
+
+
+@engine
+def limits(goal: Goal) -> Evidence:
+    """Show equalities of the form ``Limit(expression, variable, point, side) = value``."""
+    start = time.perf_counter()
+    for part in relations_of(goal.statement):
+        if part.sign != "=" or not isinstance(part.left, sp.Limit):
+            return Evidence("limits", Verdict.UNDECIDED, f"not a limit with its value: {part}")
+        expression, variable, point, side = part.left.args
+        if str(side) not in ("+", "-"):
+            return Evidence("limits", Verdict.UNDECIDED, f"a limit from one side is needed, not {part.left}")
+        found = limit_of(expression, variable, point, str(side))
+        seconds = time.perf_counter() - start
+        if found is None:
+            return Evidence("limits", Verdict.UNDECIDED, f"no rule gives the limit in {part}", seconds)
+        if not _agree(found, part.right):
+            tried = Evidence("limits", Verdict.UNDECIDED, f"the limit comes out as {found}, not {part.right}", seconds)
+            return or_refute(_goal_with_value(goal, part.left, found), tried)
+    return Evidence("limits", Verdict.PROVED, "limit theorems, leading terms exact", time.perf_counter() - start)
+
+
+def _goal_with_value(goal: Goal, limit: sp.Limit, value: sp.Expr) -> Goal:
+    from dataclasses import replace
+
+    from ptproof.proof.statement import All
+
+    parts = tuple(part.map(lambda side: side.xreplace({limit: value})) for part in relations_of(goal.statement))
+    return replace(goal, statement=All(parts))
+
+
+def _agree(found: sp.Expr, value: sp.Expr) -> bool:
+    if found in _INFINITE or value in _INFINITE:
+        return bool(found == value)
+    try:
+        return is_zero(found - value)
+    except NotAlgebraic:
+        return False
+
+
+def limit_of(expression: sp.Expr, variable: sp.Symbol, point: sp.Expr, side: str = "+") -> sp.Expr | None:
+    """The one-sided limit of ``expression`` as ``variable`` tends to ``point`` (``oo`` allowed), or None.
+
+    >>> s = sp.Symbol("s", real=True); T = sp.Symbol("T", positive=True)
+    >>> limit_of(s / (1 - s / T), s, T, "-"), limit_of(s / (1 + s / T), s, sp.oo, "-")
+    (oo, T)
+    """
+    if expression.has(sp.Limit, sp.Sum, sp.Product):
+        return None  # ``doit`` would ask SymPy for the inner one
+    expression = expression.doit(integrals=False)
+    # One variable h that falls to 0 from above stands for every kind of approach.
+    h = sp.Dummy("h", positive=True)
+    if point is sp.oo:
+        local = expression.subs(variable, 1 / h)
+    elif point is -sp.oo:
+        local = expression.subs(variable, -1 / h)
+    else:
+        local = expression.subs(variable, point + (h if side == "+" else -h))
+    return _at_zero(local, h)
+
+
+def _at_zero(expression: sp.Expr, h: sp.Symbol) -> sp.Expr | None:
+    """The limit as h ↓ 0."""
+    if not expression.has(h):
+        return expression
+    if expression.is_rational_function(h):
+        return _rational(expression, h)
+    match expression:
+        case sp.Add():
+            return _sum(expression, h)
+        case sp.Mul():
+            return _product(expression, h)
+        case sp.exp():
+            return _exponential(_at_zero(expression.args[0], h))
+        case sp.Pow() if not expression.exp.has(h):
+            if expression.exp == -1:
+                return _reciprocal(_at_zero(expression.base, h))
+            if expression.exp.is_negative:  # so that a base that falls to 0 is seen from its side
+                return _power(_at_zero(1 / expression.base, h), -expression.exp)
+            return _power(_at_zero(expression.base, h), expression.exp)
+        case sp.cos() | sp.sin() | sp.tanh() | sp.atan():
+            inner = _at_zero(expression.args[0], h)
+            return None if inner is None or inner in _INFINITE else expression.func(inner)
+        case sp.log():
+            inner = _at_zero(expression.args[0], h)
+            if inner is None:
+                return None
+            return sp.oo if inner is sp.oo else sp.log(inner) if inner.is_positive else None
+    if isinstance(expression, AppliedUndef):
+        return None
+    return None
+
+
+def _rational(expression: sp.Expr, h: sp.Symbol) -> sp.Expr | None:
+    """Compare the lowest powers of h in numerator and denominator."""
+    numerator, denominator = (sp.Poly(part, h) for part in sp.fraction(sp.cancel(sp.together(expression))))
+    if numerator.is_zero:
+        return sp.S.Zero
+    lowest = []
+    for polynomial in (numerator, denominator):
+        for (power,), coefficient in sorted(polynomial.terms()):
+            coefficient = sp.factor(coefficient)
+            if coefficient.is_zero:
+                continue
+            lowest.append((power, coefficient))
+            break
+    (p, a), (q, b) = lowest
+    # A leading coefficient that may vanish leaves the order open.
+    if not _nonzero(b) or (p < q and not _nonzero(a)):
+        return None
+    if p > q:
+        return sp.S.Zero
+    if p == q:
+        return sp.cancel(a / b)
+    ratio = sp.factor(a / b)
+    return sp.oo if ratio.is_positive else -sp.oo if ratio.is_negative else None
+
+
+def _reciprocal(value: sp.Expr | None) -> sp.Expr | None:
+    if value is None:
+        return None
+    if value in _INFINITE:
+        return sp.S.Zero
+    return 1 / value if _nonzero(value) else None
+
+
+def _nonzero(value: sp.Expr) -> bool:
+    return bool(value.is_nonzero or value.is_positive or value.is_negative)
+
+
+def _sum(expression: sp.Expr, h: sp.Symbol) -> sp.Expr | None:
+    parts = [_at_zero(argument, h) for argument in expression.args]
+    if any(part is None for part in parts):
+        return None
+    infinite = {part for part in parts if part in _INFINITE}
+    if len(infinite) > 1:
+        return None
+    return infinite.pop() if infinite else sp.Add(*parts)
+
+
+def _product(expression: sp.Expr, h: sp.Symbol) -> sp.Expr | None:
+    rational = sp.Mul(*(a for a in expression.args if a.is_rational_function(h)))
+    rest = [a for a in expression.args if not a.is_rational_function(h)]
+    parts = [_at_zero(part, h) for part in ([rational] if rational != 1 else []) + rest]
+    if any(part is None for part in parts):
+        return None
+    infinite = [part for part in parts if part in _INFINITE]
+    finite = [part for part in parts if part not in _INFINITE]
+    if not infinite:
+        return sp.Mul(*finite)
+    sign = sp.Mul(*finite, *(1 if part is sp.oo else -1 for part in infinite))
+    return sp.oo if sign.is_positive else -sp.oo if sign.is_negative else None
+
+
+def _exponential(inner: sp.Expr | None) -> sp.Expr | None:
+    if inner is None:
+        return None
+    if inner is -sp.oo:
+        return sp.S.Zero
+    return sp.oo if inner is sp.oo else sp.exp(inner)
+
+
+def _power(base: sp.Expr | None, exponent: sp.Expr) -> sp.Expr | None:
+    if base is None:
+        return None
+    if base is sp.oo:
+        return sp.oo if exponent.is_positive else sp.S.Zero if exponent.is_negative else None
+    if base.is_zero:
+        return sp.S.Zero if exponent.is_positive else None
+    return base**exponent if base.is_positive else None

@@ -1,0 +1,234 @@
+"""Real inequalities by z3: a statement follows if its negation is unsatisfiable.
+
+Whatever is not arithmetic becomes a generator (:mod:`ptproof.proof.algebra`), an unknown real number about
+which only a few safe facts are told: its sign, sin² + cos² = 1, (√b)² = b, |x|² = x². A proof for all values
+of the generators is a proof for the values that they have; a counterexample is only a candidate.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+import sympy as sp
+
+from ptproof.proof.algebra import Generators, NotAlgebraic
+from ptproof.proof.claim import Goal, engine
+from ptproof.proof.engines.witnesses import or_refute
+from ptproof.proof.statement import Implication, Relation, free_symbols, relations_of, undefined_functions
+from ptproof.proof.verdict import Evidence, Verdict
+
+SECONDS = 20.0
+_SECONDS_TO_CONTRADICT = 0.5
+_ABSURD = Relation(sp.S.One, "<", sp.S.Zero)
+_REAL_ON_REALS = (sp.exp, sp.log, sp.sin, sp.cos, sp.atan, sp.Abs, sp.sign, sp.floor, sp.Max, sp.Min, sp.Piecewise)
+
+
+@engine
+def reals(goal: Goal, *lemmas: Implication, seconds: float | None = None) -> Evidence:
+    """Show the goal's relations from its assumptions, the claims that it uses, and the ``lemmas``."""
+    start = time.perf_counter()
+    # The limits that the goal uses say nothing to z3.
+    facts = [fact for fact in (*goal.facts, *lemmas) if not _speaks_of_limits(fact)]
+    details = []
+    for part in relations_of(goal.statement):
+        outcome, detail = follows(part, goal.relations, facts, seconds=seconds)
+        details.append(detail)
+        if not outcome:
+            tried = Evidence("z3", Verdict.UNDECIDED, f"{part}: {detail}", time.perf_counter() - start)
+            return or_refute(goal, tried)
+    if goal.relations and follows(_ABSURD, goal.relations, seconds=_SECONDS_TO_CONTRADICT)[0]:
+        detail = "the assumptions contradict each other, so that everything follows from them"
+        return Evidence("z3", Verdict.UNDECIDED, detail, time.perf_counter() - start)
+    names = sorted({fact.source for fact in facts if fact.source})
+    told = f" with {', '.join(names)}" if names else ""
+    detail = f"the negation is unsatisfiable over the reals{told}"
+    if len(details) > 1:
+        detail += f" ({len(details)} parts)"
+    return Evidence("z3", Verdict.PROVED, detail, time.perf_counter() - start)
+
+
+def _speaks_of_limits(fact: Implication) -> bool:
+    return any(side.has(sp.Limit) for part in (*fact.hypotheses, fact.conclusion) for side in (part.left, part.right))
+
+
+def follows(
+    conclusion: Relation,
+    assumptions: Sequence[Relation],
+    facts: Sequence[Implication] = (),
+    *,
+    seconds: float | None = None,
+) -> tuple[bool, str]:
+    """Whether ``conclusion`` follows over the reals: (True, how) or (False, what was tried).
+
+    It is tried without the facts first: fewer powers and products make an easier problem.
+    """
+    seconds = SECONDS if seconds is None else seconds
+    if facts:
+        alone, how = _follows(conclusion, assumptions, (), min(seconds / 8, 1.0))
+        if alone:
+            return True, how
+    return _follows(conclusion, assumptions, facts, seconds)
+
+
+def _follows(
+    conclusion: Relation, assumptions: Sequence[Relation], facts: Sequence[Implication], seconds: float
+) -> tuple[bool, str]:
+    import z3
+
+    try:
+        problem = _Problem(conclusion, assumptions, facts)
+    except NotAlgebraic as error:
+        return False, str(error)
+    tried = []
+    for tactic, share in (("default", 0.5), ("qfnra-nlsat", 0.5)):
+        context = problem.solver(z3, tactic, int(1000 * seconds * share))
+        answer = context.check()
+        if answer == z3.unsat:
+            return True, f"z3 ({tactic})"
+        if answer == z3.sat:
+            return False, f"z3 ({tactic}) finds values of the generators that satisfy the negation"
+        tried.append(f"{tactic}: {context.reason_unknown()}")
+    return False, f"z3 gave no answer in {seconds:g} s ({'; '.join(tried)})"
+
+
+class _Problem:
+    """The relations as rational functions in generators, beside what is known of the generators."""
+
+    def __init__(self, conclusion: Relation, assumptions: Sequence[Relation], facts: Sequence[Implication]) -> None:
+        relations = [conclusion, *assumptions]
+        for fact in facts:
+            relations += [*fact.hypotheses, fact.conclusion]
+        spoken_of = [conclusion, *assumptions]
+        values = free_symbols(spoken_of) | undefined_functions(spoken_of)
+        if unknown := {value for value in values if not value.is_real}:
+            names = ", ".join(sorted(map(str, unknown)))
+            raise NotAlgebraic(f"not declared real: {names}")
+        self.generators = Generators(real=True)
+        prepared = self.generators.read([side for relation in relations for side in (relation.left, relation.right)])
+        sides = iter([self.generators.rational(side) for side in prepared])
+        read = [Relation(next(sides), relation.sign, next(sides)) for relation in relations]
+        self.conclusion, rest = read[0], read[1:]
+        self.assumptions, rest = rest[: len(assumptions)], rest[len(assumptions) :]
+        self.facts: list[Implication] = []
+        for fact in facts:
+            count = len(fact.hypotheses)
+            self.facts.append(Implication(tuple(rest[:count]), rest[count], fact.source))
+            rest = rest[count + 1 :]
+        self.bases = {symbol: self.generators.rational(base) for symbol, base in self.generators.bases.items()}
+        self.domain = list(self._domain(prepared[: 2 + 2 * len(assumptions)]))
+        found = ((symbol, self.generators.choice(symbol)) for symbol in self.generators.meaning)
+        self.choices = [(symbol, choice) for symbol, choice in found if choice is not None]
+
+    def _domain(self, sides: Sequence[sp.Expr]) -> Iterator[Relation]:
+        """What has to hold lest a root, a power or a logarithm in ``sides`` is not real there."""
+        for side in sides:
+            nodes = sp.preorder_traversal(side)
+            for node in nodes:
+                if isinstance(node, sp.Integral | sp.Limit | sp.Derivative | sp.Subs):
+                    nodes.skip()  # bound variables; the whole is one real number
+                elif node.is_Pow and not node.exp.is_integer and not node.base.is_nonnegative:
+                    yield Relation(self.generators.rational(node.base), ">=", sp.S.Zero)
+                elif isinstance(node, sp.log) and not node.args[0].is_positive:
+                    yield Relation(self.generators.rational(node.args[0]), ">", sp.S.Zero)
+                elif isinstance(node, sp.Function) and not node.is_real and not isinstance(node, _REAL_ON_REALS):
+                    yield _ABSURD  # such as an arc cosine, of which it is not known that it is real
+
+    def solver(self, z3: Any, tactic: str, milliseconds: int) -> Any:
+        if tactic == "default":
+            solver = z3.Solver()
+        else:
+            solver = z3.Then(
+                "simplify", "purify-arith", "propagate-values", "solve-eqs", "tseitin-cnf", tactic
+            ).solver()
+        solver.set("timeout", max(milliseconds, 1))
+        variables: dict[sp.Symbol, Any] = {}
+
+        def number(expression: sp.Expr) -> Any:
+            return _to_z3(expression, variables, z3)
+
+        def relation(item: Relation) -> Any:
+            left, right = number(item.left), number(item.right)
+            return {"=": left == right, "!=": left != right, "<=": left <= right,
+                    "<": left < right, ">=": left >= right, ">": left > right}[item.sign]  # fmt: skip
+
+        for item in self.assumptions:
+            solver.add(relation(item))
+        for fact in self.facts:
+            solver.add(z3.Implies(z3.And([relation(item) for item in fact.hypotheses]), relation(fact.conclusion)))
+        for generator, polynomial in self.generators.relations:
+            holds = number(polynomial) == 0
+            if generator in self.bases:
+                # The power of a negative base is not real; a fact that mentions it says nothing of the base's sign.
+                holds = z3.Implies(number(self.bases[generator]) >= 0, holds)
+            solver.add(holds)
+        for generator, (operation, arguments) in self.choices:
+            symbol, values = number(generator), [number(argument) for argument in arguments]
+            solver.add(z3.Or([symbol == value for value in values]))
+            for value in values:
+                solver.add(symbol >= value if operation is sp.Max else symbol <= value)
+        undefined = [z3.Not(relation(item)) for item in self.domain]
+        solver.add(z3.Or(z3.Not(relation(self.conclusion)), *undefined))
+        for base, product in self.generators.split_bases():
+            value = number(product)
+            facts = [value == number(base)] if base.is_Rational else _known(base, value, None, z3)
+            for fact in facts:
+                solver.add(fact)
+        for symbol, variable in list(variables.items()):
+            for fact in _known(symbol, variable, self.generators.meaning.get(symbol), z3):
+                solver.add(fact)
+        return solver
+
+
+def _to_z3(expression: sp.Expr, variables: dict[sp.Symbol, Any], z3: Any) -> Any:
+    match expression:
+        case sp.Rational():
+            return z3.RealVal(f"{expression.p}/{expression.q}")
+        case sp.Symbol():
+            if expression not in variables:
+                variables[expression] = z3.Real(f"{expression.name}_{len(variables)}")
+            return variables[expression]
+        case sp.Add():
+            return z3.Sum([_to_z3(argument, variables, z3) for argument in expression.args])
+        case sp.Mul():
+            numerator, denominator = sp.fraction(expression)
+            if denominator != 1:
+                return _to_z3(numerator, variables, z3) / _to_z3(denominator, variables, z3)
+            return z3.Product([_to_z3(argument, variables, z3) for argument in expression.args])
+        case sp.Pow():
+            base, exponent = _to_z3(expression.base, variables, z3), int(expression.exp)
+            power = z3.Product([base] * abs(exponent)) if exponent else z3.RealVal(1)
+            return power if exponent >= 0 else 1 / power
+    raise NotAlgebraic(f"no rule for {expression}")
+
+
+def _known(symbol: sp.Symbol, variable: Any, meaning: sp.Expr | None, z3: Any) -> list[Any]:
+    """The facts that hold for a symbol by its declaration, or for a generator by its meaning."""
+    facts = []
+    whole = bool(symbol.is_integer)
+    if symbol.is_positive:
+        facts.append(variable >= 1 if whole else variable > 0)
+    elif symbol.is_nonnegative:
+        facts.append(variable >= 0)
+    elif symbol.is_negative:
+        facts.append(variable <= -1 if whole else variable < 0)
+    elif symbol.is_nonpositive:
+        facts.append(variable <= 0)
+    elif symbol.is_nonzero:
+        facts.append(variable != 0)
+    if isinstance(meaning, sp.Pow) and meaning.exp.is_Rational and not meaning.exp.is_Integer:
+        facts.append(variable >= 0)  # a root is real only of what is not negative, and is then not negative
+    if isinstance(meaning, sp.sin | sp.cos):
+        facts += [variable <= 1, variable >= -1]
+    if meaning is not None and meaning.is_NumberSymbol:
+        from ptproof.balls.ball import enclose
+
+        ball = enclose(meaning, {}, bits=64)
+        facts += [variable >= _fraction(ball.lower(), z3), variable <= _fraction(ball.upper(), z3)]
+    return facts
+
+
+def _fraction(end: Any, z3: Any) -> Any:
+    exact = end.fmpq()
+    return z3.RealVal(f"{exact.p}/{exact.q}")

@@ -1,0 +1,242 @@
+"""Refutation: exact values that satisfy every assumption and at which the two sides are apart.
+
+An explicit witness is checked; a witness that nobody gave is looked for among small rational points, with
+concrete polynomials for undefined functions. Only disjoint enclosures at exact values count.
+"""
+
+from __future__ import annotations
+
+import itertools
+import random
+import time
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from typing import Any
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from ptproof.proof.algebra import NotAlgebraic, is_zero
+from ptproof.proof.claim import Goal, admissible, engine
+from ptproof.proof.engines.evaluation import carried_out
+from ptproof.proof.statement import (
+    All,
+    Assumption,
+    ForAll,
+    Relation,
+    free_symbols,
+    relations_of,
+    substitute_in,
+    undefined_functions,
+)
+from ptproof.proof.verdict import Evidence, Verdict, Witness
+from ptproof.system import differentiated
+
+SEARCH_SECONDS = 4.0
+_TRIES = 3000
+_PLAIN_TRIES = 40
+
+
+@engine
+def refute(goal: Goal, values: Mapping[Any, Any]) -> Evidence:
+    """Check one explicit witness: exact values of all symbols and undefined functions of the goal."""
+    start = time.perf_counter()
+    witness, reason = check_witness(goal, values)
+    seconds = time.perf_counter() - start
+    if witness is None:
+        return Evidence("witness", Verdict.UNDECIDED, f"the values given are no witness: {reason}", seconds)
+    return Evidence("witness", Verdict.REFUTED, "the two sides differ at exact values", seconds, witness)
+
+
+def or_refute(goal: Goal, tried: Evidence, *, seconds: float | None = None) -> Evidence:
+    """Look for a witness after a proof has failed; without one, the evidence of the failed proof stays."""
+    start = time.perf_counter()
+    seconds = SEARCH_SECONDS if seconds is None else seconds
+    if not isinstance(goal.statement, Relation | All):
+        return tried
+    count = 0
+    for values in candidates(goal):
+        if time.perf_counter() - start > seconds:
+            break
+        count += 1
+        witness, _ = check_witness(goal, values)
+        if witness is not None:
+            spent = tried.seconds + time.perf_counter() - start
+            return Evidence("witness", Verdict.REFUTED, "the two sides differ at exact values", spent, witness)
+    spent = tried.seconds + time.perf_counter() - start
+    return replace(tried, detail=f"{tried.detail}; no witness among {count} points", seconds=spent)
+
+
+def check_witness(goal: Goal, values: Mapping[Any, Any]) -> tuple[Witness | None, str]:
+    """The witness if these exact values satisfy every assumption and break a relation, else the reason."""
+    values = {key: sp.sympify(value) for key, value in values.items()}
+    for key, value in values.items():
+        if not (admissible(key, value) if isinstance(key, sp.Symbol) else _admissible_function(key, value)):
+            return None, f"{value} is not known to be what {key} may be"
+    for assumption in goal.assumptions:
+        if not _holds(assumption, values):
+            return None, f"the assumption {assumption} is not shown to hold there"
+    for part in relations_of(goal.statement):
+        there = _at(part, values)
+        if there is None:
+            continue
+        if _sign_is(there.negation()):
+            return Witness({str(key): str(value) for key, value in values.items()}, *_sides(there)), ""
+    return None, "the statement is not shown to fail there"
+
+
+def _admissible_function(applied: AppliedUndef, value: sp.Expr) -> bool:
+    """Whether an expression has, for all real arguments, the signs that the undefined function was declared with."""
+    declared = ("real", "positive", "nonnegative", "negative", "nonpositive", "nonzero", "integer")
+    return all(getattr(value, f"is_{word}") for word in declared if getattr(applied, f"is_{word}"))
+
+
+def _at(relation: Relation, values: Mapping[Any, Any]) -> Relation | None:
+    try:
+        there = substitute_in(relation, values)
+    except (ValueError, TypeError, ZeroDivisionError):  # such as Max of something that is not finite there
+        return None
+    return _evaluated(there)
+
+
+def _evaluated(relation: Relation) -> Relation | None:
+    """Carry out derivatives, integrals and limits whose values are then plain numbers."""
+    try:
+        left, right = carried_out(relation.left), carried_out(relation.right)
+    except (ValueError, TypeError, NotImplementedError, ZeroDivisionError, AttributeError, RecursionError):
+        return None
+    if left is None or right is None or any(side.has(sp.nan, sp.zoo, sp.oo, -sp.oo) for side in (left, right)):
+        return None
+    return Relation(left, relation.sign, right)
+
+
+def _holds(assumption: Assumption, values: Mapping[Any, Any]) -> bool:
+    match assumption:
+        case Relation():
+            parts = [_at(part, values) for part in assumption.components()]
+            return all(part is not None and _sign_is(part) for part in parts)
+        case ForAll(variables=variables, relation=relation, domain=domain):
+            from ptproof.proof.engines.reals import follows
+
+            # A bound variable may carry the name of a free one: its value at the witness is not meant here.
+            values = {key: value for key, value in values.items() if key not in variables}
+            free = {key: value for key, value in values.items() if key not in assumption.variables}
+            there = substitute_in(relation, free).map(differentiated)
+            where = [substitute_in(part, free) for part in domain]
+            return follows(there, where, seconds=2.0)[0]
+    return False
+
+
+def _sign_is(relation: Relation) -> bool:
+    """Whether a relation between two exact numbers is certain."""
+    from ptproof.balls.ball import Undefined, separated
+
+    relation = relation.standard()
+    if (relation.left - relation.right).free_symbols:
+        return False
+    try:
+        sign = separated(relation.left, relation.right, {})
+    except Undefined:
+        return False
+    if sign is not None:
+        return {"=": False, "!=": True, "<=": sign < 0, "<": sign < 0}[relation.sign]
+    if relation.sign in ("=", "<="):
+        try:
+            return is_zero(relation.left - relation.right)
+        except NotAlgebraic:
+            return False
+    return False
+
+
+def _sides(relation: Relation) -> tuple[str, str]:
+    from ptproof.balls.ball import enclose, enclosure_text
+
+    def side(value: sp.Expr) -> str:
+        if value.is_Rational:
+            return str(value)
+        enclosed = enclosure_text(enclose(value, {}))
+        exact = str(value)
+        return f"{exact} = {enclosed}" if len(exact) <= 80 else enclosed
+
+    return side(relation.left), side(relation.right)
+
+
+def candidates(goal: Goal) -> Iterator[dict[Any, Any]]:
+    """Points that are worth a try: small rationals for symbols, polynomials for undefined functions.
+
+    A symbol that an assumption sets equal to an expression gets its value from there. The order is fixed.
+    """
+    everything = [goal.statement, *goal.assumptions]
+    given: dict[sp.Symbol, sp.Expr] = {}
+    for relation in goal.relations:
+        if relation.sign == "=" and isinstance(relation.left, sp.Symbol):
+            given.setdefault(relation.left, relation.right)
+    symbols = sorted(free_symbols(everything) - given.keys(), key=str)
+    functions = _distinct(undefined_functions(everything))
+    bound = {variable for item in goal.assumptions if isinstance(item, ForAll) for variable in item.variables}
+    symbols = [symbol for symbol in symbols if symbol not in bound or symbol in free_symbols([goal.statement])]
+    generator = random.Random(f"ptproof:{goal.id}")
+    for attempt in itertools.count():
+        if attempt >= _TRIES:
+            return
+        values: dict[Any, Any] = {symbol: _value(symbol, generator, attempt) for symbol in symbols}
+        for applied in functions:
+            values[applied] = _polynomial(applied, generator, attempt)
+        for symbol, expression in given.items():
+            values[symbol] = substitute_in(Relation(expression, "=", sp.S.Zero), values).left
+        yield values
+
+
+def _distinct(applied: set[AppliedUndef]) -> list[AppliedUndef]:
+    """One application per function, the one whose arguments are plain symbols."""
+    chosen: dict[Any, AppliedUndef] = {}
+    for item in sorted(applied, key=str):
+        if all(isinstance(argument, sp.Symbol) for argument in item.args):
+            chosen.setdefault(item.func, item)
+    for item in sorted(applied, key=str):
+        if item.func not in chosen:
+            arguments = tuple(sp.Dummy(f"s{i}", real=True) for i in range(len(item.args)))
+            chosen[item.func] = item.func(*arguments)
+    return list(chosen.values())
+
+
+_PLAIN = (sp.S.One, sp.S.Zero, sp.Integer(2), -sp.S.One, sp.Rational(1, 2), sp.Integer(3))
+_FRACTIONS = (sp.Rational(1, 4), sp.Rational(1, 10), sp.Rational(1, 30), sp.Rational(1, 100))
+
+
+def _value(symbol: sp.Symbol, generator: random.Random, attempt: int) -> sp.Expr:
+    """The plainest values first: a witness is for people. Later also small fractions, and larger numbers."""
+    if attempt < _PLAIN_TRIES:
+        first = attempt < len(_PLAIN)  # the same value for all symbols, then any mixture of them
+        choice = [value for value in _PLAIN if admissible(symbol, value)]
+        if choice:
+            return choice[attempt % len(choice)] if first else generator.choice(choice)
+    size = 3 if attempt < 140 else 8 if attempt < 270 else (40, 8, 3)[attempt % 3]
+    numerator = generator.randint(1, size * (1 if symbol.is_integer else 2))
+    denominator = 1 if symbol.is_integer else generator.choice((1, 1, 2, 3))
+    value = sp.Rational(numerator, denominator)
+    if not symbol.is_integer and generator.random() < 0.15:
+        value = generator.choice(_FRACTIONS)
+    if symbol.is_positive:
+        return value
+    if symbol.is_nonnegative:
+        return sp.S.Zero if generator.random() < 0.1 else value
+    if symbol.is_negative:
+        return -value
+    return value * generator.choice((-1, 1)) if generator.random() < 0.9 or symbol.is_nonzero else sp.S.Zero
+
+
+def _polynomial(applied: AppliedUndef, generator: random.Random, attempt: int) -> sp.Expr:
+    arguments = list(applied.args)
+    if applied.is_positive or applied.is_nonnegative:
+        offset = sp.Integer(generator.randint(1, 3))
+        return offset + generator.choice((0, 1, 1, 2)) * generator.choice(arguments) ** 2
+    if attempt < 80:  # the plainest functions first: a witness is for people
+        slope = generator.choice((0, 1, 1, 2, -1))
+        return sp.Integer(generator.randint(1, 3)) + slope * generator.choice(arguments)
+    total: sp.Expr = sp.Integer(generator.randint(-2, 2))
+    for argument in arguments:
+        total += generator.randint(-3, 3) * argument + generator.choice((-1, 0, 1)) * argument**2
+    for left, right in itertools.combinations(arguments, 2):
+        total += generator.choice((-1, 0, 1)) * left * right
+    return total

@@ -1,0 +1,74 @@
+"""What clocks are checked with: inverse functions that undo each other, signs, and limits at infinity."""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from ptproof.proof.algebra import NotAlgebraic, is_zero
+from ptproof.proof.engines.limits import limit_of
+from ptproof.proof.engines.reals import follows
+from ptproof.proof.statement import gt
+
+
+def factored(expression: sp.Expr) -> sp.Expr:
+    """``sp.factor`` with the same signs in every run: left alone, it takes the symbols in the order of their hashes."""
+    if not expression.is_rational_function():
+        return sp.factor(expression)
+    return sp.factor(expression, *sorted(expression.free_symbols, key=lambda symbol: symbol.name))
+
+
+def settle(expression: sp.Expr) -> sp.Expr:
+    """Let logarithm, exponential and arctan(tan) undo each other where the signs of the symbols allow it."""
+
+    def plain(entry: sp.Expr) -> sp.Expr:
+        return sp.powsimp(sp.factor(sp.cancel(sp.expand(entry))))
+
+    def arctan(entry: sp.Expr) -> sp.Expr:
+        entry = plain(entry)
+        if isinstance(entry, sp.tan) and _within_quarter_turn(entry.args[0]):
+            return entry.args[0]
+        return sp.atan(entry)
+
+    if not expression.has(sp.exp, sp.log, sp.atan, sp.tan):
+        return expression
+    expression = expression.replace(sp.tan, lambda angle: sp.tan(sp.factor(sp.cancel(angle))))
+    expression = expression.replace(sp.exp, lambda entry: sp.exp(sp.expand(sp.cancel(entry))))
+    return expression.replace(sp.log, lambda entry: sp.log(plain(entry))).replace(sp.atan, arctan)
+
+
+def _within_quarter_turn(angle: sp.Expr) -> bool:
+    """Whether −π/2 < angle < π/2 is shown by the declared signs of its symbols."""
+    return all(sp.factor(sp.cancel(sp.pi / 2 + side)).is_positive for side in (angle, -angle))
+
+
+def shown_zero(difference: sp.Expr) -> bool:
+    """Whether it is shown that ``difference`` vanishes; what exact algebra has no rule for is not shown."""
+    try:
+        return is_zero(difference)
+    except NotAlgebraic:
+        return False
+
+
+def is_positive(expression: sp.Expr) -> bool:
+    """Whether it is shown, by the declared signs of its symbols or by z3, that ``expression`` is positive."""
+    expression = expression.replace(
+        sp.tan, lambda angle: sp.Dummy("tan", real=True) if _within_quarter_turn(angle) else sp.tan(angle)
+    )
+    forms = (expression, sp.factor(sp.cancel(sp.together(expression))))
+    if any(form.is_positive for form in forms):
+        return True
+    return follows(gt(forms[1], 0), (), seconds=2.0)[0]
+
+
+def limit_at_infinity(expression: sp.Expr, variable: sp.Symbol) -> sp.Expr | None:
+    """The limit for ``variable`` → ∞, or None; arctan and log are turned over where that helps."""
+
+    def turn(u: sp.Expr) -> sp.Expr:
+        return sp.pi / 2 - sp.atan(1 / u) if limit_of(u, variable, sp.oo) is sp.oo else sp.atan(u)
+
+    turned = expression.replace(sp.atan, turn)
+    for form in (expression, turned):
+        found = limit_of(form, variable, sp.oo)
+        if found is not None:
+            return found
+    return None

@@ -1,0 +1,137 @@
+"""A change of time: a clock whose rate and inverse don't fit together can't be made."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import sympy as sp
+
+from ptproof.errors import InputError
+from ptproof.transforms.clocks.algebra import factored, is_positive, limit_at_infinity, settle, shown_zero
+
+
+@dataclass(frozen=True)
+class Clock:
+    """A change of time τ = a(t) on [t₀, t₀ + horizon).
+
+    Parameters
+    ----------
+    t, tau
+        The two times, real symbols.
+    to_tau
+        a, an expression in ``t``.
+    to_t
+        a⁻¹, an expression in ``tau``.
+    start
+        t₀, where both times agree.
+    horizon
+        The length of the interval in t (``oo`` allowed). [time]
+    name
+        For people.
+
+    Raises
+    ------
+    InputError
+        Unless a⁻¹(a(t)) = t, a(t₀) = t₀ and (da/dt)·(da⁻¹/dτ) = 1 hold by exact algebra, and da/dt > 0 on the
+        interval. Where a⁻¹(a(t)) = t is out of reach, as for arctan(tan), a(a⁻¹(τ)) = τ serves if a⁻¹ is shown to
+        increase from t₀ and to tend to the interval's end: then it is onto, and the only inverse.
+    """
+
+    t: sp.Symbol
+    tau: sp.Symbol
+    to_tau: sp.Expr
+    to_t: sp.Expr
+    start: sp.Expr
+    horizon: sp.Expr
+    name: str = "clock"
+
+    def __post_init__(self) -> None:
+        for field in ("to_tau", "to_t", "start", "horizon"):
+            object.__setattr__(self, field, sp.sympify(getattr(self, field)))
+        if not isinstance(self.t, sp.Symbol) or not isinstance(self.tau, sp.Symbol) or self.t == self.tau:
+            raise InputError(f"{self.name}: the two times must be distinct symbols")
+        starts = (self.to_tau.subs(self.t, self.start), self.to_t.subs(self.tau, self.start))
+        if not all(shown_zero(instant - self.start) for instant in starts):
+            raise InputError(f"{self.name}: it does not hold, or cannot be shown, that both times agree at the start")
+        if not self._is_inverse():
+            raise InputError(f"{self.name}: it does not hold, or cannot be shown, that the inverse undoes the map")
+        if not self._increases():
+            raise InputError(f"{self.name}: it does not hold, or cannot be shown, that the map increases")
+
+    def on_interval(self, expression: sp.Expr) -> sp.Expr:
+        """An expression in t for t₀ ≤ t < t₀ + horizon, by one symbol w ≥ 0: t − t₀ is w, or horizon·w/(1 + w)."""
+        w = sp.Dummy("w", nonnegative=True)
+        elapsed = w if self.horizon is sp.oo else self.horizon * w / (1 + w)
+        return settle(expression.subs(self.t, self.start + elapsed))
+
+    def _by_nu(self, expression: sp.Expr) -> sp.Expr:
+        """An expression in t for t < t₀ + horizon, by the symbol ν > 0: t − t₀ is horizon·(1 − ν)."""
+        if self.horizon is sp.oo:
+            return expression
+        return settle(expression.subs(self.t, self.start + self.horizon * (1 - sp.Dummy("nu", positive=True))))
+
+    def _later(self, expression: sp.Expr) -> sp.Expr:
+        """An expression in τ for τ > t₀, by the symbol τ − t₀ > 0."""
+        return settle(expression.subs(self.tau, self.start + sp.Dummy("e", positive=True)))
+
+    def _is_inverse(self) -> bool:
+        back = self.to_t.subs(self.tau, self.to_tau) - self.t
+        rates = self.rate * self.rate_back.subs(self.tau, self.to_tau) - 1
+        views: tuple[Callable[[sp.Expr], sp.Expr], ...] = (lambda entry: entry, self._by_nu, self.on_interval)
+        if any(shown_zero(view(back)) and shown_zero(view(rates)) for view in views):
+            return True
+        forth = self.to_tau.subs(self.t, self.to_t) - self.tau
+        rates = self.rate.subs(self.t, self.to_t) * self.rate_back - 1
+        if not (shown_zero(self._later(forth)) and shown_zero(self._later(rates))):
+            return False
+        # Injective: then a(a⁻¹(a(t))) = a(t) gives a⁻¹(a(t)) = t, if a⁻¹ stays in the interval.
+        if is_positive(self.on_interval(self.rate)) and self._stays_inside():
+            return True
+        # Onto: then every t is a⁻¹(τ) for some τ, and a⁻¹(a(a⁻¹(τ))) = a⁻¹(τ).
+        return self._rises_to_the_end()
+
+    def _rises_to_the_end(self) -> bool:
+        """Whether a⁻¹ is shown to increase, and to tend to the end of the interval as τ → ∞."""
+        if not is_positive(self._later(self.rate_back)):
+            return False
+        end = limit_at_infinity(self.to_t, self.tau)
+        return end is not None and (end is sp.oo if self.horizon is sp.oo else self._ends_at(end))
+
+    def _ends_at(self, end: sp.Expr) -> bool:
+        return end is not sp.oo and shown_zero(end - self.start - self.horizon)
+
+    def _stays_inside(self) -> bool:
+        elapsed = self._later(self.to_t - self.start)
+        return is_positive(elapsed) and (self.horizon is sp.oo or is_positive(self.horizon - elapsed))
+
+    def _increases(self) -> bool:
+        return is_positive(self.on_interval(self.rate)) or self._rises_to_the_end()
+
+    def latex(self) -> str:
+        """The map, its rate and its inverse as a LaTeX ``aligned`` block, without delimiters."""
+        t, tau = sp.latex(self.t), sp.latex(self.tau)
+        rows = [
+            rf"{tau} &= {sp.latex(self.to_tau)}",
+            rf"\frac{{\mathrm{{d}} {tau}}}{{\mathrm{{d}} {t}}} &= {sp.latex(self.rate)}",
+            rf"{t} &= {sp.latex(self.to_t)}",
+        ]
+        return r"\begin{aligned}" + r" \\ ".join(rows) + r"\end{aligned}"
+
+    def _repr_latex_(self) -> str:
+        return f"$\\displaystyle {self.latex()}$"
+
+    @property
+    def rate(self) -> sp.Expr:
+        """dτ/dt as an expression in t."""
+        return factored(sp.diff(self.to_tau, self.t))
+
+    @property
+    def rate_back(self) -> sp.Expr:
+        """dt/dτ as an expression in τ."""
+        return factored(sp.diff(self.to_t, self.tau))
+
+    @property
+    def rate_at_tau(self) -> sp.Expr:
+        """dτ/dt as an expression in τ: the reciprocal of :attr:`rate_back`."""
+        return 1 / self.rate_back

@@ -1,0 +1,131 @@
+"""How long an interval of time becomes under a rate: the exact integral that decides about prescribed time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import sympy as sp
+
+from ptproof.proof.engines.limits import limit_of
+from ptproof.reading.limits import OutOfTime, within
+from ptproof.transforms.clocks.algebra import shown_zero
+
+SECONDS = 10.0
+_SMOOTH = (sp.Add, sp.Mul, sp.Pow, sp.Symbol, sp.Number, sp.NumberSymbol, sp.exp, sp.log, sp.sin, sp.cos, sp.atan)
+
+
+@dataclass(frozen=True)
+class DilatedLength:
+    """∫ rate over [t₀, t₀ + horizon): an exact value or ``oo``, for ``provided`` corners inside the interval."""
+
+    value: sp.Expr
+    provided: tuple[str, ...] = ()
+
+    def __str__(self) -> str:
+        return str(self.value) + (f" (for {' and '.join(self.provided)})" if self.provided else "")
+
+
+def dilated_length(rate: sp.Expr, t: sp.Symbol, *, start: sp.Expr, horizon: sp.Expr) -> DilatedLength | None:
+    """The exact integral of ``rate`` (in t) over [t₀, t₀ + horizon), or None where it is not found and checked.
+
+    A maximum or minimum of a constant and something linear in t, as in a clipped gain, is split at its corner. The
+    antiderivative comes from SymPy and is checked by exact algebra; it is taken only where it is smooth by its
+    structure on the whole interval; the limit at the end is one of the limit theorems'.
+
+    >>> t = sp.Symbol("t", real=True); T = sp.Symbol("T", positive=True)
+    >>> print(dilated_length(1 / (1 - t / T) ** 2, t, start=0, horizon=T))
+    oo
+    >>> print(dilated_length(1 / sp.sqrt(1 - t / T), t, start=0, horizon=T))
+    2*T
+    >>> print(dilated_length(1 / sp.Max(sp.Rational(3, 10), 1 - t / T) ** 2, t, start=0, horizon=T))
+    17*T/3
+    """
+    start, horizon = sp.sympify(start), sp.sympify(horizon)
+    nu = sp.Dummy("nu", positive=True)
+    integrand = horizon * sp.sympify(rate).subs(t, start + horizon * (1 - nu))
+    integrand = integrand.replace(
+        lambda node: isinstance(node, sp.Max | sp.Min),
+        lambda node: node.func(*(sp.factor(sp.cancel(argument)) for argument in node.args)),
+    )
+    choices = sorted(integrand.atoms(sp.Max, sp.Min), key=str)
+    if len(choices) > 1:
+        return None
+    if not choices:
+        value = _improper(integrand, nu, sp.S.Zero, sp.S.One)
+        return None if value is None else DilatedLength(value)
+    return _split(integrand, nu, choices[0])
+
+
+def _split(integrand: sp.Expr, nu: sp.Symbol, choice: sp.Expr) -> DilatedLength | None:
+    moving = [argument for argument in choice.args if argument.has(nu)]
+    still = [argument for argument in choice.args if not argument.has(nu)]
+    if len(moving) != 1 or len(still) != 1:
+        return None
+    found = _crossing(moving[0], still[0], nu)
+    if found is None:
+        return None
+    corner, slope = found
+    inside = (corner.is_positive, (1 - corner).is_nonnegative)
+    if False in inside or not (slope.is_positive or slope.is_negative):
+        return None
+    moving_above = isinstance(choice, sp.Max) == bool(slope.is_positive)
+    above, below = (moving[0], still[0]) if moving_above else (still[0], moving[0])
+    first = _improper(integrand.xreplace({choice: below}), nu, sp.S.Zero, corner)
+    second = _improper(integrand.xreplace({choice: above}), nu, corner, sp.S.One)
+    if first is None or second is None:
+        return None
+    provided = tuple(
+        text for known, text in zip(inside, (f"{corner} > 0", f"{corner} <= 1"), strict=True) if known is None
+    )
+    return DilatedLength(sp.oo if sp.oo in (first, second) else sp.factor(sp.cancel(first + second)), provided)
+
+
+def _crossing(moving: sp.Expr, still: sp.Expr, nu: sp.Symbol) -> tuple[sp.Expr, sp.Expr] | None:
+    """Where a + bν, or c ν^q, crosses a constant, and an expression with the sign of its slope."""
+    if moving.is_polynomial(nu) and sp.degree(moving, nu) == 1:
+        slope = sp.diff(moving, nu)
+        return sp.cancel(nu + (still - moving) / slope), slope
+    factor, power = moving.as_independent(nu, as_Add=False)
+    base, exponent = power.as_base_exp()
+    if base != nu or exponent.has(nu) or not (still / factor).is_positive:
+        return None
+    return sp.simplify((still / factor) ** (1 / exponent)), factor * exponent
+
+
+def _improper(integrand: sp.Expr, nu: sp.Symbol, low: sp.Expr, high: sp.Expr) -> sp.Expr | None:
+    """∫ from low to high within (0, 1], the lower end approached from above."""
+    try:
+        found = within(SECONDS, lambda: sp.integrate(sp.simplify(integrand), nu))
+    except OutOfTime:
+        return None
+    if found.has(sp.Integral, sp.Piecewise) or not shown_zero(sp.diff(found, nu) - integrand):
+        return None
+    if not _smooth(found, nu):
+        return None
+    turned = found.replace(sp.log, lambda u: -sp.log(1 / u))
+    ends = [limit_of(form, nu, low, "+") for form in (found, turned)] if low.is_zero else [found.subs(nu, low)]
+    start = next((end for end in ends if end is not None), None)
+    if start is None or start is sp.oo:
+        return None
+    return sp.oo if start is -sp.oo else sp.factor_terms(sp.simplify(found.subs(nu, high) - start))
+
+
+def _smooth(expression: sp.Expr, nu: sp.Symbol) -> bool:
+    """Whether it is smooth on 0 < ν ≤ 1 by its structure: no denominator, root or logarithm of what may vanish."""
+    w = sp.Dummy("w", nonnegative=True)
+    for node in sp.preorder_traversal(expression):
+        if not node.has(nu):
+            continue
+        if not isinstance(node, _SMOOTH):
+            return False
+        needs_sign = (
+            node.args[0] if isinstance(node, sp.log) else
+            node.base if isinstance(node, sp.Pow) and not (node.exp.is_integer and node.exp.is_nonnegative) else None
+        )  # fmt: skip
+        if needs_sign is None or needs_sign.is_positive:
+            continue
+        local = sp.factor(sp.cancel(sp.together(needs_sign.subs(nu, 1 / (1 + w)))))
+        whole = isinstance(node, sp.Pow) and node.exp.is_integer
+        if not (local.is_positive or (whole and local.is_negative)):
+            return False
+    return True

@@ -1,0 +1,114 @@
+"""The named changes of time: the paper's, and the power, logarithmic, exponential and tangent maps.
+
+Every one of them is a :class:`~ptproof.transforms.clocks.clock.Clock`, so it can't be made with a wrong inverse.
+With s = t − t₀, e = τ − t₀ and ν = 1 − s/T:
+
+=============  ==================================  =====================  ===========================
+map            τ − t₀                              rate dτ/dt             t − t₀
+=============  ==================================  =====================  ===========================
+power          (T/m)(ν⁻ᵐ − 1)                      ν⁻⁽ᵐ⁺¹⁾                T(1 − (1 + me/T)^(−1/m))
+logarithmic    −T ln ν                             ν⁻¹                    T(1 − exp(−e/T))
+exponential    T(exp(s/(T − s)) − 1)               ν⁻² exp(s/(T − s))     T L/(1 + L), L = ln(1 + e/T)
+tangent        (2T/π) tan(πs/(2T))                 1 + tan²(πs/(2T))      (2T/π) arctan(πe/(2T))
+growing        (exp(gs) − 1)/g, for all s ≥ 0      exp(gs)                ln(1 + ge)/g
+=============  ==================================  =====================  ===========================
+
+The power map of order m = 1 is the paper's. In τ a seeker with the gain dτ/dt is one with a constant gain, so what
+decays like exp(−λe) there decays in t like ν^(λT) under the logarithmic map, and faster than every power of ν under
+the others.
+"""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from ptproof.errors import InputError
+from ptproof.transforms.clocks.clock import Clock
+
+
+def prescribed_time_clock(
+    t: sp.Symbol, tau: sp.Symbol, *, start: sp.Expr, horizon: sp.Expr, name: str = "prescribed-time clock"
+) -> Clock:
+    """The paper's map τ = t₀ + (t − t₀)/ν with ν = 1 − (t − t₀)/T (eq:tau_to_t, eq:nu, eq:t_to_tau)."""
+    elapsed, stretched = t - start, tau - start
+    return Clock(
+        t, tau,
+        to_tau=start + elapsed / (1 - elapsed / horizon),
+        to_t=start + stretched / (1 + stretched / horizon),
+        start=start, horizon=horizon, name=name,
+    )  # fmt: skip
+
+
+def identity_clock(t: sp.Symbol, tau: sp.Symbol, *, start: sp.Expr) -> Clock:
+    """τ = t: the clock of an asymptotic seeker."""
+    return Clock(t, tau, to_tau=t, to_t=tau, start=start, horizon=sp.oo, name="identity clock")
+
+
+def power_clock(
+    t: sp.Symbol, tau: sp.Symbol, *, start: sp.Expr, horizon: sp.Expr, order: sp.Expr, name: str = "power clock"
+) -> Clock:
+    """dτ/dt = ν^(−(m+1)) with the ``order`` m > 0, a positive number or symbol; m = 1 is the paper's map."""
+    m = sp.sympify(order)
+    if not m.is_positive or m.has(sp.Float):
+        raise InputError(f"{name}: the order must be an exact positive number or a positive symbol, got {m}")
+    nu = 1 - (t - start) / horizon
+    return Clock(
+        t, tau,
+        to_tau=start + horizon / m * (nu ** (-m) - 1),
+        to_t=start + horizon * (1 - (1 + m * (tau - start) / horizon) ** (-1 / m)),
+        start=start, horizon=horizon, name=name,
+    )  # fmt: skip
+
+
+def logarithmic_clock(
+    t: sp.Symbol, tau: sp.Symbol, *, start: sp.Expr, horizon: sp.Expr, name: str = "logarithmic clock"
+) -> Clock:
+    """dτ/dt = 1/ν, the slowest growth of this kind that still reaches τ = ∞; its inverse is an exponential."""
+    return Clock(
+        t, tau,
+        to_tau=start - horizon * sp.log(1 - (t - start) / horizon),
+        to_t=start + horizon * (1 - sp.exp(-(tau - start) / horizon)),
+        start=start, horizon=horizon, name=name,
+    )  # fmt: skip
+
+
+def exponential_clock(
+    t: sp.Symbol, tau: sp.Symbol, *, start: sp.Expr, horizon: sp.Expr, name: str = "exponential clock"
+) -> Clock:
+    """dτ/dt = ν⁻² exp(s/(T − s)), which grows faster than every power of 1/ν."""
+    stretched = (t - start) / (1 - (t - start) / horizon) / horizon
+    logarithm = sp.log(1 + (tau - start) / horizon)
+    return Clock(
+        t, tau,
+        to_tau=start + horizon * (sp.exp(stretched) - 1),
+        to_t=start + horizon * logarithm / (1 + logarithm),
+        start=start, horizon=horizon, name=name,
+    )  # fmt: skip
+
+
+def tangent_clock(
+    t: sp.Symbol, tau: sp.Symbol, *, start: sp.Expr, horizon: sp.Expr, name: str = "tangent clock"
+) -> Clock:
+    """dτ/dt = 1 + tan²(πs/(2T))."""
+    scale = 2 * horizon / sp.pi
+    return Clock(
+        t, tau,
+        to_tau=start + scale * sp.tan((t - start) / scale),
+        to_t=start + scale * sp.atan((tau - start) / scale),
+        start=start, horizon=horizon, name=name,
+    )  # fmt: skip
+
+
+def growing_clock(
+    t: sp.Symbol, tau: sp.Symbol, *, start: sp.Expr, growth: sp.Expr, name: str = "growing clock"
+) -> Clock:
+    """dτ/dt = exp(g(t − t₀)) for all t ≥ t₀, with ``growth`` g > 0: an exponential gain on an infinite horizon."""
+    g = sp.sympify(growth)
+    if not g.is_positive:
+        raise InputError(f"{name}: the growth must be positive, got {g}")
+    return Clock(
+        t, tau,
+        to_tau=start + (sp.exp(g * (t - start)) - 1) / g,
+        to_t=start + sp.log(1 + g * (tau - start)) / g,
+        start=start, horizon=sp.oo, name=name,
+    )  # fmt: skip

@@ -1,0 +1,88 @@
+"""Section 7 in numbers: each statement against its criterion, over a few headings, and the figures of the examples."""
+
+import numpy as np
+import pytest
+
+from derivations.pt_seeker.experiments import observations
+from derivations.pt_seeker.experiments.gallery import block_diagram, figures
+from ptproof.problem import example
+from ptproof.simulation.figures import png
+
+COUNT = 8
+
+
+@pytest.mark.parametrize("name", ["vanishing", "nonvanishing"])
+def test_the_prescribed_time_seeker_reaches_the_source_from_every_heading(name):
+    statement = observations.reaches_source(name, 24)
+    assert statement.supported
+    assert statement.data["worst distance"] < 2 * statement.data["hover radius"]
+
+
+def test_the_asymptotic_seeker_moves_away_from_every_heading():
+    statement = observations.moves_away(24)
+    assert statement.supported
+    assert statement.data["initial distance"] == pytest.approx(np.sqrt(8))
+
+
+def test_it_would_be_said_if_it_did_not_reach_the_source(monkeypatch):
+    real = observations._ensemble
+    monkeypatch.setattr(observations, "_ensemble", lambda name, seeker, count: real(name, "asymptotic", count))
+    assert not observations.reaches_source("vanishing", 6).supported
+
+
+def test_the_asymptotic_seeker_oscillates_off_the_source_below_the_peak():
+    statement = observations.oscillates(4)
+    assert statement.supported
+    assert statement.data["largest field"] < 1.9
+
+
+@pytest.mark.parametrize("name", ["vanishing", "nonvanishing"])
+def test_the_inputs_are_bounded(name):
+    statement = observations.bounded_inputs(name, 4)
+    assert statement.supported
+    assert statement.data["worst largest |u1|"] == pytest.approx(statement.data["u1 bound"])
+
+
+def test_with_the_time_varying_gain_the_saturated_seeker_arrives_before_T():
+    assert observations.saturated_reaches(COUNT).supported
+
+
+def test_with_the_constant_gain_it_is_three_times_slower_than_the_other_but_not_always_three_times_T():
+    statement = observations.three_times_longer(COUNT)
+    assert 2.5 < statement.data["median arrival over that of the time-varying gain"] < 3.7
+    assert statement.data["smallest arrival over T"] < 1.6
+    assert 3 < statement.data["worst arrival over T"] < 3.7
+
+
+def test_the_control_effort_is_greater_with_the_constant_gain():
+    assert observations.acceleration_saturates(4).supported
+
+
+def test_a_statement_is_data():
+    data = observations.moves_away(24).to_json()
+    assert data["supported"] is True
+    assert "24, even" in data["settings"]["headings"]
+
+
+FIGURES = {
+    "vanishing": {"trajectories", "field", "distance", "inputs", "phase-portrait", "order"},
+    "saturated": {
+        "saturated-trajectories", "saturated-field", "saturated-acceleration", "phase-portrait", "order",
+    },
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", FIGURES)
+def test_the_figures_of_an_example_are_drawn_and_the_same_bytes_again(name):
+    problem = example(name)
+    bound = {"a bound": (np.array([0.0, 1.0]), np.array([3.0, 1.0]))}
+    made = figures(problem, bound)
+    assert set(made) == FIGURES[name]
+    images = {key: png(figure) for key, figure in made.items()}
+    assert all(len(image) > 5000 for image in images.values())
+    if name == "saturated":
+        assert images == {key: png(figure) for key, figure in figures(problem, bound).items()}
+
+
+def test_the_block_diagram_is_drawn():
+    assert len(png(block_diagram())) > 5000

@@ -1,0 +1,47 @@
+"""Definite integrals by checked antiderivatives, and SymPy's wrong ones that are not used."""
+
+from __future__ import annotations
+
+import pytest
+import sympy as sp
+
+from ptproof.proof.claim import Goal
+from ptproof.proof.engines.integrals import definite, integrals
+from ptproof.proof.statement import eq
+from ptproof.proof.verdict import Verdict
+
+s, theta = sp.symbols("s theta", real=True)
+T, a = sp.symbols("T a", positive=True)
+
+
+def test_rational_integral_to_infinity() -> None:
+    goal = Goal("t", eq(sp.Integral(a / (1 + s / T) ** 2, (s, 0, sp.oo)), a * T))
+    assert integrals(goal).verdict is Verdict.PROVED
+
+
+def test_wrong_value_is_refuted() -> None:
+    goal = Goal("t", eq(sp.Integral(a / (1 + s / T) ** 2, (s, 0, sp.oo)), 2 * a * T))
+    assert integrals(goal).verdict is Verdict.REFUTED
+
+
+def test_iterated_integral() -> None:
+    inner = sp.Integral(sp.cos(s), (s, 0, theta))
+    goal = Goal("t", eq(sp.Integral(sp.sin(theta) * inner, (theta, 0, 2 * sp.pi)) / (2 * sp.pi), sp.Rational(1, 2)))
+    assert integrals(goal).verdict is Verdict.PROVED
+
+
+@pytest.mark.parametrize(
+    ("integrand", "upper", "wrong"),
+    [
+        (sp.Abs(sp.sin(s) * sp.cos(s)), 2 * sp.pi, 1),  # the truth is 2
+        (sp.Abs(sp.sin(s)), 7 * sp.pi, 2),  # the truth is 14
+        (1 / (2 + sp.cos(s)), 2 * sp.pi, 0),  # the truth is 2π/√3
+    ],
+)
+def test_what_sympy_gets_wrong_is_not_proved(integrand: sp.Expr, upper: sp.Expr, wrong: int) -> None:
+    goal = Goal("t", eq(sp.Integral(integrand, (s, 0, upper)), wrong))
+    assert integrals(goal).verdict is not Verdict.PROVED
+
+
+def test_pole_inside_is_refused() -> None:
+    assert definite(sp.Integral(1 / (s - 1) ** 2, (s, 0, 2))) is None
