@@ -52,7 +52,7 @@ def test_so_does_a_wrong_type_or_a_wrong_number_of_arguments(tmp_path, call):
 
 
 def test_an_error_in_an_engine_keeps_its_whole_traceback(tmp_path):
-    broken = "import ptproof.proof.engines.exact\nptproof.proof.exact.exact = lambda goal: len(3)\n"
+    broken = "import ptproof.proof.engines.exact\nptproof.proof.engines.exact.exact = lambda goal: len(3)\n"
     done = script(tmp_path, FAILING + broken + "check()\n")
     assert "in <lambda>" in frames(done.stderr)[-1]
 
