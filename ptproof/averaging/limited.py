@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from concurrent.futures import TimeoutError as OutOfTime
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ptproof.errors import InputError
+from ptproof.reading.limits import Answered, Unanswered, Why, apart, check_seconds
 
 if TYPE_CHECKING:
     from ptproof.averaging.study import Average
@@ -31,22 +31,16 @@ def study_file(path: str | Path, seconds: float) -> Outcome:
 
     Raises :class:`InputError` for bad input. Out of time, the outcome says so, and nothing in it is claimed.
     """
-    from pebble import ProcessExpired, ProcessPool
-
-    if not 0 < seconds < 1e7:
-        raise InputError(f"the time limit must be a positive number of seconds, not {seconds}")
-    with ProcessPool(max_workers=1) as pool:
-        future = pool.schedule(_study, args=(str(path),), timeout=seconds)
-        try:
-            return future.result()
-        except OutOfTime:
+    check_seconds(seconds, "--timeout")
+    match apart(seconds, _study, str(path)):
+        case Answered(outcome):
+            return outcome
+        case Unanswered(error=InputError() as error):
+            raise error
+        case Unanswered(Why.TIME):
             reason = f"{path}: no answer within {seconds:g} s; a longer --timeout may help"
-        except InputError:
-            raise
-        except ProcessExpired as error:
-            reason = f"{path}: the computation ended without an answer ({error})"
-        except Exception as error:
-            reason = f"{path}: the computation failed, nothing is claimed ({type(error).__name__}: {error})"
+        case Unanswered(_, reason):
+            reason = f"{path}: nothing is claimed: {reason}"
     data: dict[str, Any] = {"average": None, "v": {}, "assumptions": {}, "expected": None}
     return Outcome(data, as_expected=False, reason=reason)
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from concurrent.futures import TimeoutError as OutOfTime
 from typing import Any
 
 import sympy as sp
@@ -10,6 +9,7 @@ import sympy as sp
 from ptproof.certify.certificate import FieldCertificate
 from ptproof.errors import InputError
 from ptproof.reading.expressions import CONSTANTS, FUNCTIONS, parse
+from ptproof.reading.limits import Answered, Unanswered, Why, apart, check_seconds
 
 
 def certify_text(
@@ -27,20 +27,17 @@ def certify_text(
     ``names`` and ``source`` are lists separated by commas, ``annulus`` is ``"r,R"``; numbers are exact. Raises
     :class:`InputError` for bad input, also where there is no answer soon after ``seconds``.
     """
-    from pebble import ProcessExpired, ProcessPool
-
-    if not 0 < seconds < 1e6:
-        raise InputError(f"the time limit must be a positive number of seconds, but is {seconds}")
-    with ProcessPool(max_workers=1) as pool:
-        arguments = (expression, names, source, kappa, radius, annulus, rtol, seconds)
-        future = pool.schedule(_certify, args=arguments, timeout=1.6 * seconds + 5)
-        try:
-            certificate: FieldCertificate = future.result()
-        except OutOfTime:
-            raise InputError(f"no answer within {seconds:g} s: the expression is too large for exact algebra") from None
-        except ProcessExpired as error:
-            raise InputError(f"the computation ended without an answer ({error})") from None
-    return certificate
+    check_seconds(seconds, "--timeout")
+    arguments = (expression, names, source, kappa, radius, annulus, rtol, seconds)
+    match apart(1.6 * seconds + 5, _certify, *arguments):
+        case Answered(certificate):
+            return certificate
+        case Unanswered(Why.TIME):
+            raise InputError(f"no answer within {seconds:g} s: the expression is too large for exact algebra")
+        case Unanswered(Why.FAILED, _, Exception() as error):
+            raise error
+        case Unanswered(_, reason):
+            raise InputError(f"the computation ended without an answer ({reason})")
 
 
 def _certify(

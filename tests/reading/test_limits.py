@@ -1,12 +1,13 @@
 """A time limit within this process."""
 
+import os
 import threading
 import time
 
 import pytest
 
 from ptproof.errors import InputError
-from ptproof.reading.limits import OutOfTime, within
+from ptproof.reading.limits import Answered, OutOfTime, Unanswered, Why, Workers, apart, within
 
 
 def test_the_answer_comes_back():
@@ -36,3 +37,61 @@ def test_work_without_end_is_stopped_and_does_not_go_on():
 def test_a_limit_that_is_none_is_refused(seconds):
     with pytest.raises(InputError, match="seconds"):
         within(seconds, lambda: 3)
+
+
+def test_work_in_another_process_answers():
+    assert apart(60, pow, 2, 5) == Answered(32)
+
+
+def _forever():
+    while True:
+        pass
+
+
+def _fill(size):
+    return len(bytearray(size))
+
+
+def _refuse(text):
+    raise InputError(text)
+
+
+_NO_ANSWER = [
+    (_forever, (), Why.TIME, "no answer in 0.3 s"),
+    (_fill, (2**30,), Why.MEMORY, "no answer in 0.5 GiB of memory"),
+    (os._exit, (3,), Why.DIED, "the process ended"),
+    (_refuse, ("too long",), Why.FAILED, "InputError: too long"),
+]
+
+
+def test_every_way_of_not_answering_is_a_value_and_costs_only_its_own_work():
+    with Workers(memory=2**29) as workers:
+        for work, arguments, why, reason in _NO_ANSWER:
+            outcome = workers.run(0.3 if why is Why.TIME else 60, work, *arguments)
+            assert isinstance(outcome, Unanswered)
+            assert outcome.why is why
+            assert reason in outcome.reason
+            assert isinstance(outcome.error, InputError) == (work is _refuse)
+        assert workers.run(60, _fill, 10) == Answered(10)
+
+
+def test_many_answer_each_under_its_key():
+    with Workers(2) as workers:
+        assert dict(workers.each(60, divmod, {"a": (7, 3), "b": (9, 2)})) == {
+            "a": Answered((2, 1)),
+            "b": Answered((4, 1)),
+        }
+
+
+def test_a_start_that_fails_fails_the_work():
+    with Workers(start=_refuse, arguments=("no such file",)) as workers:
+        outcome = workers.run(60, _fill, 10)
+    assert isinstance(outcome, Unanswered)
+    assert outcome.why is Why.FAILED
+    assert str(outcome.error) == "no such file"
+
+
+@pytest.mark.parametrize("seconds", [0, -1, float("nan"), float("inf")])
+def test_a_limit_that_is_none_is_refused_for_other_processes(seconds):
+    with pytest.raises(InputError, match="seconds"):
+        apart(seconds, _fill, 10)
