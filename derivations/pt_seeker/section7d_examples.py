@@ -33,7 +33,7 @@ def printed(k: str, omega: int, horizon: int, start: tuple[int, int]) -> list[sp
 
 def same_data(problem: Problem, field: sp.Expr, drift: list[sp.Expr], values: list[sp.Expr]) -> tuple[Relation, ...]:
     """Field, drift and numbers of an example are the printed ones."""
-    return eq(problem.field, field), eq(sp.Matrix(problem.drift.rate), drift), eq(numbers(problem), values)
+    return eq(problem.field.expression, field), eq(sp.Matrix(problem.drift.rate), drift), eq(numbers(problem), values)
 
 
 @claim(

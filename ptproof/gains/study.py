@@ -115,7 +115,7 @@ def study(
     if bounds is not None:
         return Study(problem, curve, None, gains(gain_data(problem, bounds, radius, **known)))
     certificate = certify_field(
-        problem.field, problem.variables, problem.source, problem.kappa, radius=radius, rtol=rtol
+        problem.field.expression, problem.variables, problem.source, problem.kappa, radius=radius, rtol=rtol
     )
     answer = None
     if certificate.verdict is Verdict.PROVED:

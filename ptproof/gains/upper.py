@@ -69,7 +69,7 @@ class UpperSolution:
         self.limit = _GROWTH * self.y
         weights = (1.0,) if self.matrix is None else _weights(lowest, highest)
         self.envelope = RadialEnvelope(
-            problem.variables, problem.field, problem.source, problem.tuning.k, self.matrix, self.y, weights
+            problem.variables, problem.field.expression, problem.source, problem.tuning.k, self.matrix, self.y, weights
         )
         self.drift = compile_tape(list(drift.rate), (TIME, *problem.variables)) if drift.kind == "bounded" else None
 

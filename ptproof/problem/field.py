@@ -118,29 +118,33 @@ class Field:
     def __post_init__(self) -> None:
         variables = tuple(self.variables)
         if not variables or not all(isinstance(item, sp.Symbol) for item in variables):
-            raise InputError("the field needs at least one variable, and each must be a symbol")
+            raise InputError("field.variables: expected at least one variable, and each must be a symbol")
         if len(set(variables)) != len(variables):
-            raise InputError("the variables of the field must be distinct")
-        source = tuple(_exact(item, "source") for item in self.source)
+            raise InputError("field.variables: must be distinct")
+        source = tuple(_exact(item, "field.source") for item in self.source)
         if len(source) != len(variables):
-            raise InputError(f"the source has {len(source)} coordinates, but the field has {len(variables)} variables")
+            raise InputError(
+                f"field.source: {len(source)} coordinates for {len(variables)} variables; give one for each"
+            )
         for item in source:
             if item.free_symbols or not (item.is_real and item.is_finite):
-                raise InputError(f"the coordinates of the source must be real numbers, not {_short(item)}")
-        kappa = _exact(self.kappa, "kappa")
+                raise InputError(f"field.source: the coordinates must be real numbers, not {_short(item)}")
+        kappa = _exact(self.kappa, "field.kappa")
         if not (isinstance(kappa, sp.Integer) and kappa > 0):
-            raise InputError(f"kappa must be a positive integer, not {_short(kappa)}")
-        expression = _exact(self.expression, "field")
+            raise InputError(f"field.kappa: must be a positive integer, not {_short(kappa)}")
+        expression = _exact(self.expression, "field.expression")
         if unknown := expression.free_symbols - set(variables):
             names = ", ".join(sorted(str(symbol) for symbol in unknown))
-            raise InputError(f"the field contains {names}, which is not among its variables")
+            raise InputError(f"field.expression: contains {names}, which is not among the variables")
         object.__setattr__(self, "variables", variables)
         object.__setattr__(self, "expression", expression)
         object.__setattr__(self, "source", source)
         object.__setattr__(self, "kappa", int(kappa))
         peak = self.peak
         if peak.has(sp.zoo, sp.nan, sp.oo, -sp.oo) or peak.is_real is False:
-            raise InputError(f"the field has no real value at the source, where it is {_short(peak)}")
+            raise InputError(
+                f"field.expression at field.source: the field has no finite real value there, it is {_short(peak)}"
+            )
 
     @property
     def dimension(self) -> int:

@@ -158,12 +158,12 @@ def _closed_loop(problem: Problem, seeker: str, frame: str, coordinates: str) ->
                 "coordinates: a saturated seeker has no reduced coordinates, its heading has its own dynamics"
             )
         system = saturated_seeker(
-            problem.field, k=symbols.k, omega=symbols.omega, mu=symbols.mu, epsilon=symbols.epsilon,
+            problem.field.expression, k=symbols.k, omega=symbols.omega, mu=symbols.mu, epsilon=symbols.epsilon,
             level=symbols.level, gain=GAIN, time=TIME, drift=problem.drift, states=letters,
         )  # fmt: skip
     else:
         system = asymptotic_seeker(
-            problem.field, problem.drift, k=symbols.k, omega=symbols.omega, mu=symbols.mu, time=TIME,
+            problem.field.expression, problem.drift, k=symbols.k, omega=symbols.omega, mu=symbols.mu, time=TIME,
             gain=GAIN, states=letters,
         )  # fmt: skip
         if coordinates == "reduced":
@@ -179,7 +179,7 @@ def reduced_loop(problem: Problem) -> System:
     """
     letters, symbols, p = loop_letters(problem), parameters, sp.Symbol("p", real=True)
     full = asymptotic_seeker(
-        problem.field, problem.drift, k=symbols.k, omega=symbols.omega, mu=symbols.mu, time=TIME, gain=GAIN,
+        problem.field.expression, problem.drift, k=symbols.k, omega=symbols.omega, mu=symbols.mu, time=TIME, gain=GAIN,
         states=letters,
     )  # fmt: skip
     rotated = change_variable(

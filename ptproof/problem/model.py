@@ -11,6 +11,7 @@ import sympy as sp
 
 from ptproof.errors import InputError
 from ptproof.problem.drift import Drift
+from ptproof.problem.field import Field
 from ptproof.system import System
 
 TIME = sp.Symbol("t", real=True)
@@ -110,14 +111,8 @@ class Problem:
 
     Attributes
     ----------
-    variables
-        The n coordinates of the field, real symbols. Its closed loops need n = 2.
     field
-        F, an expression in ``variables``.
-    source
-        x*, n exact numbers.
-    kappa
-        The κ of the field's bounds, a positive integer.
+        F over n coordinates with its source x* and κ. Closed loops need n = 2.
     drift
         f(t, x) in :data:`TIME` and ``variables``.
     tuning, initial, saturation
@@ -131,10 +126,7 @@ class Problem:
         For data that don't fit together, naming the key at fault.
     """
 
-    variables: tuple[sp.Symbol, ...]
-    field: sp.Expr
-    source: tuple[sp.Expr, ...]
-    kappa: int
+    field: Field
     drift: Drift
     tuning: Tuning
     initial: Initial
@@ -142,24 +134,22 @@ class Problem:
     name: str = "problem"
 
     def __post_init__(self) -> None:
-        n = len(self.variables)
-        if n == 0 or len(set(self.variables)) != n:
-            raise InputError("field.variables: expected at least one name, each once")
-        source = tuple(number(value, f"field.source[{i}]") for i, value in enumerate(self.source))
-        object.__setattr__(self, "source", source)
-        for what, length in (("field.source", len(source)), ("initial.x", len(self.initial.x))):
+        n = self.field.dimension
+        for what, length in (("initial.x", len(self.initial.x)), ("drift", len(self.drift.rate))):
             if length != n:
                 raise InputError(f"{what}: {length} entries for {n} coordinates; give one for each")
-        if len(self.drift.rate) != n:
-            raise InputError(f"drift: {len(self.drift.rate)} entries for {n} coordinates; give one for each")
-        if isinstance(self.kappa, bool) or not isinstance(self.kappa, int) or not 1 <= self.kappa <= 1000:
+        if self.kappa > 1000:
             raise InputError(f"field.kappa: must be a positive integer (up to 1000), got {self.kappa}")
-        if extra := self.field.free_symbols - set(self.variables):
-            raise InputError(
-                f"field.expression: contains {', '.join(sorted(map(str, extra)))}, which is not a variable"
-            )
-        for where, point in (("field.source", source), ("initial.x", self.initial.x)):
-            number_at(self.field, self.variables, point, f"field.expression at {where}")
+        for i, value in enumerate(self.source):
+            number(value, f"field.source[{i}]")
+        for where, point in (("field.source", self.source), ("initial.x", self.initial.x)):
+            value = self.field.value(point)
+            try:
+                number(value, where)
+            except InputError:
+                raise InputError(
+                    f"field.expression at {where}: the field has no finite real value there ({value})"
+                ) from None
 
     def __hash__(self) -> int:
         return self._hash
@@ -167,25 +157,36 @@ class Problem:
     @cached_property
     def _hash(self) -> int:
         # Problems are looked up several times in each run; hashing their expressions anew would cost more than a run.
-        return hash(
-            (self.variables, self.field, self.source, self.kappa, self.drift, self.tuning, self.initial, self.name)
-        )
+        return hash((self.field, self.drift, self.tuning, self.initial, self.saturation, self.name))
 
     def __getstate__(self) -> dict[str, Any]:
         # The hash of a name differs from process to process.
         return {key: value for key, value in self.__dict__.items() if key != "_hash"}
 
-    @cached_property
-    def measured(self) -> sp.Expr:
-        """z₀: the given filter state, or the field at the initial position."""
-        if self.initial.z is not None:
-            return self.initial.z
-        return self.field.subs(dict(zip(self.variables, self.initial.x, strict=True)), simultaneous=True)
+    @property
+    def variables(self) -> tuple[sp.Symbol, ...]:
+        """The n coordinates of the field, real symbols."""
+        return self.field.variables
+
+    @property
+    def source(self) -> tuple[sp.Expr, ...]:
+        """x*, n exact numbers."""
+        return self.field.source
+
+    @property
+    def kappa(self) -> int:
+        """The κ of the field's bounds, a positive integer."""
+        return self.field.kappa
 
     @property
     def peak(self) -> sp.Expr:
         """F(x*)."""
-        return self.field.subs(dict(zip(self.variables, self.source, strict=True)), simultaneous=True)
+        return self.field.peak
+
+    @cached_property
+    def measured(self) -> sp.Expr:
+        """z₀: the given filter state, or the field at the initial position."""
+        return self.field.value(self.initial.x) if self.initial.z is None else self.initial.z
 
     @property
     def values(self) -> Mapping[sp.Symbol, sp.Expr]:
@@ -213,12 +214,3 @@ class Problem:
         from ptproof.problem.models import averaged_system
 
         return averaged_system(self, seeker, frame, symbolic=symbolic)
-
-
-def number_at(expression: sp.Expr, variables: tuple[sp.Symbol, ...], point: tuple[sp.Expr, ...], where: str) -> sp.Expr:
-    """The exact value of ``expression`` at ``point``, refused unless it is a finite real number."""
-    value = expression.subs(dict(zip(variables, point, strict=True)), simultaneous=True)
-    try:
-        return number(value, where)
-    except InputError:
-        raise InputError(f"{where}: the field has no finite real value there ({value})") from None

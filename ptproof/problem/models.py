@@ -94,7 +94,7 @@ def _averaged(problem: Problem, seeker: str, frame: str) -> System:
     x1, x2 = generic.state
     renamed = dict(zip(problem.variables, (x1, x2), strict=True))
     F = sp.Function("F", real=True)(x1, x2)
-    values = {F: problem.field.subs(renamed, simultaneous=True)}
+    values = {F: problem.field.expression.subs(renamed, simultaneous=True)}
     for name, rate in zip(("g1", "g2"), problem.drift.rate, strict=True):
         values[sp.Function(name, real=True)(TAU, x1, x2)] = rate.subs(renamed, simultaneous=True) / GAIN
     back = {new: old for old, new in renamed.items()}

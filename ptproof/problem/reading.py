@@ -12,6 +12,7 @@ import sympy as sp
 
 from ptproof.errors import InputError
 from ptproof.problem.drift import Drift, bounded_drift, gradient_drift, no_drift
+from ptproof.problem.field import Field
 from ptproof.problem.model import TIME, Initial, Problem, Saturation, Tuning, number, positive
 from ptproof.reading.tables import (
     RESERVED,
@@ -90,11 +91,9 @@ def _problem(data: Mapping[str, Any], name: str) -> Problem:
     field, seeker, initial = data["field"], data["seeker"], data["initial"]
     variables = _variables(field["variables"])
     expression = finite(field["expression"], "field.expression", variables)
+    source = _numbers(field["source"], "field.source", len(variables))
     return Problem(
-        variables=variables,
-        field=expression,
-        source=_numbers(field["source"], "field.source", len(variables)),
-        kappa=_kappa(field["kappa"]),
+        field=Field(variables, expression, source, _kappa(field["kappa"])),
         drift=_drift(data["drift"], expression, variables),
         tuning=Tuning(**{key: _number(value, f"seeker.{key}") for key, value in seeker.items()}),
         initial=Initial(

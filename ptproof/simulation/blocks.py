@@ -94,7 +94,7 @@ def figure_loop(problem: Problem, *, dilated_filter: bool) -> Any:
     u1, u2 = sp.symbols("u1 u2", real=True)
     vehicle = _vehicle(problem, u1, u2)
     x1, x2 = problem.variables
-    measure = sp.lambdify([x1, x2], problem.field, modules="numpy")
+    measure = sp.lambdify([x1, x2], problem.field.expression, modules="numpy")
     k, mu, omega = values["k"], values["mu"], values["omega"]
     field = _static("field", lambda _, u: measure(u[0], u[1]), [x1.name, x2.name], "y")
     minus_k = _static("minus_k", lambda _, u: -k * u[0], ["innovation"], "turn")

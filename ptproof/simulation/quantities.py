@@ -25,7 +25,7 @@ def _vectorised(expression: sp.Expr, variables: tuple[sp.Symbol, ...]) -> Callab
 @lru_cache(maxsize=64)
 def field_function(problem: Problem) -> Callable[[Array], Array]:
     """F for arrays of positions (n × …)."""
-    function = _vectorised(problem.field, problem.variables)
+    function = _vectorised(problem.field.expression, problem.variables)
 
     def evaluate(x: Array) -> Array:
         with np.errstate(all="ignore"):
@@ -40,7 +40,9 @@ def input_function(
 ) -> Callable[[Array, Array, Mapping[str, float]], dict[str, Array]]:
     """The inputs u₁ and u₂ (and the angular acceleration a) along a run in full coordinates, from t and x."""
     letters, symbols = loop_letters(problem), parameters
-    law = feedback(problem.field, letters.filter, symbols.k, symbols.omega, symbols.mu, gain_of(problem, seeker))
+    law = feedback(
+        problem.field.expression, letters.filter, symbols.k, symbols.omega, symbols.mu, gain_of(problem, seeker)
+    )
     wanted = {"u1": law.forward, "u2": law.angular}
     if seeker.startswith("saturated"):
         loop = problem.closed_loop(seeker, "t", symbolic=True)

@@ -10,7 +10,7 @@ import sympy as sp
 
 from ptproof.problem import Problem
 from ptproof.problem.model import TIME
-from ptproof.system import System, gradient
+from ptproof.system import System
 
 _RTOL = 1e-11  # where a bound is attained exactly, a coarser run would seem to violate it
 _ATOL = 1e-18
@@ -33,8 +33,7 @@ def averaged_system(problem: Problem) -> System:
     tuning = problem.tuning
     nu = 1 - (TIME - tuning.t0) / tuning.T
     gain = 1 / (nu if tuning.nu_min is None else sp.Max(tuning.nu_min, nu)) ** 2
-    slope = gradient(problem.field, problem.variables)
-    rhs = tuple(f + gain * tuning.k / 2 * g for f, g in zip(problem.drift.rate, slope, strict=True))
+    rhs = tuple(f + gain * tuning.k / 2 * g for f, g in zip(problem.drift.rate, problem.field.gradient, strict=True))
     return System(TIME, problem.variables, rhs, name=f"average of {problem.name}")
 
 

@@ -33,7 +33,7 @@ def clock():
 def test_in_t_it_is_the_prescribed_time_seeker(clock):
     problem = example("nonvanishing")
     expected = prescribed_time_seeker(
-        problem.field, problem.drift, k=P.k, omega=P.omega, mu=P.mu, clock=clock, minimum=P.nu_min,
+        problem.field.expression, problem.drift, k=P.k, omega=P.omega, mu=P.mu, clock=clock, minimum=P.nu_min,
         states=loop_letters(problem),
     )  # fmt: skip
     assert problem.closed_loop("pt", "t", symbolic=True).rhs == expected.rhs
@@ -41,7 +41,7 @@ def test_in_t_it_is_the_prescribed_time_seeker(clock):
 
 def test_in_tau_it_is_the_dilated_seeker(clock):
     problem = unclipped("nonvanishing")
-    plain = prescribed_time_seeker(problem.field, problem.drift, k=P.k, omega=P.omega, mu=P.mu, clock=clock)
+    plain = prescribed_time_seeker(problem.field.expression, problem.drift, k=P.k, omega=P.omega, mu=P.mu, clock=clock)
     ours = problem.closed_loop("pt", "tau", symbolic=True)
     point = {TAU: 2, P.t0: sp.Rational(1, 2), P.T: 3, P.k: 2, P.omega: 5, P.mu: sp.Rational(1, 7)}
     point |= dict(zip(ours.state, (sp.Rational(1, 3), -1, 2, sp.Rational(5, 2)), strict=True))
@@ -51,7 +51,7 @@ def test_in_tau_it_is_the_dilated_seeker(clock):
 
 def test_the_asymptotic_seeker_has_no_clock():
     problem = example("vanishing")
-    expected = asymptotic_seeker(problem.field, problem.drift, k=P.k, omega=P.omega, mu=P.mu, time=TIME)
+    expected = asymptotic_seeker(problem.field.expression, problem.drift, k=P.k, omega=P.omega, mu=P.mu, time=TIME)
     assert problem.closed_loop("asymptotic", "t", symbolic=True).rhs == expected.rhs
     dilated = dilate(expected, identity_clock(TIME, TAU, start=P.t0))
     assert all(
@@ -111,7 +111,7 @@ def test_a_coordinate_named_like_a_state_keeps_its_name():
 
     problem = example("saturated")
     theta, z = sp.symbols("theta z", real=True)
-    renamed = replace(problem, variables=(theta, z), field=-(theta**2) - z**2)
+    renamed = replace(problem, field=replace(problem.field, variables=(theta, z), expression=-(theta**2) - z**2))
     assert [symbol.name for symbol in renamed.closed_loop().state] == ["theta", "z", "theta_", "z_"]
 
 

@@ -29,6 +29,6 @@ def test_data_that_do_not_fit_are_refused_in_python_too():
     with pytest.raises(InputError, match=r"seeker\.k: must be positive"):
         replace(one.tuning, k=-1)
     with pytest.raises(InputError, match="kappa"):
-        replace(one, kappa=0)
-    with pytest.raises(InputError, match=r"field\.source: 1 entries"):
-        replace(one, source=(0,))
+        replace(one.field, kappa=0)
+    with pytest.raises(InputError, match=r"field\.source: 1 coordinates"):
+        replace(one.field, source=(0,))

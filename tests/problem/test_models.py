@@ -8,7 +8,6 @@ from ptproof.problem import example
 from ptproof.problem.loops import TAU, parameters
 from ptproof.problem.model import TIME
 from ptproof.proof.algebra import is_zero
-from ptproof.system import gradient
 
 P = parameters
 NU = sp.Max(P.nu_min, 1 - (TIME - P.t0) / P.T)
@@ -18,7 +17,7 @@ NU = sp.Max(P.nu_min, 1 - (TIME - P.t0) / P.T)
 def test_the_average_in_t_is_the_drift_plus_half_the_gain_times_the_gradient(name):
     problem = example(name)
     system = problem.averaged("pt", "t", symbolic=True)
-    expected = sp.Matrix(problem.drift.rate) + P.k / 2 / NU**2 * gradient(problem.field, problem.variables)
+    expected = sp.Matrix(problem.drift.rate) + P.k / 2 / NU**2 * problem.field.gradient
     point = {TIME: sp.Rational(1, 3), P.t0: 0, P.T: 2, P.nu_min: sp.Rational(3, 10), P.k: sp.Rational(7, 5)}
     point |= dict(zip(problem.variables, (sp.Rational(1, 3), sp.Rational(-5, 4)), strict=True))
     for left, right in zip(system.rhs, expected, strict=True):
@@ -30,7 +29,7 @@ def test_the_average_in_t_is_the_drift_plus_half_the_gain_times_the_gradient(nam
 def test_the_average_of_the_asymptotic_seeker_has_the_gain_one():
     problem = example("vanishing")
     system = problem.averaged("asymptotic", "tau", symbolic=True)
-    expected = (P.k / 2 - 1) * gradient(problem.field, problem.variables)
+    expected = (P.k / 2 - 1) * problem.field.gradient
     assert all(is_zero(left - right) for left, right in zip(system.rhs, expected, strict=True))
 
 
@@ -39,7 +38,7 @@ def test_the_reduced_model_is_the_loop_with_the_measured_field_for_z():
     loop = problem.closed_loop("pt", "tau", coordinates="reduced", symbolic=True)
     model = problem.reduced_model("pt", "tau", symbolic=True)
     for left, right in zip(model.rhs, loop.rhs[:2], strict=True):
-        assert left == right.subs(loop.state[2], problem.field)
+        assert left == right.subs(loop.state[2], problem.field.expression)
     assert TAU in model.rhs[0].free_symbols
 
 

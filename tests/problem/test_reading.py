@@ -50,7 +50,7 @@ def test_what_is_left_out_has_its_default(write):
 def test_the_filter_starts_at_the_measured_field(write):
     problem = load(write(GOOD))
     x1, x2 = problem.variables
-    assert problem.measured == problem.field.subs({x1: -2, x2: -2})
+    assert problem.measured == problem.field.value({x1: -2, x2: -2})
     assert load(write(GOOD + 'z = "1/3"\n')).measured == sp.Rational(1, 3)
 
 
