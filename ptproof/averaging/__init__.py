@@ -11,32 +11,6 @@
 (k*Derivative(F(x), x)/2,)
 """
 
-from ptproof.averaging.average import Derived, average, derive
-from ptproof.averaging.coefficients import v_matrix
-from ptproof.averaging.correction import Correction, first_correction
-from ptproof.averaging.ledger import Ledger, examine
-from ptproof.averaging.problem import DitherProblem, FastStates
-from ptproof.averaging.reading import load_dither_system, read_dither_system
-from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided
-from ptproof.averaging.split import split_dithers
-from ptproof.averaging.study import Average, study
+import lazy_loader
 
-__all__ = [
-    "Average",
-    "AveragingRefused",
-    "AveragingUndecided",
-    "Correction",
-    "Derived",
-    "DitherProblem",
-    "FastStates",
-    "Ledger",
-    "average",
-    "derive",
-    "examine",
-    "first_correction",
-    "load_dither_system",
-    "read_dither_system",
-    "split_dithers",
-    "study",
-    "v_matrix",
-]
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

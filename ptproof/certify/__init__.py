@@ -1,7 +1,5 @@
 """Certified constants of a signal field: the best a₁, a₂, b₁, b₂ on a ball, an annulus or the whole space."""
 
-from ptproof.certify.certificate import FieldCertificate, FieldWitness, Range
-from ptproof.certify.domain import Domain
-from ptproof.certify.search import certify_field
+import lazy_loader
 
-__all__ = ["Domain", "FieldCertificate", "FieldWitness", "Range", "certify_field"]
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

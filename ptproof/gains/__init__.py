@@ -4,11 +4,6 @@
 a given problem.
 """
 
-from __future__ import annotations
+import lazy_loader
 
-from ptproof.gains.answer import Gains, gains
-from ptproof.gains.clipped import Horizon
-from ptproof.gains.data import GainData
-from ptproof.gains.numbers import NotApplicable, Quantity
-
-__all__ = ["GainData", "Gains", "Horizon", "NotApplicable", "Quantity", "gains"]
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

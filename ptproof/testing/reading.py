@@ -11,6 +11,11 @@ from sympy.core.relational import Relational
 
 from ptproof.errors import InputError
 from ptproof.proof.statement import All, ForAll, Relation
+from ptproof.proof.statement import eq as eq
+from ptproof.proof.statement import ge as ge
+from ptproof.proof.statement import gt as gt
+from ptproof.proof.statement import le as le
+from ptproof.proof.statement import lt as lt
 from ptproof.reading.expressions import parse
 
 _SIGNS: Mapping[str, Any] = {"==": "=", "!=": "!=", "<=": "<=", "<": "<", ">=": ">=", ">": ">"}

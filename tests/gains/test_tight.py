@@ -8,9 +8,9 @@ import pytest
 import sympy as sp
 from scipy.integrate import solve_ivp
 
-import ptproof.gains.upper
 from ptproof.balls.shells import Piece, faces
 from ptproof.errors import InputError
+from ptproof.gains import upper
 from ptproof.gains.envelope import RadialEnvelope
 from ptproof.gains.tight import distance_from_source, tight_bound
 from ptproof.problem import example
@@ -134,7 +134,7 @@ def test_a_drift_that_wins_gives_a_bound_that_grows():
 
 
 def test_a_bound_that_grows_too_far_is_given_up(monkeypatch):
-    monkeypatch.setattr(ptproof.gains.upper, "_GROWTH", 1.2)
+    monkeypatch.setattr(upper, "_GROWTH", 1.2)
     base = example("saturated")
     problem = dataclasses.replace(base, drift=gradient_drift([[-9, 0], [0, -9]], base.field.expression, base.variables))
     found = tight_bound(problem, R(1, 10), steps=10)

@@ -1,0 +1,17 @@
+from .average import Derived as Derived
+from .average import average as average
+from .average import derive as derive
+from .coefficients import v_matrix as v_matrix
+from .correction import Correction as Correction
+from .correction import first_correction as first_correction
+from .ledger import Ledger as Ledger
+from .ledger import examine as examine
+from .problem import DitherProblem as DitherProblem
+from .problem import FastStates as FastStates
+from .reading import load_dither_system as load_dither_system
+from .reading import read_dither_system as read_dither_system
+from .refusal import AveragingRefused as AveragingRefused
+from .refusal import AveragingUndecided as AveragingUndecided
+from .split import split_dithers as split_dithers
+from .study import Average as Average
+from .study import study as study

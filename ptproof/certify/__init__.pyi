@@ -1,0 +1,5 @@
+from .certificate import FieldCertificate as FieldCertificate
+from .certificate import FieldWitness as FieldWitness
+from .certificate import Range as Range
+from .domain import Domain as Domain
+from .search import certify_field as certify_field

@@ -1,0 +1,13 @@
+from .loops import FRAMES as FRAMES
+from .loops import SEEKERS as SEEKERS
+from .loops import closed_loop as closed_loop
+from .loops import parameters as parameters
+from .model import Initial as Initial
+from .model import Problem as Problem
+from .model import Saturation as Saturation
+from .model import Tuning as Tuning
+from .models import averaged_system as averaged_system
+from .models import reduced_model as reduced_model
+from .reading import EXAMPLES as EXAMPLES
+from .reading import example as example
+from .reading import load as load

@@ -1,0 +1,11 @@
+from .averages import assert_average as assert_average
+from .convergence import assert_converges_to_average as assert_converges_to_average
+from .fields import assert_field_bounds as assert_field_bounds
+from .gain_conditions import assert_gain_condition as assert_gain_condition
+from .reading import eq as eq
+from .reading import ge as ge
+from .reading import gt as gt
+from .reading import le as le
+from .reading import lt as lt
+from .relations import assert_identity as assert_identity
+from .relations import assert_inequality as assert_inequality
