@@ -18,6 +18,7 @@ from typing import Any
 import sympy as sp
 
 from ptproof.errors import InputError
+from ptproof.proof.signs import sign_of
 from ptproof.system import gradient
 
 
@@ -58,12 +59,12 @@ class FieldBounds:
         object.__setattr__(self, "kappa", kappa)
         for name in ("a1", "a2", "b1", "b2"):
             value = _exact(getattr(self, name), name)
-            if not _positive(value):
+            if sign_of(value) != 1:
                 raise InputError(f"{name} must be a positive number or a positive symbol, not {_short(value)}")
             object.__setattr__(self, name, value)
-        if _exceeds(self.a2, self.a1):
+        if sign_of(self.a2 - self.a1) == 1:
             raise InputError(f"a2 must not exceed a1, but a2 = {_short(self.a2)} and a1 = {_short(self.a1)}")
-        if _exceeds(self.b1, self.b2):
+        if sign_of(self.b1 - self.b2) == 1:
             raise InputError(f"b1 must not exceed b2, but b1 = {_short(self.b1)} and b2 = {_short(self.b2)}")
 
     @property
@@ -191,24 +192,6 @@ def _exact(value: Any, name: str) -> sp.Expr:
     if expression.has(sp.zoo, sp.nan, sp.oo, -sp.oo):
         raise InputError(f"{name} must be finite, not {_short(expression)}")
     return expression
-
-
-def _positive(value: sp.Expr) -> bool:
-    if value.free_symbols or value.is_positive is not None:
-        return bool(value.is_positive)
-    from ptproof.balls.ball import separated
-
-    return separated(value, 0) == 1
-
-
-def _exceeds(smaller: sp.Expr, larger: sp.Expr) -> bool:
-    """Whether it is certain that ``smaller > larger``; what is not certain is not refused."""
-    difference = smaller - larger
-    if difference.free_symbols:
-        return bool(difference.is_positive)
-    from ptproof.balls.ball import separated
-
-    return separated(smaller, larger) == 1
 
 
 def _short(expression: Any) -> str:

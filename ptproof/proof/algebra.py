@@ -267,9 +267,10 @@ def reduce_modulo(numerator: sp.Expr, relations: Sequence[tuple[sp.Symbol, sp.Ex
         before = current
         for generator, polynomial in relations:
             if current.has(generator):
-                lifted, scale = sp.fraction(sp.together(polynomial))
+                lifted = sp.fraction(sp.together(polynomial))[0]
+                if sp.degree(current, generator) < sp.degree(lifted, generator):
+                    continue  # its own remainder, for which SymPy's pseudo-division by a cubic may raise
                 current = sp.expand(sp.fraction(sp.together(sp.prem(current, lifted, generator)))[0])
-                del scale
         if current == before:
             break
     return current

@@ -17,11 +17,11 @@ from dataclasses import dataclass
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ptproof.proof.algebra import NotAlgebraic, is_zero
 from ptproof.proof.claim import Goal, engine
 from ptproof.proof.engines.quantified import at_point, mask_positive
 from ptproof.proof.engines.reals import follows
 from ptproof.proof.engines.witnesses import or_refute
+from ptproof.proof.signs import vanishes
 from ptproof.proof.statement import ForAll, Implication, Relation, ge, gt, le, relations_of
 from ptproof.proof.verdict import Evidence, Verdict
 
@@ -110,10 +110,10 @@ def _check(goal: Goal, solution: sp.Expr, denominators: Sequence[sp.Expr], lemma
         _stays(u, interval)
     how = _solves(u, phi.subs(value, u), interval, hints, solution)
     begin = u.subs(s, start)
-    if not _same(begin, first) and not follows(ge(begin, first), outside, facts)[0]:
+    if not vanishes(begin - first) and not follows(ge(begin, first), outside, facts)[0]:
         raise _Failed(f"{solution} does not start at {initial}, nor above it")
     bound, reached = statement.right.subs(initial, first), u.subs(s, end)
-    if not _same(bound, reached):
+    if not vanishes(bound - reached):
         shown, why = follows(ge(bound, reached), outside, facts)
         if not shown:
             raise _Failed(f"the solution of the equation is not shown to stay below the bound: {why}")
@@ -206,7 +206,7 @@ def _solves(u: sp.Expr, rate: sp.Expr, interval: _Interval, hints: Sequence[sp.E
     def mask(item: Relation) -> Relation:
         return item.map(lambda side: side.xreplace(masks))
 
-    if _same(slope, rate) or _same(slope.xreplace(masks), rate.xreplace(masks)):
+    if vanishes(slope - rate) or vanishes((slope - rate).xreplace(masks)):
         return "solves the equation"
     known = [mask(item) for item in interval.known] + [Relation(symbol, "=", item) for item, symbol in masks.items()]
     facts = [_map(fact, mask) for fact in interval.facts]
@@ -217,13 +217,6 @@ def _solves(u: sp.Expr, rate: sp.Expr, interval: _Interval, hints: Sequence[sp.E
 
 def _map(fact: Implication, change: Callable[[Relation], Relation]) -> Implication:
     return Implication(tuple(map(change, fact.hypotheses)), change(fact.conclusion), fact.source)
-
-
-def _same(left: sp.Expr, right: sp.Expr) -> bool:
-    try:
-        return is_zero(left - right)
-    except NotAlgebraic:
-        return False
 
 
 def _regular(expression: sp.Expr, interval: _Interval, hints: Sequence[sp.Expr]) -> None:

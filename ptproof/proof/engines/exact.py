@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import time
 from collections.abc import Mapping
-from typing import Any
 
 import sympy as sp
 
 from ptproof.proof.algebra import NotAlgebraic, is_zero
 from ptproof.proof.claim import Goal, engine
 from ptproof.proof.engines.witnesses import or_refute
-from ptproof.proof.statement import Relation, relations_of
+from ptproof.proof.statement import relations_of
 from ptproof.proof.verdict import Evidence, Verdict
 
 _BINDERS = (sp.Derivative, sp.Integral, sp.Limit, sp.Subs, sp.Sum, sp.Product)
@@ -86,8 +85,3 @@ def _bound(binder: sp.Basic) -> set[sp.Symbol]:
     if isinstance(binder, sp.Limit):
         return {binder.args[1]}
     return set(binder.bound_symbols)
-
-
-def same(left: Any, right: Any) -> bool:
-    """Whether two scalars or columns are equal by exact algebra."""
-    return all(is_zero(part.left - part.right) for part in Relation(left, "=", right).components())

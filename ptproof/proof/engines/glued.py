@@ -7,7 +7,7 @@ from collections.abc import Callable
 import sympy as sp
 from sympy.core.relational import Relational
 
-from ptproof.proof.algebra import NotAlgebraic, is_zero
+from ptproof.proof.signs import vanishes
 
 KINKS = (sp.Abs, sp.sign, sp.Heaviside, sp.Max, sp.Min, sp.Piecewise)
 
@@ -97,11 +97,11 @@ def _choose(node: sp.Basic, side: sp.Expr, sign: int) -> sp.Expr | None:
 
 def _divisible(difference: sp.Expr, side: sp.Expr, power: int) -> bool:
     """Whether difference = side^power · (polynomial in the symbols and in smooth functions)."""
+    if vanishes(difference):
+        return True
     try:
-        if is_zero(difference):
-            return True
         generators = sorted(side.free_symbols, key=lambda symbol: symbol.name)
         numerator = sp.Poly(sp.expand(difference), *generators)
         return bool(sp.rem(numerator, sp.Poly(side, *generators) ** power, *generators) == 0)
-    except (NotAlgebraic, sp.PolynomialError):
+    except sp.PolynomialError:
         return False

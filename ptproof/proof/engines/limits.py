@@ -10,9 +10,9 @@ import time
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ptproof.proof.algebra import NotAlgebraic, is_zero
 from ptproof.proof.claim import Goal, engine
 from ptproof.proof.engines.witnesses import or_refute
+from ptproof.proof.signs import vanishes
 from ptproof.proof.statement import relations_of
 from ptproof.proof.verdict import Evidence, Verdict
 
@@ -51,10 +51,7 @@ def _goal_with_value(goal: Goal, limit: sp.Limit, value: sp.Expr) -> Goal:
 def _agree(found: sp.Expr, value: sp.Expr) -> bool:
     if found in _INFINITE or value in _INFINITE:
         return bool(found == value)
-    try:
-        return is_zero(found - value)
-    except NotAlgebraic:
-        return False
+    return vanishes(found - value)
 
 
 def limit_of(expression: sp.Expr, variable: sp.Symbol, point: sp.Expr, side: str = "+") -> sp.Expr | None:

@@ -9,9 +9,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 from sympy.core.relational import Relational
 
-from ptproof.balls.ball import separated
-from ptproof.balls.tape import Undefined
-from ptproof.proof.algebra import NotAlgebraic, is_zero
+from ptproof.proof.signs import holds, sign_of
 from ptproof.proof.statement import Relation, substitute_in
 from ptproof.proof.verdict import Witness
 from ptproof.system import substitute
@@ -47,7 +45,7 @@ def find_singularity(
                 restricted = argument.subs(values, simultaneous=True)
                 for root in _roots(restricted, variable):
                     point = {**values, variable: root}
-                    if not all(_certain(substitute_in(relation, point)) for relation in domain):
+                    if not all(holds(substitute_in(relation, point)) for relation in domain):
                         continue
                     line = expression.subs(values, simultaneous=True)
                     found = _examine(line, variable, order, point, domain, names)
@@ -142,27 +140,6 @@ def _roots(argument: sp.Expr, variable: sp.Symbol) -> list[sp.Expr]:
     return [root for root in found if root.is_real and not root.free_symbols][:4]
 
 
-def _certain(relation: Relation) -> bool:
-    relation = relation.standard()
-    sign = _sign(relation.left - relation.right)
-    if sign is None:
-        return False
-    return {"=": sign == 0, "!=": sign != 0, "<=": sign <= 0, "<": sign < 0}[relation.sign]
-
-
-def _sign(value: sp.Expr) -> int | None:
-    """The sign of an exact number, or None where it is not certain."""
-    if value.is_Rational:
-        return int(sp.sign(value))
-    try:
-        sign = separated(value, sp.S.Zero)
-        if sign is None and is_zero(value):
-            return 0
-    except (NotAlgebraic, Undefined, ArithmeticError, TypeError, ValueError):
-        return None
-    return sign
-
-
 def _examine(
     line: sp.Expr,
     variable: sp.Symbol,
@@ -179,21 +156,21 @@ def _examine(
         return None
     for side, branch in ((-1, left), (1, right)):
         for near in _not_real(branch, variable, root, side):
-            if all(_certain(substitute_in(relation, {**point, variable: near})) for relation in domain):
+            if all(holds(substitute_in(relation, {**point, variable: near})) for relation in domain):
                 there = {**names, str(variable): str(near)}
                 return f"no real value at {variable} = {near}", Witness(there, str(branch.subs(variable, near)), "real")
         if _is_pole(branch, variable, root):
             return f"unbounded near {where}", Witness(names, str(branch), "a finite value")
-    if not all(_certain(_strict(substitute_in(relation, point))) for relation in domain):
+    if not all(holds(_strict(substitute_in(relation, point))) for relation in domain):
         return None  # on the boundary there is only one side
     value, limit = line.subs(variable, root), left.subs(variable, root)
-    if value.is_finite and limit.is_finite and _sign(value - limit) in (-1, 1):
+    if value.is_finite and limit.is_finite and sign_of(value - limit) in (-1, 1):
         return f"the value jumps at {where}", Witness(names, str(limit), str(value))
     for count in range(order + 1):
         before, after = (sp.diff(branch, variable, count).subs(variable, root) for branch in (left, right))
         if any(value.has(sp.nan, sp.zoo, sp.oo, sp.AccumBounds) for value in (before, after)):
             return None
-        if _sign(before - after) in (-1, 1):
+        if sign_of(before - after) in (-1, 1):
             what = "the value" if count == 0 else f"derivative {count} in {variable}"
             return f"{what} jumps at {where}", Witness(names, str(before), str(after))
     return None
@@ -223,7 +200,7 @@ def _beside(node: sp.Basic, variable: sp.Symbol, root: sp.Expr, side: int) -> sp
     def sign(entry: sp.Expr) -> int | None:
         """The sign of ``entry`` on that side of ``root``, from its first derivative that does not vanish."""
         for count in range(5):
-            value = _sign(sp.diff(entry, variable, count).subs(variable, root))
+            value = sign_of(sp.diff(entry, variable, count).subs(variable, root))
             if value != 0:
                 return None if value is None else value * side**count
         return None
@@ -252,10 +229,10 @@ def _beside(node: sp.Basic, variable: sp.Symbol, root: sp.Expr, side: int) -> sp
     if isinstance(node, sp.floor | sp.Mod):
         level = node.args[0] if isinstance(node, sp.floor) else node.args[0] / node.args[1]
         there = level.subs(variable, root)
-        if not there.is_number or _sign(there - sp.floor(there)) not in (0, 1):
+        if not there.is_number or sign_of(there - sp.floor(there)) not in (0, 1):
             return None
         whole = sp.floor(there)
-        if _sign(there - whole) == 0 and sign(level - whole) == -1:
+        if sign_of(there - whole) == 0 and sign(level - whole) == -1:
             whole -= 1
         return whole if isinstance(node, sp.floor) else node.args[0] - whole * node.args[1]
     known_sign = sign(node.args[0])
@@ -275,7 +252,7 @@ def _not_real(branch: sp.Expr, variable: sp.Symbol, root: sp.Expr, side: int) ->
             continue
         for distance in (sp.Rational(1, 8), sp.Rational(1, 1024)):
             near = root + side * distance
-            if _sign(node.args[0].subs(variable, near)) == -1:
+            if sign_of(node.args[0].subs(variable, near)) == -1:
                 yield near
 
 
@@ -285,5 +262,5 @@ def _is_pole(branch: sp.Expr, variable: sp.Symbol, root: sp.Expr) -> bool:
                                          sp.together(branch))  # fmt: skip
     if variable not in denominator.free_symbols:
         return False
-    top = _sign(numerator.subs(variable, root))
-    return top in (-1, 1) and _sign(denominator.subs(variable, root)) == 0
+    top = sign_of(numerator.subs(variable, root))
+    return top in (-1, 1) and sign_of(denominator.subs(variable, root)) == 0

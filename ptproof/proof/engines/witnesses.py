@@ -16,9 +16,9 @@ from typing import Any
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ptproof.proof.algebra import NotAlgebraic, is_zero
 from ptproof.proof.claim import Goal, admissible, engine
 from ptproof.proof.engines.evaluation import carried_out
+from ptproof.proof.signs import holds
 from ptproof.proof.statement import (
     All,
     Assumption,
@@ -80,7 +80,7 @@ def check_witness(goal: Goal, values: Mapping[Any, Any]) -> tuple[Witness | None
         there = _at(part, values)
         if there is None:
             continue
-        if _sign_is(there.negation()):
+        if holds(there.negation()):
             return Witness({str(key): str(value) for key, value in values.items()}, *_sides(there)), ""
     return None, "the statement is not shown to fail there"
 
@@ -114,7 +114,7 @@ def _holds(assumption: Assumption, values: Mapping[Any, Any]) -> bool:
     match assumption:
         case Relation():
             parts = [_at(part, values) for part in assumption.components()]
-            return all(part is not None and _sign_is(part) for part in parts)
+            return all(part is not None and holds(part) for part in parts)
         case ForAll(variables=variables, relation=relation, domain=domain):
             from ptproof.proof.engines.reals import follows
 
@@ -124,27 +124,6 @@ def _holds(assumption: Assumption, values: Mapping[Any, Any]) -> bool:
             there = substitute_in(relation, free).map(differentiated)
             where = [substitute_in(part, free) for part in domain]
             return follows(there, where, seconds=2.0)[0]
-    return False
-
-
-def _sign_is(relation: Relation) -> bool:
-    """Whether a relation between two exact numbers is certain."""
-    from ptproof.balls.ball import Undefined, separated
-
-    relation = relation.standard()
-    if (relation.left - relation.right).free_symbols:
-        return False
-    try:
-        sign = separated(relation.left, relation.right, {})
-    except Undefined:
-        return False
-    if sign is not None:
-        return {"=": False, "!=": True, "<=": sign < 0, "<": sign < 0}[relation.sign]
-    if relation.sign in ("=", "<="):
-        try:
-            return is_zero(relation.left - relation.right)
-        except NotAlgebraic:
-            return False
     return False
 
 

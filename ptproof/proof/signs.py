@@ -1,0 +1,103 @@
+"""Signs and zeros, decided: by enclosures that exclude zero, by exact algebra, by what symbols are declared to be."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import sympy as sp
+
+from ptproof.balls.ball import interval, precision, separated
+from ptproof.proof.algebra import NotAlgebraic, is_zero
+from ptproof.proof.statement import Relation
+
+_BITS = (64, 128, 256, 1024)
+
+
+def vanishes(expression: Any) -> bool:
+    """Whether it is shown that ``expression`` is 0 wherever it is defined; False says only that it is not shown.
+
+    The normal form of exact algebra is asked first (:func:`ptproof.proof.algebra.is_zero`); products of roots of
+    numbers are then also multiplied out. A floating-point number, a limit or a sum shows nothing, and neither does
+    a quotient whose denominator vanishes identically.
+
+    Examples
+    --------
+    >>> x = sp.Symbol("x", real=True)
+    >>> vanishes(sp.cos(x) ** 2 + sp.sin(x) ** 2 - 1), vanishes((1 + sp.sqrt(2)) * sp.sqrt(3) - sp.sqrt(3) - sp.sqrt(6))
+    (True, True)
+    >>> vanishes(x), vanishes(sp.Float(0))
+    (False, False)
+    """
+    expression = sp.sympify(expression)
+    try:
+        if is_zero(expression):
+            return True
+        numerator, denominator = sp.fraction(sp.together(expression))
+        return bool(sp.expand(numerator) == 0) and not is_zero(denominator)
+    except NotAlgebraic:
+        return False
+
+
+def sign_of(expression: Any) -> int | None:
+    """The sign (−1, 0 or 1) of an exact number, or of an expression whose symbols' declarations fix it; else None.
+
+    An answer is certain: a number differs from 0 because an enclosure of it does (a root of a polynomial,
+    ``CRootOf``, is isolated between rational numbers), and is 0 because exact algebra says so. None says only that
+    nothing decided, as for two numbers that agree to hundreds of digits and are not seen to be equal, or for what has
+    no real value.
+
+    Examples
+    --------
+    >>> sign_of(sp.pi - sp.Rational(22, 7)), sign_of(sp.sqrt(8) - 2 * sp.sqrt(2)), sign_of(sp.I)
+    (-1, 0, None)
+    >>> k, x = sp.Symbol("k", positive=True), sp.Symbol("x", real=True)
+    >>> sign_of(k * x**2 + k), sign_of(k * x**2)
+    (1, None)
+    >>> sign_of(sp.CRootOf(x**5 - x - 1, 0) - 1)
+    1
+    """
+    expression = sp.sympify(expression)
+    if expression.is_Rational:
+        return int(sp.sign(expression))
+    if expression.free_symbols or expression.has(sp.core.function.AppliedUndef):
+        found = 1 if expression.is_positive else -1 if expression.is_negative else None
+    else:
+        found = _sign_by_enclosure(expression)
+    return 0 if found is None and vanishes(expression) else found
+
+
+def holds(relation: Relation) -> bool:
+    """Whether a relation between two exact numbers is certain."""
+    relation = relation.standard()
+    difference = relation.left - relation.right
+    sign = None if difference.free_symbols else sign_of(difference)
+    if sign is None:
+        return False
+    return {"=": sign == 0, "!=": sign != 0, "<=": sign <= 0, "<": sign < 0}[relation.sign]
+
+
+def _sign_by_enclosure(number: sp.Expr) -> int | None:
+    """The sign of a number that an enclosure separates from 0."""
+    roots = sorted(number.atoms(sp.CRootOf), key=sp.default_sort_key)
+    if not roots:
+        return separated(number, 0, bits_ladder=_BITS)
+    if not all(root.is_real for root in roots):
+        return None
+    names = [sp.Dummy(f"root{i}", real=True) for i in range(len(roots))]
+    masked = number.xreplace(dict(zip(roots, names, strict=True)))
+    for bits in _BITS:
+        radius = sp.Rational(1, 2**bits)
+        with precision(2 * bits):
+            middles = [root.eval_rational(dx=radius) for root in roots]
+            ends = [[_ball(middle + side * radius) for side in (-1, 1)] for middle in middles]
+            values = {name: interval(*pair) for name, pair in zip(names, ends, strict=True)}
+        found = separated(masked, 0, values, bits_ladder=(bits,))
+        if found is not None:
+            return found
+    return None
+
+
+def _ball(number: sp.Rational) -> Any:
+    from flint import arb, fmpq
+
+    return arb(fmpq(int(number.p), int(number.q)))
