@@ -1,4 +1,4 @@
-"""``ptproof average``."""
+"""``ptproof average``: average a dither system and check its assumptions."""
 
 from __future__ import annotations
 

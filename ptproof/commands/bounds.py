@@ -1,4 +1,4 @@
-"""``ptproof bounds``."""
+"""``ptproof bounds``: certify the constants of a field."""
 
 from __future__ import annotations
 

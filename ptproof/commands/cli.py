@@ -1,9 +1,12 @@
-"""The ``ptproof`` command: finds the command's module when it is asked for, and turns bad input into status 2."""
+"""The entry of the command line: finds a command's module when it is asked for, and turns bad input into status 2."""
 
 from __future__ import annotations
 
+import ast
 import importlib
 import sys
+from functools import cache
+from importlib import resources
 from typing import Any
 
 import click
@@ -11,47 +14,51 @@ import click
 from ptproof import __version__
 from ptproof.errors import InputError
 
-# Named here, imported when used: `ptproof --help` has to answer at once.
-COMMANDS = {
-    "verify": "Verify the claims of a derivation.",
-    "coverage": "Show which labels of a paper the claims cover.",
-    "report": "Verify, simulate, and write the pages and figures.",
-    "average": "Average a dither system and check its assumptions.",
-    "bounds": "Certify the constants of a field.",
-    "gains": "Compute gain conditions and bounds.",
-    "simulate": "Simulate a closed loop and its average.",
-    "new": "Write a small derivation to start from.",
-}
+
+@cache
+def commands() -> dict[str, str]:
+    """Each command with what it does, read from the modules of this package without importing them.
+
+    A command is a module whose docstring begins with its call: ````ptproof NAME``: what it does.``
+    """
+    found = {}
+    for file in sorted(resources.files(__package__).iterdir(), key=lambda file: file.name):
+        name, dot, ending = file.name.partition(".")
+        if dot and ending == "py":
+            words = (ast.get_docstring(ast.parse(file.read_text("utf-8"))) or "").split("\n", 1)[0]
+            if words.startswith(opening := f"``ptproof {name}``: "):
+                help = words.removeprefix(opening)
+                found[name] = help[:1].upper() + help[1:]
+    return found
 
 
 class _Lazy(click.Group):
     """A group whose commands live in modules of their own."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
-        return list(COMMANDS)
+        return list(commands())
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
-        if cmd_name not in COMMANDS:
+        if cmd_name not in commands():
             return None
-        module = importlib.import_module(f"ptproof.commands.{cmd_name}")
-        command: click.Command = getattr(module, cmd_name)
+        command: click.Command = getattr(importlib.import_module(f"{__package__}.{cmd_name}"), cmd_name)
         return command
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         with formatter.section("Commands"):
-            formatter.write_dl(list(COMMANDS.items()))
+            formatter.write_dl(list(commands().items()))
 
 
 @click.group(cls=_Lazy, context_settings={"help_option_names": ["-h", "--help"]})
 @click.version_option(__version__, prog_name="ptproof")
-def cli() -> None:
+def group() -> None:
     """Derive, decide and simulate prescribed-time source seeking from one symbolic source."""
 
 
 def main(arguments: list[str] | None = None) -> Any:
     """Run the command line; bad input ends with one sentence on standard error and status 2."""
     try:
-        sys.exit(cli.main(arguments, standalone_mode=False) or 0)
+        sys.exit(group.main(arguments, standalone_mode=False) or 0)
     except InputError as error:
         click.echo(f"ptproof: {error}", err=True)
         sys.exit(2)

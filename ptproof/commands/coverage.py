@@ -1,11 +1,12 @@
-"""``ptproof coverage``."""
+"""``ptproof coverage``: show which labels of a paper the claims cover."""
 
 from __future__ import annotations
 
-import json
 from typing import TYPE_CHECKING
 
 import click
+
+from ptproof.commands import options
 
 if TYPE_CHECKING:
     from ptproof.report.coverage import Coverage
@@ -13,8 +14,8 @@ if TYPE_CHECKING:
 
 @click.command()
 @click.argument("paper", metavar="PAPER.tex")
-@click.argument("paths", nargs=-1, metavar="[PATH]...")
-@click.option("--json", "as_json", is_flag=True, help="Print JSON on standard output.")
+@options.derivations
+@options.as_json
 def coverage(paper: str, paths: tuple[str, ...], as_json: bool) -> int:
     """Show which equations of PAPER.tex the claims below each PATH cover (the shipped derivation where left out).
 
@@ -34,7 +35,7 @@ def coverage(paper: str, paths: tuple[str, ...], as_json: bool) -> int:
     for label, ids in found.stale:
         click.echo(f"ptproof: {paper} has no label {label}, which is named by {', '.join(ids)}", err=True)
     if as_json:
-        click.echo(json.dumps(found.to_json(), indent=2, ensure_ascii=False))
+        options.print_json(found.to_json())
     else:
         _show(found)
     return 0 if found.complete else 1

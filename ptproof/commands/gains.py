@@ -1,4 +1,4 @@
-"""``ptproof gains``."""
+"""``ptproof gains``: compute gain conditions and bounds."""
 
 from __future__ import annotations
 

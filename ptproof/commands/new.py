@@ -1,15 +1,15 @@
-"""``ptproof new``."""
+"""``ptproof new``: write a small derivation to start from."""
 
 from __future__ import annotations
 
-import json
-
 import click
+
+from ptproof.commands import options
 
 
 @click.command()
 @click.argument("folder", metavar="DIR")
-@click.option("--json", "as_json", is_flag=True, help="Print JSON on standard output.")
+@options.as_json
 def new(folder: str, as_json: bool) -> int:
     """Write a small derivation into the new or empty folder DIR: letters, three claims, tests and two problem files.
 
@@ -19,7 +19,7 @@ def new(folder: str, as_json: bool) -> int:
 
     files = write_starter(folder)
     if as_json:
-        click.echo(json.dumps({"folder": folder, "files": [file.name for file in files]}, indent=2))
+        options.print_json({"folder": folder, "files": [file.name for file in files]})
         return 0
     click.echo(f"{folder} holds {', '.join(file.name for file in files)}. Next:")
     for command, purpose in (

@@ -1,4 +1,4 @@
-"""``ptproof report``."""
+"""``ptproof report``: verify, simulate, and write the pages and figures."""
 
 from __future__ import annotations
 
@@ -6,16 +6,18 @@ from typing import TYPE_CHECKING
 
 import click
 
+from ptproof.commands import options
+
 if TYPE_CHECKING:
     from ptproof.proof.load import Derivation
     from ptproof.report.content import Figure, Table
 
 
 @click.command()
-@click.argument("paths", nargs=-1, metavar="[PATH]...")
+@options.derivations
 @click.option("--out", default="reports", show_default=True, metavar="FOLDER", help="Where to write the report.")
-@click.option("--jobs", type=int, default=None, help="Worker processes (default: the number of processors).")
-@click.option("--timeout", type=float, default=60.0, show_default=True, help="Time limit of one claim, in seconds.")
+@options.jobs
+@options.timeout("one claim")
 @click.option("--no-figures", is_flag=True, help="Leave out the simulations and their figures.")
 def report(paths: tuple[str, ...], out: str, jobs: int | None, timeout: float, no_figures: bool) -> int:
     """Verify the claims below each PATH (the shipped derivation of the paper where left out) and write the report.

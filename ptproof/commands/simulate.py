@@ -1,4 +1,4 @@
-"""``ptproof simulate``: a trajectory or an ensemble of one of the paper's examples or of a problem file."""
+"""``ptproof simulate``: simulate a closed loop and its average."""
 
 from __future__ import annotations
 

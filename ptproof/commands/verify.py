@@ -1,17 +1,17 @@
-"""``ptproof verify``."""
+"""``ptproof verify``: verify the claims of a derivation."""
 
 from __future__ import annotations
 
-import json
-
 import click
+
+from ptproof.commands import options
 
 
 @click.command()
-@click.argument("paths", nargs=-1, metavar="[PATH]...")
-@click.option("--json", "as_json", is_flag=True, help="Print JSON on standard output.")
-@click.option("--jobs", type=int, default=None, help="Worker processes (default: the number of processors).")
-@click.option("--timeout", type=float, default=60.0, show_default=True, help="Time limit of one claim, in seconds.")
+@options.derivations
+@options.as_json
+@options.jobs
+@options.timeout("one claim")
 @click.option("-k", "select", default="", metavar="TEXT", help="Only claims that contain TEXT, and what they use.")
 def verify(paths: tuple[str, ...], as_json: bool, jobs: int | None, timeout: float, select: str) -> int:
     """Verify the claims below each PATH (the shipped derivation of the paper where left out).
@@ -26,7 +26,7 @@ def verify(paths: tuple[str, ...], as_json: bool, jobs: int | None, timeout: flo
     with claim_progress(len(derivation.select(select))) as progress:
         verification = run(derivation, jobs=jobs, timeout=timeout, select=select, progress=progress)
     if as_json:
-        click.echo(json.dumps(verification.to_json(), indent=2, ensure_ascii=False))
+        options.print_json(verification.to_json())
     else:
         verification_table(verification)
     return 0 if verification.as_expected else 1

@@ -2,13 +2,21 @@
 
 from __future__ import annotations
 
+import importlib
 import json
+import pkgutil
 import subprocess
 import sys
 import textwrap
+from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 
+import click
 import pytest
+
+import ptproof.commands as package
+from ptproof.commands.cli import commands, main
 
 CLAIMS = """
 import sympy as sp
@@ -22,9 +30,28 @@ false = claim("false", "a false one", eq(x, x + 1), expected="{expected}")(exact
 """
 
 
-def ptproof(*arguments: str, folder: Path | None = None) -> subprocess.CompletedProcess[str]:
-    command = [sys.executable, "-m", "ptproof.commands.cli", *arguments]
-    return subprocess.run(command, capture_output=True, text=True, check=False, cwd=folder, timeout=120)
+@dataclass(frozen=True)
+class Done:
+    returncode: int
+    stdout: str
+    stderr: str
+
+
+Run = Callable[..., Done]
+
+
+@pytest.fixture
+def ptproof(capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Run:
+    """The command line in this process, in an empty folder."""
+    monkeypatch.chdir(tmp_path)
+
+    def run(*arguments: str) -> Done:
+        with pytest.raises(SystemExit) as ended:
+            main(list(arguments))
+        shown = capsys.readouterr()
+        return Done(int(ended.value.code or 0), shown.out, shown.err)
+
+    return run
 
 
 def derivation(folder: Path, expected: str = "refuted") -> str:
@@ -32,7 +59,7 @@ def derivation(folder: Path, expected: str = "refuted") -> str:
     return str(folder)
 
 
-def test_json_and_nothing_else_on_standard_output(tmp_path: Path) -> None:
+def test_json_and_nothing_else_on_standard_output(ptproof: Run, tmp_path: Path) -> None:
     done = ptproof("verify", derivation(tmp_path), "--json")
     assert done.returncode == 0, done.stderr
     found = json.loads(done.stdout)
@@ -43,7 +70,7 @@ def test_json_and_nothing_else_on_standard_output(tmp_path: Path) -> None:
     assert set(false["witness"]) == {"values", "left", "right"}
 
 
-def test_unexpected_verdict_is_status_1(tmp_path: Path) -> None:
+def test_unexpected_verdict_is_status_1(ptproof: Run, tmp_path: Path) -> None:
     assert ptproof("verify", derivation(tmp_path, expected="proved")).returncode == 1
 
 
@@ -51,7 +78,7 @@ BAD = [
     ("verify", "nowhere"),
     ("verify", "--jobs", "0"),
     ("verify", "--timeout", "-1"),
-    ("verify", "-k", "no such claim at all"),
+    ("verify", ".", "-k", "no such claim at all"),
     ("verify", "--no-such-option"),
     ("no-such-command",),
     ("coverage", "nowhere.tex"),
@@ -65,8 +92,9 @@ BAD = [
 
 
 @pytest.mark.parametrize("arguments", BAD, ids=" ".join)
-def test_bad_input_is_one_sentence_and_status_2(arguments: tuple[str, ...], tmp_path: Path) -> None:
-    done = ptproof(*arguments, folder=tmp_path)
+def test_bad_input_is_one_sentence_and_status_2(arguments: tuple[str, ...], ptproof: Run, tmp_path: Path) -> None:
+    derivation(tmp_path)
+    done = ptproof(*arguments)
     assert done.returncode == 2, done.stdout + done.stderr
     assert "Traceback" not in done.stderr
     assert done.stderr.strip()
@@ -81,3 +109,9 @@ def test_help_does_not_import_the_engines() -> None:
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False, timeout=60)
     assert done.stderr.strip() == "[]"
     assert "verify" in done.stdout
+
+
+@pytest.mark.parametrize("name", [module.name for module in pkgutil.iter_modules(package.__path__)])
+def test_a_command_is_a_module_that_says_so_in_its_first_line(name: str) -> None:
+    module = importlib.import_module(f"ptproof.commands.{name}")
+    assert (name in commands()) == isinstance(getattr(module, name, None), click.Command)
