@@ -7,6 +7,7 @@ import pytest
 import sympy as sp
 
 from ptproof.problem import example
+from ptproof.problem.field import Field
 from ptproof.simulation import simulate
 from ptproof.simulation.worst import _directions, averaged_system, worst_distance
 
@@ -39,7 +40,7 @@ def test_on_a_line_both_sides_are_tried():
     base = example("saturated")
     y = sp.Symbol("y", real=True)
     problem = dataclasses.replace(
-        base, variables=(y,), field=-(y**2), source=(sp.Integer(0),),
+        base, field=Field((y,), -(y**2), (0,), 1),
         drift=dataclasses.replace(base.drift, rate=(sp.Integer(0),)),
         initial=dataclasses.replace(base.initial, x=(sp.Integer(1),)),
     )  # fmt: skip

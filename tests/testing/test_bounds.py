@@ -8,7 +8,7 @@ import sympy as sp
 from ptproof.errors import InputError
 from ptproof.gains import GainData
 from ptproof.problem import example
-from ptproof.problem.field import FieldBounds
+from ptproof.problem.field import Field, FieldBounds
 from ptproof.testing import assert_field_bounds, assert_gain_condition
 
 x1, x2 = sp.symbols("x1 x2", real=True)
@@ -122,7 +122,7 @@ def test_a_problems_own_constants_are_certified():
 
 
 def test_a_problem_whose_field_has_no_bounds_is_undecided():
-    flat = replace(example("saturated"), field=-(x1**4) / 4 - x2**2, variables=(x1, x2))
+    flat = replace(example("saturated"), field=Field((x1, x2), -(x1**4) / 4 - x2**2, (0, 0), 1))
     with pytest.raises(AssertionError, match=r"(?s)undecided.*not certified: refuted"):
         assert_gain_condition(flat, "k > 0")
 
