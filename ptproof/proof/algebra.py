@@ -13,9 +13,12 @@ from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
+from typing import Any
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
+
+_COMPARISONS = (sp.LessThan, sp.StrictLessThan, sp.GreaterThan, sp.StrictGreaterThan)
 
 
 class NotAlgebraic(Exception):
@@ -46,6 +49,24 @@ def prepare(expression: sp.Expr) -> sp.Expr:
     return expression.replace(
         lambda node: isinstance(node, sp.sin | sp.cos), lambda node: _angle(node.func, node.args[0])
     )
+
+
+def _by_comparisons(expression: sp.Piecewise) -> bool:
+    """Whether it is a choice by one comparison after the other, and nothing is left over."""
+    *some, (_, last) = expression.args
+    return last is sp.true and all(isinstance(condition, _COMPARISONS) for _, condition in some)
+
+
+def _real_where_defined(expression: sp.Expr) -> bool:
+    """Whether every value is real: a quotient, a power or a choice of real numbers is, wherever it is defined."""
+    match expression:
+        case sp.Piecewise():
+            return all(_real_where_defined(value) for value, _ in expression.args)
+        case sp.Add() | sp.Mul():
+            return all(map(_real_where_defined, expression.args))
+        case sp.Pow() if expression.exp.is_integer:
+            return _real_where_defined(expression.base)
+    return bool(expression.is_real)
 
 
 def _angle(function: type, argument: sp.Expr) -> sp.Expr:
@@ -132,6 +153,21 @@ class Generators:
             return None
         return type(meaning), [self._branches[argument] for argument in meaning.args]
 
+    def pieces(self, generator: sp.Symbol) -> list[tuple[sp.Expr, tuple[sp.Expr, Any, sp.Expr] | None]]:
+        """For a generator that stands for a Piecewise: each value with the comparison that it needs, or None."""
+        meaning = self.meaning[generator]
+        if not (isinstance(meaning, sp.Piecewise) and _by_comparisons(meaning)):
+            return []
+        branches = self._branches
+        return [
+            (
+                branches[value],
+                None if condition is sp.true
+                else (branches[condition.lhs], condition.rel_op, branches[condition.rhs]),
+            )
+            for value, condition in meaning.args
+        ]  # fmt: skip
+
     def rational(self, expression: sp.Expr) -> sp.Expr:
         """Replace everything that is not arithmetic by its generator (after :meth:`read`)."""
         match expression:
@@ -149,13 +185,18 @@ class Generators:
             case sp.Abs():
                 argument = expression.args[0]
                 generator = self.symbol(expression, nonnegative=True)
-                if argument.is_real:
+                if _real_where_defined(argument):
                     self._relate(generator, self.rational(argument) ** 2)
                 return generator
             case sp.Max() | sp.Min():
                 for argument in expression.args:
                     self._branches[argument] = self.rational(argument)
                 return self.symbol(expression, real=True)
+            case sp.Piecewise() if _by_comparisons(expression):
+                for value, condition in expression.args:
+                    for side in (value, *condition.args):
+                        self._branches[side] = self.rational(side)
+                return self.symbol(expression, **({"real": True} if _real_where_defined(expression) else {}))
         pair = _symbolic_power(expression)
         if pair is not None:
             return self._power(*pair)

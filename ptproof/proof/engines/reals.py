@@ -120,6 +120,7 @@ class _Problem:
         self.domain = list(self._domain(prepared[: 2 + 2 * len(assumptions)]))
         found = ((symbol, self.generators.choice(symbol)) for symbol in self.generators.meaning)
         self.choices = [(symbol, choice) for symbol, choice in found if choice is not None]
+        self.pieces = {symbol: self.generators.pieces(symbol) for symbol in self.generators.meaning}
 
     def _domain(self, sides: Sequence[sp.Expr]) -> Iterator[Relation]:
         """What has to hold lest a root, a power or a logarithm in ``sides`` is not real there."""
@@ -168,6 +169,14 @@ class _Problem:
             solver.add(z3.Or([symbol == value for value in values]))
             for value in values:
                 solver.add(symbol >= value if operation is sp.Max else symbol <= value)
+        for symbol, pieces in self.pieces.items():
+            before: list[Any] = []
+            for value, condition in pieces:
+                here = [z3.Not(entry) for entry in before]
+                if condition is not None:
+                    before.append(relation(Relation(*condition)))
+                    here.append(before[-1])
+                solver.add(z3.Implies(z3.And(here), number(symbol) == number(value)))
         undefined = [z3.Not(relation(item)) for item in self.domain]
         solver.add(z3.Or(z3.Not(relation(self.conclusion)), *undefined))
         for base, product in self.generators.split_bases():

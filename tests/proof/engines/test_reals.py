@@ -80,3 +80,22 @@ def test_contradictory_assumptions_prove_nothing() -> None:
     evidence = reals(Goal("t", le(x, 0), (gt(y, 1), lt(y, 0))))
     assert evidence.verdict is Verdict.UNDECIDED
     assert "contradict" in evidence.detail
+
+
+GAIN = sp.Piecewise((1 / (1 - x) ** 2, x <= sp.Rational(1, 2)), (4, True))
+
+
+@pytest.mark.parametrize(
+    ("conclusion", "given", "holds"),
+    [
+        (eq(GAIN, 1 / sp.Max(sp.Rational(1, 2), 1 - x) ** 2), (), True),
+        (le(sp.Abs(GAIN), 4), (), True),
+        (eq(GAIN, 4), (ge(x, sp.Rational(1, 2)),), True),
+        (eq(GAIN, 4), (ge(x, sp.Rational(1, 3)),), False),
+        (le(GAIN, 3), (), False),
+        (eq(sp.Piecewise((1, x < 0), (2, x < 1), (3, True)), 2), (ge(x, 0), le(x, 1)), False),
+        (eq(sp.Piecewise((1, x < 0), (2, x <= 1), (3, True)), 2), (ge(x, 0), le(x, 1)), True),
+    ],
+)
+def test_a_choice_by_comparisons_is_followed_case_by_case(conclusion, given, holds):
+    assert follows(conclusion, given)[0] is holds
