@@ -1,101 +1,88 @@
-"""The text of docstrings: paragraphs and lists with `code` and $formulas$, as HTML or Markdown."""
+"""The text of docstrings, which is Markdown with $formulas$, as HTML and as the Markdown of code hosts."""
 
 from __future__ import annotations
 
 import html
 import re
-from collections.abc import Iterator
-from dataclasses import dataclass
-from typing import Literal
+from functools import cache
+from textwrap import indent
+
+from markdown_it import MarkdownIt
+from markdown_it.tree import SyntaxTreeNode
+from mdit_py_plugins.dollarmath import dollarmath_plugin
 
 from ptproof.report.formula import mathml
 
-_INLINE = re.compile(r"``(.+?)``|(?::[a-z]+:)?`([^`]+)`|\$([^$\n]+)\$", re.DOTALL)
+_ROLE = re.compile(r":[a-z]+:`~?(?:[^`]*\.)?([^`.]+)`")
 _SPECIAL = re.compile(r"([\\`*_{}\[\]<>#|~$])")
 
 
-@dataclass(frozen=True)
-class Piece:
-    """A run of text of one kind."""
-
-    kind: Literal["text", "code", "math"]
-    text: str
-
-
-@dataclass(frozen=True)
-class Block:
-    """A paragraph, or one item of a list."""
-
-    pieces: tuple[Piece, ...]
-    item: bool = False
+@cache
+def _parser() -> MarkdownIt:
+    """Paragraphs, lists, `code` and $formulas$; stars and underscores belong to formulas in plain text (x*, a*b*c), and
+    links, headings and HTML are the page's own affair."""
+    return (
+        MarkdownIt("zero").enable(["list", "newline", "backticks", "escape"]).use(dollarmath_plugin, allow_labels=False)
+    )
 
 
-def blocks(text: str) -> tuple[Block, ...]:
-    """Paragraphs are set apart by empty lines; a line that begins with ``- `` is an item."""
-    found: list[Block] = []
-    for paragraph in re.split(r"\n\s*\n", text.strip()):
-        parts = re.split(r"(?m)^\s*[-*] +", paragraph)
-        for index, part in enumerate(parts):
-            if part.strip():
-                found.append(Block(tuple(_pieces(" ".join(part.split()))), item=index > 0))
-    return tuple(found)
-
-
-def _pieces(text: str) -> Iterator[Piece]:
-    position = 0
-    for match in _INLINE.finditer(text):
-        if match.start() > position:
-            yield Piece("text", text[position : match.start()])
-        if match.group(3) is not None:
-            yield Piece("math", match.group(3))
-        else:
-            code = match.group(1) or match.group(2)
-            yield Piece("code", code.removeprefix("~").rsplit(".", 1)[-1] if match.group().startswith(":") else code)
-        position = match.end()
-    if position < len(text):
-        yield Piece("text", text[position:])
+def _tree(text: str) -> SyntaxTreeNode:
+    return SyntaxTreeNode(_parser().parse(_ROLE.sub(r"`\1`", text)))
 
 
 def to_html(text: str) -> str:
     """The text as HTML, everything in it escaped."""
-    out: list[str] = []
-    listing = False
-    for block in blocks(text):
-        if block.item != listing:
-            out.append("<ul>" if block.item else "</ul>")
-            listing = block.item
-        inside = "".join(_html_piece(piece) for piece in block.pieces)
-        out.append(f"<li>{inside}</li>" if block.item else f"<p>{inside}</p>")
-    return "\n".join([*out, *(["</ul>"] if listing else [])])
+    return _html(_tree(text))
 
 
-def _html_piece(piece: Piece) -> str:
-    if piece.kind == "math":
-        return mathml(piece.text)
-    return f"<code>{html.escape(piece.text)}</code>" if piece.kind == "code" else html.escape(piece.text)
+def _html(node: SyntaxTreeNode) -> str:
+    inside = [_html(child) for child in node.children]
+    match node.type:
+        case "root":
+            return "\n".join(inside)
+        case "bullet_list" | "ordered_list":
+            return "\n".join([f"<{node.tag}>", *inside, f"</{node.tag}>"])
+        case "list_item":
+            return f"<li>{''.join(inside)}</li>"
+        case "paragraph" if not node.hidden:
+            return f"<p>{''.join(inside)}</p>"
+        case "math_inline" | "math_block":
+            return mathml(node.content.strip(), display=node.type == "math_block")
+        case "code_inline":
+            return f"<code>{html.escape(node.content)}</code>"
+        case "softbreak" | "hardbreak":
+            return " "
+    return "".join(inside) or html.escape(node.content)
 
 
 def to_markdown(text: str) -> str:
-    """The text as Markdown, everything in it escaped."""
-    out: list[str] = []
-    listing = False
-    for block in blocks(text):
-        inside = "".join(_markdown_piece(piece) for piece in block.pieces)
-        if out and not (block.item and listing):
-            out.append("")
-        out.append(f"- {inside}" if block.item else inside)
-        listing = block.item
-    return "\n".join(out)
+    """The text as Markdown in which nothing but lists, code and formulas means anything."""
+    return _markdown(_tree(text))
 
 
-def _markdown_piece(piece: Piece) -> str:
-    if piece.kind == "math":
-        return inline_math(piece.text)
-    if piece.kind == "code":
-        return code(piece.text)
-    # The spaces at its ends set it apart from what stands beside it.
-    before, after = (" " if end.isspace() else "" for end in (piece.text[:1], piece.text[-1:]))
-    return f"{before}{escape(piece.text)}{after}"
+def _markdown(node: SyntaxTreeNode) -> str:
+    inside = [_markdown(child) for child in node.children]
+    match node.type:
+        case "root":
+            return "\n\n".join(inside)
+        case "bullet_list" | "ordered_list":
+            return "\n".join(inside)
+        case "list_item":
+            mark = f"{node.info}{node.markup} " if node.info else "- "
+            return mark + indent("\n\n".join(inside), " " * len(mark)).lstrip()
+        case "math_inline":
+            return inline_math(" ".join(node.content.split()))
+        case "math_block":
+            return display_math([node.content.strip()])
+        case "code_inline":
+            return code(node.content)
+        case "softbreak" | "hardbreak":
+            return " "
+        case "text":
+            # The spaces at its ends set it apart from what stands beside it.
+            before, after = (" " if end.isspace() else "" for end in (node.content[:1], node.content[-1:]))
+            return f"{before}{escape(node.content)}{after}"
+    return "".join(inside)
 
 
 def escape(text: str) -> str:

@@ -60,3 +60,26 @@ def test_what_stands_inside_a_line_keeps_its_spaces():
     assert to_markdown("Repeat: `ptproof report`, or take $x$ as given.") == (
         "Repeat: `ptproof report`, or take $`x`$ as given."
     )
+
+
+@pytest.mark.parametrize(
+    ("text", "html", "markdown"),
+    [
+        ("1. a\n2. b", "<ol>\n<li>a</li>\n<li>b</li>\n</ol>", "1. a\n2. b"),
+        ("- a\n  goes on\n- b", "<ul>\n<li>a goes on</li>\n<li>b</li>\n</ul>", "- a goes on\n- b"),
+        ("``a`b`` costs \\$5", "<p><code>a`b</code> costs $5</p>", "`` a`b `` costs \\$5"),
+        ("F(x*) and a*b*c", "<p>F(x*) and a*b*c</p>", "F(x\\*) and a\\*b\\*c"),
+    ],
+)
+def test_markdown_is_read_as_it_is_meant(text, html, markdown):
+    assert to_html(text) == html
+    assert to_markdown(text) == markdown
+
+
+def test_a_formula_may_stand_in_lines_of_its_own():
+    assert 'display="block"' in to_html("So\n\n$$\nx^2\n$$\n")
+    assert to_markdown("So\n\n$$\nx^2\n$$\n") == "So\n\n```math\nx^2\n```"
+
+
+def test_a_formula_may_be_broken_across_lines():
+    assert to_markdown("the square $x +\n1$ of it") == "the square $`x + 1`$ of it"
