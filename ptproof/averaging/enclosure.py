@@ -16,9 +16,10 @@ from typing import Any
 
 import sympy as sp
 
-from ptproof.averaging import switching
+from ptproof.averaging.switching import on_ball
 from ptproof.balls.ball import enclose, precision
 from ptproof.balls.entire import compile_entire
+from ptproof.proof.kinks import innermost
 from ptproof.system import DitherSystem
 
 _BITS = 80
@@ -140,7 +141,7 @@ class _Reader:
 
         self.phase, self.symbols, self.dither = system.phase, dict(symbols), dither
         self.last: tuple[tuple[Any, Any], Any] | None = None
-        self.switches = switching.has_switch(dither, system.phase)
+        self.switches = innermost(dither, {system.phase}) is not None
         whole = enclose(system.period, bits=_BITS) / 2
         self.scale = self.largest(arb(whole.mid(), whole.abs_upper()))
         self.target = enclose(_TARGET, bits=_BITS) * self.scale
@@ -155,9 +156,9 @@ class _Reader:
         # A panel is asked about twice, once whether it fits and once for its values.
         place = (middle.mid(), half.mid())
         if self.last is None or self.last[0] != place:
-            callbacks = switching.decide_on_ball(self.phase, arb(middle.mid(), _radius(middle, half)), self.symbols)
-            resolved = switching.resolve(self.dither, self.phase, *callbacks)
-            self.last = (place, None if resolved is None else self.compiled(resolved))
+            panel = arb(middle.mid(), _radius(middle, half))
+            smooth = on_ball(self.dither, self.phase, panel, self.symbols)
+            self.last = (place, None if smooth is None else self.compiled(smooth))
         return self.last[1]
 
     def fits(self, middle: Any, half: Any) -> bool:

@@ -7,9 +7,10 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from ptproof.averaging import switching
 from ptproof.averaging.quasipolynomial import QuasiPolynomial, exact_sign, read
 from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided
+from ptproof.averaging.switching import pieces
+from ptproof.proof.kinks import innermost
 
 
 @dataclass(frozen=True)
@@ -82,14 +83,14 @@ def read_signal(dither: sp.Expr, phase: sp.Symbol, period: sp.Expr, where: str) 
     AveragingUndecided
         If the dither is outside the class that is integrated exactly.
     """
-    if not switching.has_switch(dither, phase):
+    if innermost(dither, {phase}) is None:
         terms = read(dither, phase, where)
         _check_period(terms, dither, phase, period, where)
         return Signal(period, (sp.S.Zero, period), (terms,))
     _check_period_of_switches(dither, phase, period, where)
     points: list[sp.Expr] = [sp.S.Zero]
     parts: list[QuasiPolynomial] = []
-    for _, end, expression in switching.pieces(dither, phase, sp.S.Zero, period, where):
+    for _, end, expression in pieces(dither, phase, sp.S.Zero, period, where):
         points.append(end)
         parts.append(read(expression, phase, where))
     return Signal(period, tuple(points), tuple(parts))
@@ -130,7 +131,7 @@ def _check_period(terms: QuasiPolynomial, dither: sp.Expr, phase: sp.Symbol, per
 
 def rates_of(dither: sp.Expr, phase: sp.Symbol) -> set[sp.Expr]:
     """The frequencies of a dither that is a trigonometric polynomial; none for others."""
-    if switching.has_switch(dither, phase):
+    if innermost(dither, {phase}) is not None:
         return set()
     try:
         return {rate for _, rate in read(dither, phase, "dither").terms} - {sp.S.Zero}
@@ -152,14 +153,14 @@ def _check_period_of_switches(dither: sp.Expr, phase: sp.Symbol, period: sp.Expr
     masked = dither.replace(lambda node: isinstance(node, sp.Piecewise), lambda node: sp.Dummy())
     if phase not in masked.free_symbols:
         return
-    if not switching.has_switch(masked, phase):
+    if innermost(masked, {phase}) is None:
         _check_period(read(masked, phase, where), dither, phase, period, where)
         return
     # The same pieces, one period later, must be the same functions.
     constants = {symbol: sp.Symbol(f"c{i}") for i, symbol in enumerate(masked.atoms(sp.Dummy))}
     masked = masked.xreplace(constants)
-    first = list(switching.pieces(masked, phase, sp.S.Zero, period, where))
-    later = list(switching.pieces(masked.subs(phase, phase + period), phase, sp.S.Zero, period, where))
+    first = list(pieces(masked, phase, sp.S.Zero, period, where))
+    later = list(pieces(masked.subs(phase, phase + period), phase, sp.S.Zero, period, where))
     same = len(first) == len(later) and all(
         exact_sign(left[0] - right[0]) == 0
         and all(

@@ -8,128 +8,18 @@ from __future__ import annotations
 
 import functools
 import itertools
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import sympy as sp
-from sympy.core.relational import Relational
 
 from ptproof.averaging.quasipolynomial import exact_sign, linear_part, read
 from ptproof.averaging.refusal import AveragingUndecided
 from ptproof.balls.ball import enclose
+from ptproof.proof.kinks import branch, innermost, level, resolved, switching
 
-_SIMPLE = (sp.Piecewise, sp.Abs, sp.sign, sp.Max, sp.Min, sp.Mod, sp.floor, sp.Heaviside)
-_WAVES = {(sp.asin, sp.sin), (sp.acos, sp.cos), (sp.atan, sp.tan)}
 _MOST_PIECES = 4096
 _BITS = 96
-
-SignOf = Callable[[sp.Expr], int | None]
-FloorOf = Callable[[sp.Expr], int | None]
-
-
-def has_switch(expression: sp.Basic, variable: sp.Symbol) -> bool:
-    """Whether ``expression`` switches as ``variable`` moves."""
-    return any(_is_switch(node, variable) for node in sp.preorder_traversal(expression))
-
-
-def _is_switch(node: sp.Basic, variable: sp.Symbol) -> bool:
-    if variable not in node.free_symbols:
-        return False
-    return isinstance(node, _SIMPLE) or (bool(node.args) and (node.func, node.args[0].func) in _WAVES)
-
-
-def _innermost(expression: sp.Expr, variable: sp.Symbol) -> sp.Basic | None:
-    for node in sp.preorder_traversal(expression):
-        if _is_switch(node, variable) and not any(
-            _is_switch(inner, variable) for arg in node.args for inner in sp.preorder_traversal(arg)
-        ):
-            return node
-    return None
-
-
-def _levels(node: sp.Basic) -> sp.Expr | None:
-    """The expression whose integer part resolves ``node``, or None where signs resolve it."""
-    if isinstance(node, sp.floor):
-        return node.args[0]
-    if isinstance(node, sp.Mod):
-        return node.args[0] / node.args[1]
-    if isinstance(node, sp.asin | sp.atan):
-        return node.args[0].args[0] / sp.pi + sp.Rational(1, 2)
-    if isinstance(node, sp.acos):
-        return node.args[0].args[0] / sp.pi
-    return None
-
-
-def _sides(node: sp.Basic, variable: sp.Symbol) -> list[sp.Expr]:
-    """The functions whose signs resolve ``node``."""
-    if isinstance(node, sp.Piecewise):
-        relations = set().union(*(condition.atoms(Relational) for _, condition in node.args))
-        return [relation.lhs - relation.rhs for relation in sorted(relations, key=str)]
-    if isinstance(node, sp.Max | sp.Min):
-        return [left - right for left, right in itertools.combinations(node.args, 2)]
-    return [node.args[0]]
-
-
-def _rewrite(node: sp.Basic, sign_of: SignOf, floor_of: FloorOf) -> sp.Expr | None:
-    """``node`` without its switch, or None where a sign or an integer part is not known."""
-    level = _levels(node)
-    if level is not None:
-        k = floor_of(level)
-        if k is None:
-            return None
-        if isinstance(node, sp.floor):
-            return sp.Integer(k)
-        if isinstance(node, sp.Mod):
-            return node.args[0] - k * node.args[1]
-        angle = node.args[0].args[0] - k * sp.pi
-        if isinstance(node, sp.atan):
-            return angle
-        if isinstance(node, sp.asin):
-            return angle if k % 2 == 0 else -angle
-        return angle if k % 2 == 0 else sp.pi - angle
-    if isinstance(node, sp.Piecewise):
-        return _branch(node, sign_of)
-    if isinstance(node, sp.Max | sp.Min):
-        best = node.args[0]
-        for other in node.args[1:]:
-            sign = sign_of(best - other)
-            if sign is None:
-                return None
-            if (sign < 0) == isinstance(node, sp.Max):
-                best = other
-        return best
-    sign = sign_of(node.args[0])
-    if sign is None:
-        return None
-    if isinstance(node, sp.Abs):
-        return sign * node.args[0]
-    return sp.Integer(sign) if isinstance(node, sp.sign) else sp.Rational(1 + sign, 2)
-
-
-def _branch(node: sp.Piecewise, sign_of: SignOf) -> sp.Expr | None:
-    for value, condition in node.args:
-        known: dict[sp.Basic, sp.Basic] = {}
-        for relation in condition.atoms(Relational):
-            sign = sign_of(relation.lhs - relation.rhs)
-            if sign is None:
-                return None
-            known[relation] = sp.sympify(relation.func(sign, 0))
-        truth = condition.xreplace(known)
-        if truth == sp.true:
-            return value
-        if truth != sp.false:
-            return None
-    raise AveragingUndecided(f"{node} has no value where none of its conditions holds; end it with (value, True)")
-
-
-def resolve(expression: sp.Expr, variable: sp.Symbol, sign_of: SignOf, floor_of: FloorOf) -> sp.Expr | None:
-    """``expression`` without switches where all signs and integer parts are known, else None."""
-    while (node := _innermost(expression, variable)) is not None:
-        replacement = _rewrite(node, sign_of, floor_of)
-        if replacement is None:
-            return None
-        expression = expression.xreplace({node: replacement})
-    return expression
 
 
 def pieces(
@@ -140,7 +30,7 @@ def pieces(
     The end points are exact. Raises :class:`AveragingUndecided`, naming ``where``, if a switching point
     depends on a symbol or is no root of a polynomial or of a single sinusoid.
     """
-    node = _innermost(expression, variable)
+    node = innermost(expression, {variable})
     if node is None:
         yield start, end, expression
         return
@@ -156,9 +46,15 @@ def pieces(
         def floor_of(level: sp.Expr, middle: sp.Rational = middle) -> int:
             return int(sp.floor(level.subs(variable, middle)))
 
-        replacement = _rewrite(node, sign_of, floor_of)
+        replacement = branch(node, sign_of, floor_of)
         assert replacement is not None  # both callbacks always answer
+        _require_value(replacement, node)
         yield from pieces(expression.xreplace({node: replacement}), variable, left, right, where)
+
+
+def _require_value(branch: sp.Expr, node: sp.Expr) -> None:
+    if branch.has(sp.nan):
+        raise AveragingUndecided(f"{node} has no value where none of its conditions holds; end it with (value, True)")
 
 
 def _between(left: sp.Expr, right: sp.Expr) -> sp.Rational:
@@ -172,17 +68,17 @@ def _between(left: sp.Expr, right: sp.Expr) -> sp.Rational:
 
 def _switching_points(node: sp.Basic, variable: sp.Symbol, start: sp.Expr, end: sp.Expr, where: str) -> list[sp.Expr]:
     """The exact points strictly inside (start, end) where ``node`` may switch, ascending, each once."""
-    level = _levels(node)
-    if level is not None:
-        candidates = _level_crossings(level, variable, start, end, where)
+    counted = level(node)
+    if counted is not None:
+        candidates = _level_crossings(counted, variable, start, end, where)
     else:
         candidates = [
             root
-            for side in _sides(node, variable)
+            for side in switching(node)
             if variable in side.free_symbols
             for root in zeros(side, variable, start, end, where)
         ]
-        for side in _sides(node, variable):
+        for side in switching(node):
             if variable not in side.free_symbols and not side.is_number:
                 raise AveragingUndecided(f"{where}: which branch of {node} holds depends on symbols")
     inside = [root for root in candidates if exact_sign(root - start) > 0 and exact_sign(end - root) > 0]
@@ -239,8 +135,8 @@ def zeros(side: sp.Expr, variable: sp.Symbol, start: sp.Expr, end: sp.Expr, wher
     return [sp.expand((shift + sign * half + 2 * sp.pi * k) / rate) for k in range(low, high + 1) for sign in (1, -1)]
 
 
-def decide_on_ball(variable: sp.Symbol, ball: Any, values: Mapping[sp.Symbol, Any]) -> tuple[SignOf, FloorOf]:
-    """Callbacks for :func:`resolve` that answer only what holds on the whole ``ball``."""
+def on_ball(expression: sp.Expr, variable: sp.Symbol, ball: Any, values: Mapping[sp.Symbol, Any]) -> sp.Expr | None:
+    """The smooth expression that ``expression`` is on the whole ``ball``, or None where it is not shown to be one."""
 
     def at(expression: sp.Expr, where: Any) -> Any:
         return enclose(expression, {**values, variable: where}, bits=_BITS)
@@ -260,7 +156,10 @@ def decide_on_ball(variable: sp.Symbol, ball: Any, values: Mapping[sp.Symbol, An
             return None
         return int(ends[0])
 
-    return sign_of, floor_of
+    smooth = resolved(expression, {variable}, sign_of, floor_of)
+    if smooth is not None:
+        _require_value(smooth, expression)
+    return smooth
 
 
 def _sign(ball: Any) -> int | None:

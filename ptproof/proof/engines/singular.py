@@ -7,8 +7,8 @@ from collections.abc import Iterator, Sequence
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
-from sympy.core.relational import Relational
 
+from ptproof.proof.kinks import resolved, switching
 from ptproof.proof.signs import holds, sign_of
 from ptproof.proof.statement import Relation, substitute_in
 from ptproof.proof.verdict import Witness
@@ -78,19 +78,11 @@ def _arguments(node: sp.Basic) -> list[sp.Expr]:
     match node:
         case sp.Pow():
             return [node.base]
-        case sp.Max() | sp.Min():
-            return [first - second for first, second in itertools.combinations(node.args, 2)]
-        case sp.Piecewise():
-            return [r.lhs - r.rhs for _, condition in node.args for r in condition.atoms(Relational)]
         case sp.tan() | sp.sec():
             return [sp.cos(node.args[0])]
         case sp.asin() | sp.acos():
             return [1 - node.args[0] ** 2]
-        case sp.floor():
-            return [node.args[0], node.args[0] - 1]
-        case sp.Mod():
-            return [node.args[0], node.args[0] - node.args[1]]
-    return [node.args[0]] if node.args and isinstance(node, sp.Function) else []
+    return switching(node) if node.args and isinstance(node, sp.Function | sp.Max | sp.Min) else []
 
 
 def _lines(
@@ -183,64 +175,25 @@ def _strict(relation: Relation) -> Relation:
 
 def _one_sided(line: sp.Expr, variable: sp.Symbol, root: sp.Expr, side: int) -> sp.Expr | None:
     """The smooth expression that ``line`` is beside ``root``, or None."""
-    kinds = (sp.Abs, sp.sign, sp.Max, sp.Min, sp.Piecewise, sp.Heaviside, sp.floor, sp.Mod)
-    for _ in range(50):
-        nodes = [node for node in line.atoms(*kinds) if variable in node.free_symbols]
-        inner = [node for node in nodes if not any(arg.has(*kinds) for arg in node.args)]
-        if not inner:
-            return line if not nodes else None
-        replacement = _beside(inner[0], variable, root, side)
-        if replacement is None:
-            return None
-        line = line.xreplace({inner[0]: replacement})
-    return None
 
-
-def _beside(node: sp.Basic, variable: sp.Symbol, root: sp.Expr, side: int) -> sp.Expr | None:
     def sign(entry: sp.Expr) -> int | None:
-        """The sign of ``entry`` on that side of ``root``, from its first derivative that does not vanish."""
+        """The sign of ``entry`` on that side, from its first derivative that does not vanish at the root."""
         for count in range(5):
             value = sign_of(sp.diff(entry, variable, count).subs(variable, root))
             if value != 0:
                 return None if value is None else value * side**count
         return None
 
-    if isinstance(node, sp.Max | sp.Min):
-        best = node.args[0]
-        for other in node.args[1:]:
-            order = sign(best - other)
-            if order is None:
-                return None
-            if (order < 0) == isinstance(node, sp.Max):
-                best = other
-        return best
-    if isinstance(node, sp.Piecewise):
-        for value, condition in node.args:
-            known = {}
-            for relation in condition.atoms(Relational):
-                known_sign = sign(relation.lhs - relation.rhs)
-                if known_sign is None:
-                    return None
-                known[relation] = sp.sympify(relation.func(known_sign, 0))
-            truth = condition.xreplace(known)
-            if truth == sp.true:
-                return value
-        return None
-    if isinstance(node, sp.floor | sp.Mod):
-        level = node.args[0] if isinstance(node, sp.floor) else node.args[0] / node.args[1]
+    def floor_of(level: sp.Expr) -> int | None:
+        """The integer part of ``level`` on that side."""
         there = level.subs(variable, root)
         if not there.is_number or sign_of(there - sp.floor(there)) not in (0, 1):
             return None
         whole = sp.floor(there)
-        if sign_of(there - whole) == 0 and sign(level - whole) == -1:
-            whole -= 1
-        return whole if isinstance(node, sp.floor) else node.args[0] - whole * node.args[1]
-    known_sign = sign(node.args[0])
-    if known_sign is None:
-        return None
-    if isinstance(node, sp.Abs):
-        return known_sign * node.args[0]
-    return sp.Integer(known_sign) if isinstance(node, sp.sign) else sp.Rational(1 + known_sign, 2)
+        return int(whole) - (sign_of(there - whole) == 0 and sign(level - whole) == -1)
+
+    branch = resolved(line, {variable}, sign, floor_of)
+    return None if branch is None or branch.has(sp.nan) else branch
 
 
 def _not_real(branch: sp.Expr, variable: sp.Symbol, root: sp.Expr, side: int) -> Iterator[sp.Expr]:

@@ -11,9 +11,10 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 from sympy.core.relational import Relational
 
-from ptproof.proof.engines.glued import KINKS, glued_smoothly
+from ptproof.proof.engines.glued import glued_smoothly
 from ptproof.proof.engines.reals import follows
 from ptproof.proof.engines.singular import find_singularity
+from ptproof.proof.kinks import KINKS, switching
 from ptproof.proof.statement import Relation
 from ptproof.proof.verdict import Evidence, Verdict
 
@@ -196,12 +197,9 @@ def _own_needs(node: sp.Basic) -> Iterator[_Need]:
         return
     zero = sp.S.Zero
     match node:
-        case sp.Abs() | sp.sign() | sp.Heaviside():
-            yield _Need(node, Relation(node.args[0], "!=", zero))
-        case sp.Max() | sp.Min():
-            for i, first in enumerate(node.args):
-                for second in node.args[i + 1 :]:
-                    yield _Need(node, Relation(first - second, "!=", zero))
+        case sp.Abs() | sp.sign() | sp.Heaviside() | sp.Max() | sp.Min():
+            for side in switching(node):
+                yield _Need(node, Relation(side, "!=", zero))
         case sp.log():
             yield _Need(node, Relation(zero, "<", node.args[0]))
         case sp.tan() | sp.sec():
