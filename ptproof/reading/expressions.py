@@ -53,7 +53,7 @@ def parse(
     Parameters
     ----------
     text
-        The expression in Python's notation (``^`` is refused, with a hint). A number is taken as its decimal text.
+        The expression in Python's notation, in which ``^`` is a power too. A number is taken as its decimal text.
     names
         What may occur in it besides :data:`FUNCTIONS` and :data:`CONSTANTS`: a mapping from name to symbol or
         undefined function, or a sequence of symbols.
@@ -70,8 +70,8 @@ def parse(
     >>> parse("1.8")
     9/5
     >>> x = sp.Symbol("x", real=True)
-    >>> parse("cos(2*pi/3*x)/2 - x**2", [x])
-    -x**2 + cos(2*pi*x/3)/2
+    >>> parse("cos(2*pi/3*x)/2 - 0.5*x^2", [x])
+    -x**2/2 + cos(2*pi*x/3)/2
     """
     table = dict(names) if isinstance(names, Mapping) else {symbol.name: symbol for symbol in names}
     if isinstance(text, bool) or not isinstance(text, str | int | float):
@@ -81,6 +81,8 @@ def parse(
         raise InputError(f"{where}: the expression is empty")
     if len(source) > _LONGEST:
         raise InputError(f"{where}: the expression is longer than {_LONGEST} characters")
+    # Before anything is parsed, since Python's own ^ binds looser than +; it has no other place in arithmetic.
+    source = source.replace("^", "**")
     try:
         tree = ast.parse(source, mode="eval")
     except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
@@ -121,8 +123,6 @@ class _Reader:
                 return -self.read(operand)
             case ast.UnaryOp(op=ast.UAdd(), operand=operand):
                 return self.read(operand)
-            case ast.BinOp(op=ast.BitXor()):
-                raise self.fail("'^' is not a power, write '**'")
             case ast.BinOp(left=left, op=op, right=right) if type(op) in _ARITHMETIC:
                 return self.arithmetic(op, self.read(left), self.read(right))
             case ast.Compare(left=left, ops=ops, comparators=right):

@@ -23,6 +23,11 @@ EXACT = {
     "sqrt(2)": sp.sqrt(2),
     "E": sp.E,
     "+x": x,
+    "x^2": x**2,
+    "-x^2+1": 1 - x**2,
+    "2*x^3^2": 2 * x**9,
+    "0.5*x^-1": 1 / (2 * x),
+    "(x + y)^2/2": (x + y) ** 2 / 2,
 }
 
 
@@ -36,7 +41,9 @@ REFUSED = {
     "x.__class__": "not arithmetic",
     "(lambda: 1)()": "not arithmetic",
     "[1, 2]": "not arithmetic",
-    "x^2": r"'\*\*'",
+    "x^^2": "cannot read",
+    "x*^2": "cannot read",
+    "'^'": "not arithmetic",
     "unknown": "unknown name",
     "foo(x)": "unknown function",
     "F": "needs arguments",
