@@ -2,20 +2,25 @@
 
 from __future__ import annotations
 
+import math
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeAlias
 
 import sympy as sp
 from flint import arb
 
 from ptproof.balls.ball import BALLS, ball_from, enclose, enclosure_text, precision
-from ptproof.balls.jet import Bound, Side, middle, upper_bound
+from ptproof.balls.boxes import Side, Sides, halves, middle, widest, widths
+from ptproof.balls.jet import Bound, upper_bound
+from ptproof.balls.rounding import down, up
+from ptproof.balls.search import Look, Search
 from ptproof.balls.tape import Tape, Undefined, compile_tape
 from ptproof.errors import InputError
 
 BITS = 128
+Function: TypeAlias = Callable[[Sequence[Any], Any], Any]
 RELATIONS = ("<", "<=", ">", ">=")
 
 
@@ -82,15 +87,25 @@ def holds_on_box(
         raise InputError(f"no range is given for {', '.join(sorted(map(str, missing)))}")
     symbols = tuple(box)
     negated = -expression if relation[0] == ">" else expression
+    began = time.perf_counter()
     with precision(BITS):
         start = _Start.read(box)
-        search = _Search(compile_tape([negated], symbols), start, strict=len(relation) == 1)
-        holds, point, detail = search.run(max_boxes, seconds)
+        function = _first_of(compile_tape([negated], symbols))
+        strict = len(relation) == 1
+        search = Search(lambda sides, _: _look(function, sides, strict), [start.sides], depth_first=True)
+        search.run(lambda: search.point is not None, deadline=began + seconds, most=max_boxes)
+        point = None if search.point is None else start.exact_point(search.point)
     value = None
     if point is not None:
         value = enclosure_text(enclose(expression, point, bits=BITS))
         detail = f"{expression} {relation} 0 fails at " + ", ".join(f"{key} = {point[key]}" for key in symbols)
-    return CoverResult(holds, detail, search.boxes, time.perf_counter() - search.began, point, value)
+    elif search.left:
+        detail = f"{search.looks} boxes in {time.perf_counter() - began:.1f} s, {search.left} left; resisting: "
+        detail += _place(symbols, search.next or start.sides)
+    else:
+        detail = f"a cover of {search.looks} boxes, each with the right sign at {BITS} bits"
+    holds = False if point is not None else None if search.left else True
+    return CoverResult(holds, detail, search.looks, time.perf_counter() - began, point, value)
 
 
 @dataclass(frozen=True)
@@ -129,66 +144,33 @@ def _rational(ball: arb) -> sp.Rational:
     return sp.Rational(int(fraction.p), int(fraction.q))
 
 
-class _Search:
-    """The subdivision for ``expression < 0`` (or <= 0)."""
+def _first_of(tape: Tape) -> Function:
+    return lambda values, arithmetic: tape.run(values, arithmetic)[0]
 
-    def __init__(self, tape: Tape, start: _Start, strict: bool) -> None:
-        self.tape, self.start, self.strict = tape, start, strict
-        self.boxes = 0
-        self.began = time.perf_counter()
 
-    def function(self, values: Sequence[Any], arithmetic: Any) -> Any:
-        return self.tape.run(values, arithmetic)[0]
-
-    def run(self, max_boxes: int, seconds: float) -> tuple[bool | None, Mapping[sp.Symbol, sp.Expr] | None, str]:
-        stack = [self.start.sides]
-        smallest: tuple[Side, ...] = self.start.sides
-        while stack:
-            if self.boxes >= max_boxes or time.perf_counter() - self.began > seconds:
-                return None, None, self.gave_up(len(stack), smallest)
-            sides = stack.pop()
-            self.boxes += 1
-            try:
-                bound: Bound | None = upper_bound(self.function, sides)
-            except Undefined:
-                bound = None
-            if bound is not None and (bound.upper < 0 or (bound.upper <= 0 and not self.strict)):
-                continue
-            corners = (tuple(low for low, _ in sides), tuple(high for _, high in sides))
-            for point in (bound.point if bound else corners[0], tuple(map(middle, sides)), *corners):
-                if self.fails(point):
-                    return False, self.start.exact_point(point), ""
-            index = _where(sides, bound)
-            if index is None:
-                return None, None, self.gave_up(len(stack) + 1, sides)
-            cut = middle(sides[index])
-            smallest = sides
-            for half in ((cut, sides[index][1]), (sides[index][0], cut)):
-                stack.append((*sides[:index], half, *sides[index + 1 :]))
-        return True, None, f"a cover of {self.boxes} boxes, each with the right sign at {BITS} bits"
-
-    def fails(self, point: Sequence[arb]) -> bool:
+def _look(function: Function, sides: Sides, strict: bool) -> Look[Sides, tuple[arb, ...]]:
+    """Whether ``function`` is certainly negative on a box (or not positive), or certainly not at one of its points."""
+    try:
+        bound: Bound | None = upper_bound(function, sides)
+    except Undefined:
+        bound = None
+    if bound is not None and (bound.upper < 0 or (bound.upper <= 0 and not strict)):
+        return Look(up(bound.upper), settled=True)
+    low, high = (tuple(side[end] for side in sides) for end in (0, 1))
+    for point in (bound.point if bound else low, tuple(map(middle, sides)), low, high):
         try:
-            value = self.function(point, BALLS)
+            value = function(point, BALLS)
         except Undefined:
-            return False
-        return bool(value > 0 or (self.strict and value.is_zero()))
+            continue
+        if value > 0 or (strict and value.is_zero()):
+            return Look(math.inf, lower=max(0.0, down(value)), point=point)
+    index = bound.split if bound is not None else None
+    if index is None or not widths(sides)[index] > 0:
+        index = widest(sides)
+    # The lower half is looked at last, so that the search goes on with it.
+    return Look(math.inf, halves=None if index is None else lambda: halves(sides, index)[::-1])
 
-    def gave_up(self, left: int, sides: Sequence[Side]) -> str:
-        place = ", ".join(
-            f"{symbol} in [{float(low):.6g}, {float(high):.6g}]"
-            for symbol, (low, high) in zip(self.start.symbols, sides, strict=True)
-        )
-        return f"{self.boxes} boxes in {time.perf_counter() - self.began:.1f} s, {left} left; resisting: {place}"
 
-
-def _where(sides: Sequence[Side], bound: Bound | None) -> int | None:
-    """The coordinate to halve: the one that spreads most, or the widest; None where there is nothing to halve."""
-    widths = [float(high - low) for low, high in sides]
-    if bound is not None and bound.split is not None and widths[bound.split] > 0:
-        return bound.split
-    if not sides:
-        return None
-    index = max(range(len(sides)), key=widths.__getitem__)
-    cut = middle(sides[index])
-    return index if cut > sides[index][0] and cut < sides[index][1] else None
+def _place(symbols: Sequence[sp.Symbol], sides: Sequence[Side]) -> str:
+    ends = ((symbol, float(low), float(high)) for symbol, (low, high) in zip(symbols, sides, strict=True))
+    return ", ".join(f"{symbol} in [{low:.6g}, {high:.6g}]" for symbol, low, high in ends)

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise, product
 from typing import Any
 
 import sympy as sp
 from flint import arb
 
-from ptproof.balls.ball import interval
-from ptproof.balls.jet import Side
+from ptproof.balls.ball import BALLS, interval
+from ptproof.balls.boxes import Sides, halves, widths
 from ptproof.balls.rest import expandable
 
 
@@ -33,23 +34,46 @@ class Box:
 
     face: Face
     outer: bool
-    sides: tuple[Side, ...]
+    sides: Sides
 
     def balls(self) -> list[arb]:
         """One ball per side."""
         return [interval(*side) if side[0] is not side[1] else side[0] for side in self.sides]
 
+    def direction(self) -> list[arb]:
+        """The unit vectors of the box, one ball per coordinate."""
+        u = self.face.cube_point(self.balls()[1:])
+        norm = sum((BALLS.integer_power(entry, 2) for entry in u), arb(0)).sqrt()
+        return [entry / norm for entry in u]
+
+    def at(self, point: Sequence[arb]) -> Box:
+        """The box that is only ``point``."""
+        return Box(self.face, self.outer, tuple((entry, entry) for entry in point))
+
     def split(self, index: int) -> tuple[Box, Box]:
-        """The two halves along coordinate ``index``."""
+        """The two halves along coordinate ``index``; of a radius that ranges widely, on a logarithmic scale."""
         low, high = self.sides[index]
-        cut = ((low + high) / 2).mid()
-        if index == 0 and low > 0 and high > 4 * low:
-            cut = (low * high).sqrt().mid()
-        first, second = (
-            Box(self.face, self.outer, (*self.sides[:index], side, *self.sides[index + 1 :]))
-            for side in ((low, cut), (cut, high))
-        )
-        return first, second
+        geometric = index == 0 and low > 0 and high > 4 * low
+        lower, upper = halves(self.sides, index, (low * high).sqrt().mid() if geometric else None)
+        return Box(self.face, self.outer, lower), Box(self.face, self.outer, upper)
+
+    def widest(self) -> int:
+        """The coordinate that ranges most widely, the radius in relation to its size."""
+        sizes = widths(self.sides)
+        if not self.sides[0][0].is_zero():
+            sizes[0] /= float(self.sides[0][1])
+        return max(range(len(sizes)), key=sizes.__getitem__)
+
+
+def shell(n: int, low: arb, high: arb, pieces: int = 1) -> list[Box]:
+    """Boxes that cover ``low`` ≤ ‖y‖ ≤ ``high`` in n dimensions, ``pieces`` along each side of a face of the cube."""
+    ends = [arb(2 * i) / pieces - 1 for i in range(pieces + 1)]
+    return [
+        Box(Face(axis, sign, ((-1, 1),) * (n - 1)), False, ((low, high), *sides))
+        for axis in range(n)
+        for sign in (-1, 1)
+        for sides in product(list(pairwise(ends)), repeat=n - 1)
+    ]
 
 
 def reduced_faces(drop: sp.Expr, offsets: Sequence[sp.Symbol]) -> tuple[Face, ...]:

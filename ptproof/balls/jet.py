@@ -14,6 +14,7 @@ from typing import Any
 from flint import arb
 
 from ptproof.balls.ball import BALLS, interval
+from ptproof.balls.boxes import Side, middle
 from ptproof.balls.tape import Undefined
 
 Slopes = tuple[arb | None, ...]
@@ -199,9 +200,6 @@ def _checked(jet: Jet) -> Jet:
 
 JETS = _Jets()
 
-Side = tuple[arb, arb]
-"""The two ends of one coordinate of a box; each is exact, or a ball around an exact end."""
-
 
 @dataclass(frozen=True)
 class Bound:
@@ -216,11 +214,6 @@ class Bound:
     point: tuple[arb, ...]
     split: int | None
     value: arb | None = None
-
-
-def middle(side: Side) -> arb:
-    """An exact point strictly inside ``side``."""
-    return ((side[0] + side[1]) / 2).mid()
 
 
 def upper_bound(function: Callable[[Sequence[Any], Any], Any], box: Sequence[Side]) -> Bound:

@@ -7,11 +7,11 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from dataclasses import field as member
-from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 from typing import Any
 
 import sympy as sp
 
+from ptproof.balls.rounding import decimal_down, decimal_up
 from ptproof.certify.domain import Domain
 from ptproof.errors import InputError
 from ptproof.problem.field import Field, FieldBounds
@@ -42,13 +42,9 @@ class Range:
         if self.lower is None and self.upper is None:
             return "not known"
         digits = 7 if self.width > 1e-6 else 12
-        low = "…" if self.lower is None else _decimal(self.lower, ROUND_FLOOR, digits)
-        high = "…" if self.upper is None else _decimal(self.upper, ROUND_CEILING, digits)
+        low = "…" if self.lower is None else f"{decimal_down(self.lower, digits).normalize():g}"
+        high = "…" if self.upper is None else f"{decimal_up(self.upper, digits).normalize():g}"
         return f"[{low}, {high}]"
-
-
-def _decimal(value: float, rounding: str, digits: int) -> str:
-    return format(Context(prec=digits, rounding=rounding).plus(Decimal(value)).normalize(), "g")
 
 
 @dataclass(frozen=True)
@@ -104,13 +100,14 @@ class FieldCertificate:
         """
         if self.verdict is not Verdict.PROVED:
             raise InputError(f"the field has no certified constants on {self.domain}: {self.verdict}")
-        return FieldBounds(
-            self.field.kappa,
-            _rounded(self.a1.upper, ROUND_CEILING, digits),
-            _rounded(self.a2.lower, ROUND_FLOOR, digits),
-            _rounded(self.b1.lower, ROUND_FLOOR, digits),
-            _rounded(self.b2.upper, ROUND_CEILING, digits),
-        )
+        ends: list[sp.Expr] = []
+        for end, rounded in (
+            (self.a1.upper, decimal_up), (self.a2.lower, decimal_down),
+            (self.b1.lower, decimal_down), (self.b2.upper, decimal_up),
+        ):  # fmt: skip
+            assert end is not None
+            ends.append(sp.Rational(str(rounded(end, digits))))
+        return FieldBounds(self.field.kappa, *ends)
 
     def to_json(self) -> dict[str, Any]:
         """The contract of ``ptproof bounds --json``."""
@@ -178,8 +175,3 @@ class FieldCertificate:
         from ptproof.certify.plot import plot_certificate
 
         return plot_certificate(self, path)
-
-
-def _rounded(value: float | None, rounding: str, digits: int) -> sp.Rational:
-    assert value is not None
-    return sp.Rational(str(Context(prec=digits, rounding=rounding).plus(Decimal(value))))

@@ -9,14 +9,12 @@ from dataclasses import dataclass
 from flint import arb
 
 from ptproof.balls.ball import BALLS, ball_from
+from ptproof.balls.boxes import Side
 from ptproof.balls.cube import Box
-from ptproof.balls.jet import Bound, Side, upper_bound
+from ptproof.balls.jet import Bound, upper_bound
 from ptproof.balls.tape import Undefined
 from ptproof.certify.domain import Domain
 from ptproof.certify.quotients import Function, Quotients
-
-TINY = 2.0**-40
-"""The relative width at which a box without an enclosure is given up."""
 
 
 @dataclass(frozen=True)
@@ -82,7 +80,7 @@ class Evaluator:
         if not point[0].is_zero():
             function = self.quotients.direct(box.face, box.outer, self.goal.slope)
             return self.sign * function(point, BALLS)
-        here = Box(box.face, box.outer, tuple((end, end) for end in point))
+        here = box.at(point)
         main = self.quotients.leading(box.face, box.outer, self.goal.slope)(point, BALLS)
         return self.sign * (main + self.quotients.remainder(here, self.goal.slope))
 
@@ -133,24 +131,5 @@ class Evaluator:
             return main
         split = main.split
         if split is None or main.value is None or tail.upper() > (main.upper - main.value).abs_upper():
-            split = _widest_relative(box)
+            split = box.widest()
         return Bound((main.upper + tail).upper(), main.point, split)
-
-
-def _widest_relative(box: Box) -> int:
-    widths = [float(high - low) for low, high in box.sides]
-    if not box.sides[0][0].is_zero():
-        widths[0] /= float(box.sides[0][1])
-    return max(range(len(widths)), key=widths.__getitem__)
-
-
-def widest(box: Box) -> int | None:
-    """The coordinate with the widest side, None if every side is a point."""
-    widths = [float(high - low) for low, high in box.sides]
-    index = max(range(len(widths)), key=widths.__getitem__)
-    return index if widths[index] > 0 else None
-
-
-def is_tiny(box: Box) -> bool:
-    """Whether halving has become pointless."""
-    return all(float(high - low) <= TINY * max(1.0, abs(float(high))) for low, high in box.sides)

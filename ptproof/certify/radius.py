@@ -6,15 +6,17 @@ import math
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 
 import sympy as sp
 
+from ptproof.balls.boxes import centre, is_tiny, widest
 from ptproof.balls.cube import Box
-from ptproof.balls.jet import middle
+from ptproof.balls.rounding import up
+from ptproof.balls.search import Look, Search
 from ptproof.balls.tape import Undefined
 from ptproof.certify.domain import Domain
-from ptproof.certify.evaluator import Evaluator, Goal, Place, is_tiny, start_boxes, widest
+from ptproof.certify.evaluator import Evaluator, Goal, Place, start_boxes
 from ptproof.certify.quotients import Quotients
 from ptproof.certify.witness import Prosecutor
 from ptproof.problem.field import Field
@@ -128,14 +130,11 @@ def positive_everywhere(
     The evaluators are those of smallest values; each box is tried with one after the other. Where the first one's
     quotient is certainly not positive, the search ends at once.
     """
-    stack = list(boxes)
     order = list(evaluators)
-    looked = 0
-    while stack:
-        looked += 1
-        box = stack.pop()
+
+    def look(box: Box, _: float) -> Look[Box, Box]:
         splits: list[int] = []
-        hopeless = False
+        failing = None
         for evaluator in tuple(order):
             try:
                 bound = evaluator.bound(box, 0.0)
@@ -143,16 +142,18 @@ def positive_everywhere(
                     # What has worked here is tried first on the next box.
                     order.remove(evaluator)
                     order.insert(0, evaluator)
-                    break
+                    return Look(up(bound.upper), settled=True)
                 if bound.split is not None:
                     splits.append(bound.split)
-                if evaluator is evaluators[0]:
-                    hopeless = bool(evaluator.value(box, bound.point) >= 0)
+                if evaluator is evaluators[0] and evaluator.value(box, bound.point) >= 0:
+                    failing = box
             except Undefined:
                 continue
-        else:
-            split = splits[0] if splits else widest(box)
-            if hopeless or split is None or is_tiny(box) or looked > max_boxes or time.perf_counter() > deadline:
-                return Place(box, tuple(side[0] if side[0] is side[1] else middle(side) for side in box.sides))
-            stack.extend(box.split(split))
-    return None
+        split = splits[0] if splits else widest(box.sides)
+        halves = None if split is None or is_tiny(box.sides) else partial(box.split, split)
+        return Look(math.inf, False, halves, 0.0, failing)
+
+    search = Search(look, boxes, depth_first=True)
+    search.run(lambda: search.point is not None, deadline=deadline, most=max_boxes)
+    box = search.point or search.next
+    return None if box is None else Place(box, centre(box.sides))

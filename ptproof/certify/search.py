@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
@@ -15,7 +14,7 @@ from ptproof.balls.tape import Undefined
 from ptproof.certify.certificate import FieldCertificate, FieldWitness, Range
 from ptproof.certify.domain import Domain
 from ptproof.certify.evaluator import Goal, Place, start_boxes
-from ptproof.certify.optimum import Extremum, Optimum
+from ptproof.certify.optimum import Extremum
 from ptproof.certify.quotients import Quotients
 from ptproof.certify.radius import RadiusSearch
 from ptproof.certify.source import degenerate_direction, source_order
@@ -170,9 +169,9 @@ class _Search:
                 share = max(0.0, self.deadline - now) / (len(open_) - index)
                 if witness := self.examine(searches[name], now + share):
                     return self.refuted(witness)
-                if not searches[name].goal.largest and searches[name].best >= 0:
-                    return self.conclude({name: searches[name].optimum()})
-        return self.conclude({name: search.optimum() for name, search in searches.items()})
+                if not searches[name].goal.largest and searches[name].search.best >= 0:
+                    return self.conclude({name: searches[name]})
+        return self.conclude(searches)
 
     def examine(self, search: Extremum, deadline: float) -> FieldWitness | None:
         """Let one search work; returns the witness if it comes upon one."""
@@ -190,8 +189,8 @@ class _Search:
             return undefined or (found[0] if found else None)
         return found[0] if found else None
 
-    def conclude(self, found: dict[str, Optimum]) -> FieldCertificate:
-        ranges = {name: _range(optimum, GOALS[name]) for name, optimum in found.items()}
+    def conclude(self, found: dict[str, Extremum]) -> FieldCertificate:
+        ranges = {name: extremum.range() for name, extremum in found.items()}
         good = len(found) == len(GOALS) and all(
             item.lower is not None and item.lower > 0 and item.width <= self.rtol for item in ranges.values()
         )
@@ -199,16 +198,16 @@ class _Search:
             return self.certificate(Verdict.PROVED, **ranges)
         return self.certificate(Verdict.UNDECIDED, **ranges, detail=self.tried(found, ranges))
 
-    def tried(self, found: dict[str, Optimum], ranges: dict[str, Range]) -> str:
+    def tried(self, found: dict[str, Extremum], ranges: dict[str, Range]) -> str:
         parts = []
-        for name, optimum in found.items():
+        for name, extremum in found.items():
             if ranges[name].width <= self.rtol:
                 continue
-            text = f"{name} after {optimum.boxes} boxes"
-            if optimum.stuck is not None:
-                text += f", no enclosure exists near x = {self.near(optimum.stuck)}"
-            elif optimum.place is not None:
-                text += f", relative width {ranges[name].width:.3g}, best value near x = {self.near(optimum.place)}"
+            text = f"{name} after {extremum.search.looks} boxes"
+            if extremum.stuck is not None:
+                text += f", no enclosure exists near x = {self.near(extremum.stuck)}"
+            elif extremum.place is not None:
+                text += f", relative width {ranges[name].width:.3g}, best value near x = {self.near(extremum.place)}"
             parts.append(text)
         missing = [name for name in GOALS if name not in found]
         if missing:
@@ -234,11 +233,3 @@ class _Search:
         search = RadiusSearch(self.field, self.quotients, self.domain.inner, deadline)
         radius, how = search.run(witness.distance)
         return self.certificate(Verdict.REFUTED, witness=witness, largest_radius=radius, detail=how)
-
-
-def _range(optimum: Optimum, goal: Goal) -> Range:
-    lower, upper = optimum.lower, optimum.upper
-    if goal.slope:
-        lower = math.nextafter(math.sqrt(lower), 0.0) if lower > 0 else 0.0
-        upper = math.nextafter(math.sqrt(upper), math.inf) if upper > 0 else 0.0
-    return Range(lower if math.isfinite(lower) else None, upper if math.isfinite(upper) else None)
