@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
+
+from ptproof.report.content import Figure, Table
 
 if TYPE_CHECKING:
     import numpy as np
@@ -32,26 +33,7 @@ EXAMPLES = {
 }
 
 
-@dataclass(frozen=True)
-class Drawn:
-    """A figure for the report."""
-
-    name: str
-    caption: str
-    content: bytes
-
-
-@dataclass(frozen=True)
-class Listed:
-    """A table for the report."""
-
-    title: str
-    caption: str
-    head: tuple[str, ...]
-    rows: tuple[tuple[str, ...], ...]
-
-
-def figures() -> Iterator[Drawn]:
+def figures() -> Iterator[Figure]:
     """Every figure of the paper's examples, one after the other."""
     from ptproof.problem import example
     from ptproof.simulation.figures import png
@@ -67,7 +49,7 @@ def figures() -> Iterator[Drawn]:
                 if kind in ("phase-portrait", "order")
                 else (f"See also: `ptproof simulate {name} --plot run.png`")
             )
-            yield Drawn(f"{name}-{kind.removeprefix(f'{name}-')}", f"{title}: {CAPTIONS[kind]}. {how}.", png(figure))
+            yield Figure(f"{name}-{kind.removeprefix(f'{name}-')}", f"{title}: {CAPTIONS[kind]}. {how}.", png(figure))
 
 
 def _certified(problem: Problem) -> dict[str, tuple[np.ndarray, np.ndarray]]:
@@ -83,12 +65,12 @@ def _certified(problem: Problem) -> dict[str, tuple[np.ndarray, np.ndarray]]:
     return {"certified bound of the average": (np.array(curve.times), np.array(curve.distances))}
 
 
-def tables() -> Iterator[Listed]:
+def tables() -> Iterator[Table]:
     """The benchmark as it was stored: speeds belong to a machine and a moment, and a report is the same every time."""
     data = json.loads(Path(__file__).with_name("benchmark.json").read_text(encoding="utf-8"))
     machine = ", ".join(f"{name} {value}" for name, value in data["machine"].items())
     how = f"Measured once on: {machine}. Repeat: `{data['command']} --members {data['members']}`."
-    yield Listed(
+    yield Table(
         "Benchmark: seconds",
         f"The example `vanishing` to T, in τ and reduced coordinates; the best of several runs. One trajectory: a code "
         f"at the loosest tolerance at which its error is below the limit. Many: seconds a trajectory, to "
@@ -101,7 +83,7 @@ def tables() -> Iterator[Listed]:
         ),
     )
     meant = {target["ratio"]: target for target in data["targets"]}
-    yield Listed(
+    yield Table(
         "Benchmark: ratios",
         f"How many times the one takes of the other's time, for the same rows. {how}",
         ("ratio", "value", "target"),

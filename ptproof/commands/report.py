@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from typing import TYPE_CHECKING
 
 import click
@@ -40,7 +41,7 @@ def report(paths: tuple[str, ...], out: str, jobs: int | None, timeout: float, n
         verification = run(derivation, jobs=jobs, timeout=timeout, progress=progress)
     figures, tables, notes = ((), (), ()) if no_figures else _drawn(derivation)
     content = compose(
-        verification, derivation, title=title_of(derivation.claims), notation=notation_of(derivation.claims),
+        verification, derivation, title=title_of(derivation), notation=notation_of(derivation),
         versions=versions(), figures=figures, appendix=tables, notes=notes,
     )  # fmt: skip
     write_report(place, report_files(content))
@@ -58,11 +59,11 @@ def report(paths: tuple[str, ...], out: str, jobs: int | None, timeout: float, n
 
 def _drawn(derivation: Derivation) -> tuple[tuple[Figure, ...], tuple[Table, ...], tuple[str, ...]]:
     """The figures and tables of the derivation; one that fails is named in the report instead of ending it."""
-    from ptproof.report.figures import figures_of, has_figures, tables_of
+    from ptproof.report.content import brought
 
-    if has_figures(derivation.claims):
+    if any(f"{package.__name__}.figures" in sys.modules for package in derivation.packages):
         click.echo("simulating and drawing the figures", err=True)
     try:
-        return figures_of(derivation.claims), tables_of(derivation.claims), ()
+        return tuple(brought(derivation, "figures")), tuple(brought(derivation, "tables")), ()
     except Exception as error:
         return (), (), (f"The figures could not be drawn: {type(error).__name__}: {error}",)

@@ -10,12 +10,9 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
-from typing import TypeVar
 
 from ptproof.errors import InputError
 from ptproof.proof.claim import Claim, Definition
-
-Item = TypeVar("Item", Claim, Definition)
 
 
 @dataclass(frozen=True)
@@ -31,6 +28,7 @@ class Derivation:
     claims: tuple[Claim, ...]
     definitions: tuple[Definition, ...]
     paths: tuple[str, ...]
+    packages: tuple[ModuleType, ...] = ()
 
     def __post_init__(self) -> None:
         seen: dict[str, str] = {}
@@ -79,38 +77,41 @@ def load(paths: Sequence[str | Path] = ()) -> Derivation:
         If a path does not exist, holds no claim, or a module cannot be imported: with file, line and reason.
     """
     chosen = [Path(path) for path in paths] or [shipped()]
-    claims: dict[str, Claim] = {}
-    definitions: dict[str, Definition] = {}
     modules: list[ModuleType] = []
     for path in chosen:
         if not path.exists():
             raise InputError(f"{path}: no such file or folder")
         modules += list(_modules(path.resolve()))
+    found: dict[str, Claim | Definition] = {}
     # A module's own items first: what it imports from another section keeps the place that it has there.
     for own in (True, False):
         for module in modules:
             for value in vars(module).values():
                 for item in value if isinstance(value, list | tuple) else (value,):
                     if isinstance(item, Claim | Definition) and (item.section == _section(module)) is own:
-                        if isinstance(item, Claim):
-                            _add(claims, item)
-                        else:
-                            _add(definitions, item)
+                        _add(found, item, module)
+    claims = [item for item in found.values() if isinstance(item, Claim)]
     if not claims:
         raise InputError(f"{', '.join(map(str, chosen))}: no claims found")
-    missing = {used.id: used for item in claims.values() for used in _ancestors(item) if used.id not in claims}
-    ordered = (*claims.values(), *missing.values())
-    return Derivation(ordered, tuple(definitions.values()), tuple(map(str, chosen)))
+    missing = {used.id: used for item in claims for used in _ancestors(item) if used.id not in found}
+    definitions = (item for item in found.values() if isinstance(item, Definition))
+    packages = dict.fromkeys(module.__name__.partition(".")[0] for module in modules)
+    return Derivation(
+        (*claims, *missing.values()),
+        tuple(definitions),
+        tuple(map(str, chosen)),
+        tuple(sys.modules[p] for p in packages),
+    )
 
 
 def _section(module: ModuleType) -> str:
     return str(getattr(module, "SECTION", ""))
 
 
-def _add(found: dict[str, Item], item: Item) -> None:
+def _add(found: dict[str, Claim | Definition], item: Claim | Definition, module: ModuleType) -> None:
     """Keep an item once, however many modules import it; another one under the same id is an error."""
-    if found.setdefault(item.id, item) is not item:
-        raise InputError(f"the id {item.id!r} stands twice: {found[item.id].title!r} and {item.title!r}")
+    if (first := found.setdefault(item.id, item)) is not item:
+        raise InputError(f"{module.__file__}: the id {item.id!r} stands twice: {first.title!r} and {item.title!r}")
 
 
 def _ancestors(item: Claim) -> Iterable[Claim]:

@@ -1,11 +1,15 @@
-"""What the other packages hand over for the report: figures and tables."""
+"""Figures and tables that a derivation brings along for the report."""
 
 from __future__ import annotations
 
 import re
+import sys
+from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
 
 from ptproof.errors import InputError
+from ptproof.proof.load import Derivation
 
 
 @dataclass(frozen=True)
@@ -65,3 +69,16 @@ class Table:
         for row in self.rows:
             if len(row) != len(self.head):
                 raise InputError(f"table {self.title!r}: a row has {len(row)} cells, the head {len(self.head)}")
+
+
+def brought(derivation: Derivation, kind: str) -> Iterator[Any]:
+    """The ``figures`` or ``tables`` of a derivation, drawn and computed as they are asked for.
+
+    They are what the functions of these names give in a module ``figures`` beside the claims, where there is one.
+    """
+    for package in derivation.packages:
+        module = sys.modules.get(f"{package.__name__}.figures")
+        for item in getattr(module, kind, tuple)():
+            if not isinstance(item, Figure | Table):
+                raise InputError(f"{kind}() gives figures and tables of ptproof.report.content, got {item!r}")
+            yield item

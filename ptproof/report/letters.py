@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
-from types import ModuleType
 from typing import Any
 
-from ptproof.proof.claim import Claim
+from ptproof.errors import InputError
+from ptproof.proof.load import Derivation
 from ptproof.report.formula import latex
 
 
@@ -32,17 +32,22 @@ class Notation:
         object.__setattr__(self, "glyphs", dict(self.glyphs))
 
 
-def notation_of(claims: Iterable[Claim]) -> Notation:
-    """What the ``notation`` modules beside the claims' modules list.
+def notation_of(derivation: Derivation) -> Notation:
+    """What the ``notation`` modules of the derivation list.
 
     Such a module may have ``NOTATION``, a sequence of entries with ``symbol``, ``glyph``, ``unit`` and ``meaning``,
     and ``GLYPHS``, a mapping from symbol to LaTeX; each may be left out.
     """
     letters: dict[Letter, None] = {}
     glyphs: dict[Any, str] = {}
-    for package in packages_of(claims):
+    for package in derivation.packages:
         module = sys.modules.get(f"{package.__name__}.notation")
         entries = list(getattr(module, "NOTATION", ()))
+        for entry in entries:
+            if missing := [name for name in ("symbol", "glyph", "unit", "meaning") if not hasattr(entry, name)]:
+                raise InputError(
+                    f"{getattr(module, '__file__', '')}: {entry!r} in NOTATION has no {', no '.join(missing)}"
+                )
         for entry in entries:
             glyphs.setdefault(entry.symbol, str(entry.glyph))
         for symbol, glyph in dict(getattr(module, "GLYPHS", {})).items():
@@ -53,20 +58,7 @@ def notation_of(claims: Iterable[Claim]) -> Notation:
     return Notation(tuple(letters), glyphs)
 
 
-def title_of(claims: Iterable[Claim]) -> str:
-    """The first line of the documentation of the packages that the claims come from."""
-    titles = [(package.__doc__ or "").strip().split("\n")[0].rstrip(".") for package in packages_of(claims)]
+def title_of(derivation: Derivation) -> str:
+    """The first line of the documentation of the derivation's packages."""
+    titles = [(package.__doc__ or "").strip().split("\n")[0].rstrip(".") for package in derivation.packages]
     return "; ".join(title for title in titles if title)
-
-
-def packages_of(claims: Iterable[Claim]) -> Iterator[ModuleType]:
-    """The packages in which the proofs were written, or the module where it is a single file, each once."""
-    seen: set[str] = set()
-    for item in claims:
-        name = getattr(item.prove, "__module__", None) or ""
-        if not name.startswith("ptproof_derivation_"):  # such as the proof that `cited` makes
-            continue
-        name = name.split(".")[0]
-        if name not in seen and name in sys.modules:
-            seen.add(name)
-            yield sys.modules[name]

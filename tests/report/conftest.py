@@ -111,7 +111,7 @@ def verification(derivation):
 @pytest.fixture(scope="session")
 def report(derivation, verification):
     return compose(
-        verification, derivation, title=title_of(derivation.claims), notation=notation_of(derivation.claims),
+        verification, derivation, title=title_of(derivation), notation=notation_of(derivation),
         versions=[("sympy", "1.14.0")],
         figures=[Figure("path", "The path of x, with $k = 1$.", SVG)],
         appendix=[Table("Times", "Measured once.", ("what", "s"), (("all | of it", "1.5"),))],

@@ -18,14 +18,14 @@ def one(goal):
     return exact(goal)
 '''
 FIGURES = """
-from types import SimpleNamespace
+from ptproof.report.content import Figure, Table
 
 def figures():
     {body}
-    return [SimpleNamespace(name="f", caption="A figure.", content=b"<svg xmlns='http://www.w3.org/2000/svg'/>")]
+    return [Figure(name="f", caption="A figure.", content=b"<svg xmlns='http://www.w3.org/2000/svg'/>")]
 
 def tables():
-    return [SimpleNamespace(title="T", caption="C", head=["a"], rows=[[1]])]
+    return [Table("T", "C", ("a",), (("1",),))]
 """
 
 
@@ -81,3 +81,25 @@ def test_a_file_as_place_is_bad_input_before_anything_runs(folder, tmp_path, cap
 def test_no_derivation_is_bad_input(tmp_path):
     assert status(tmp_path / "gone", "--out", tmp_path / "out") == 2
     assert not (tmp_path / "out").exists()
+
+
+def test_the_derivation_is_known_also_where_engines_are_its_proofs(folder, tmp_path):
+    direct = GOOD[: GOOD.index("@claim")] + 'one = claim("c/one", "A sum", eq(x + x, 2 * x))(exact)\n'
+    (folder / "claims.py").write_text(direct)
+    (folder / "__init__.py").write_text('"""A title."""')
+    (folder / "figures.py").write_text(FIGURES.replace("{body}", "pass"))
+    assert status(folder, "--out", tmp_path / "out") == 0
+    assert "# A title" in (tmp_path / "out" / "report.md").read_text()
+    assert (tmp_path / "out" / "figures" / "f.svg").exists()
+
+
+def test_an_entry_of_the_notation_that_cannot_be_read_is_named_with_its_file(folder, tmp_path, capsys):
+    (folder / "notation.py").write_text("NOTATION = [3]")
+    assert status(folder, "--out", tmp_path / "out") == 2
+    assert "notation.py: 3 in NOTATION has no symbol" in capsys.readouterr().err
+
+
+def test_what_is_no_figure_is_named_and_the_report_is_written(folder, tmp_path, capsys):
+    (folder / "figures.py").write_text("def figures(): return [3]")
+    assert status(folder, "--out", tmp_path / "out") == 1
+    assert "got 3" in capsys.readouterr().err
