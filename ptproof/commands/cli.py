@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import importlib
 import sys
+from difflib import get_close_matches
 from functools import cache
 from importlib import resources
 from typing import Any
@@ -38,9 +39,11 @@ class _Lazy(click.Group):
     def list_commands(self, ctx: click.Context) -> list[str]:
         return list(commands())
 
-    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command:
         if cmd_name not in commands():
-            return None
+            near = get_close_matches(cmd_name, commands(), n=1)
+            meant = f"did you mean {near[0]!r}?" if near else f"there are {', '.join(commands())}"
+            raise click.UsageError(f"No such command {cmd_name!r}; {meant}", ctx)
         command: click.Command = getattr(importlib.import_module(f"{__package__}.{cmd_name}"), cmd_name)
         return command
 

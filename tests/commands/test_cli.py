@@ -101,6 +101,11 @@ def test_bad_input_is_one_sentence_and_status_2(arguments: tuple[str, ...], ptpr
     assert not done.stdout
 
 
+def test_a_command_that_is_not_there_names_the_nearest(ptproof: Run) -> None:
+    assert "did you mean 'verify'?" in ptproof("verfy").stderr
+    assert "there are average, bounds" in ptproof("xyz").stderr
+
+
 def test_help_does_not_import_the_engines() -> None:
     code = "import sys; from ptproof.commands.cli import main\ntry: main(['--help'])\nexcept SystemExit: pass\n"
     code += (
