@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -10,25 +11,43 @@ import sympy as sp
 
 from ptproof.averaging.problem import MU, OMEGA, PHASE, TIME, DitherProblem, FastStates
 from ptproof.errors import InputError
-from ptproof.reading.tables import (
-    RESERVED,
-    build_from,
-    check_known,
-    check_name,
-    check_required,
-    finite,
-    hint,
-    read_file,
-)
+from ptproof.reading.tables import RESERVED, build_from, check_known, declared, finite, hint, listed, read_file
 from ptproof.system import DitherSystem
 
-_TOP = ("system", "expected", "region")
-_SYSTEM = ("state", "parameters", "functions", "bounded", "drift", "period", "dither", "fast", "start", "name")
-_DITHER = ("field", "signal")
-_FAST = ("state", "rate", "quasi_steady_state")
 _FIXED = {symbol.name: symbol for symbol in (TIME, PHASE, OMEGA)}
 _RESERVED = RESERVED | _FIXED.keys()
-_MOST = 512
+
+
+@dataclass(frozen=True)
+class _Dither:
+    field: Any
+    signal: Any
+
+
+@dataclass(frozen=True)
+class _System:
+    state: Any
+    drift: Any
+    period: Any
+    dither: list[_Dither]
+    parameters: Any = None
+    functions: dict[str, Any] = field(default_factory=dict)
+    bounded: Any = None
+    fast: FastStates | None = None
+    start: Any = None
+    name: Any = None
+
+
+@dataclass(frozen=True)
+class _Expected:
+    average: Any
+
+
+@dataclass(frozen=True)
+class _Tables:
+    system: _System
+    expected: _Expected | None = None
+    region: dict[str, Any] = field(default_factory=dict)
 
 
 def load_dither_system(path: str | Path) -> DitherProblem:
@@ -52,13 +71,11 @@ def load_dither_system(path: str | Path) -> DitherProblem:
 
 def read_dither_system(text: str, where: str = "text", name: str | None = None) -> DitherProblem:
     """The dither system that ``text`` (TOML) describes; ``where`` opens the error messages."""
-    return build_from(text, where, lambda data: _problem(data, name or where))
+    return build_from(text, where, _Tables, lambda data: _problem(data, name or where))
 
 
 def _problem(data: Mapping[str, Any], name: str) -> DitherProblem:
-    check_known(data, _TOP, "table")
-    system = _table(data, "system", _SYSTEM, ("state", "drift", "period", "dither"))
-    fast = _table(system, "fast", _FAST, ("state", "rate"), "system.") if "fast" in system else {}
+    system, fast = data["system"], data["system"].get("fast")
     taken: dict[str, Any] = dict(_FIXED)
     state = _symbols(system["state"], "system.state", taken, real=True)
     fast_state = _symbols(fast["state"], "system.fast.state", taken, real=True) if fast else ()
@@ -66,83 +83,32 @@ def _problem(data: Mapping[str, Any], name: str) -> DitherProblem:
     functions = _functions(system.get("functions", {}), taken)
     if fast and MU.name in {*taken, *functions}:
         raise InputError(f"system: {MU.name!r} is the small parameter of the fast states here; choose another name")
-    everything = {**taken, **{key: entry[0] for key, entry in functions.items()}}
+    everything = {**taken, **{key: _of_arity(*entry) for key, entry in functions.items()}}
 
-    def vector(value: Any, where: str, length: int) -> tuple[sp.Expr, ...]:
-        entries = _list(value, where, length)
-        return tuple(finite(entry, f"{where}[{i}]", everything) for i, entry in enumerate(entries, start=1))
+    def vector(table: Mapping[str, Any], key: str, where: str, length: int = len(state)) -> tuple[sp.Expr, ...]:
+        entries = listed(table[key], f"{where}.{key}", length, "states")
+        return tuple(finite(entry, f"{where}.{key}[{i}]", everything) for i, entry in enumerate(entries, start=1))
 
-    dithers = _list(system["dither"], "system.dither")
-    if not dithers:
+    if not system["dither"]:
         raise InputError("system.dither: expected at least one table [[system.dither]]")
     fields, signals = [], []
-    for i, dither in enumerate(dithers, start=1):
+    for i, dither in enumerate(system["dither"], start=1):
         where = f"system.dither[{i}]"
-        if not isinstance(dither, dict):
-            raise InputError(f"{where}: expected a table [[system.dither]]")
-        _keys(dither, _DITHER, _DITHER, where)
-        fields.append(vector(dither["field"], f"{where}.field", len(state)))
+        fields.append(vector(dither, "field", where))
         signals.append(finite(dither["signal"], f"{where}.signal", everything))
-        _no_states(signals[-1], {*state, *fast_state}, f"{where}.signal")
-    _no_phase(fields, "system.dither[{}].field")
-    problem_fast = None
-    if fast:
-        steady = fast.get("quasi_steady_state")
-        problem_fast = FastStates(
-            fast_state,
-            vector(fast["rate"], "system.fast.rate", len(fast_state)),
-            None if steady is None else vector(steady, "system.fast.quasi_steady_state", len(fast_state)),
-        )
-    expected = None
-    if "expected" in data:
-        claimed = _table(data, "expected", ("average",), ("average",))
-        expected = vector(claimed["average"], "expected.average", len(state))
+        _separate(fields[-1], signals[-1], {*state, *fast_state}, where)
+    drift, period = vector(system, "drift", "system"), _period(system["period"], parameters)
+    title = _name(system.get("name", name))
+    rates = {key: vector(fast, key, "system.fast", len(fast_state)) for key in fast or {} if key != "state"}
     return DitherProblem(
-        system=DitherSystem(
-            TIME,
-            PHASE,
-            OMEGA,
-            state,
-            vector(system["drift"], "system.drift", len(state)),
-            tuple(fields),
-            tuple(signals),
-            _period(system["period"], parameters),
-            name=_name(system.get("name", name)),
-        ),
-        fast=problem_fast,
-        functions=tuple(function(*arguments) for function, arguments in (e[1] for e in functions.values())),
-        bounded=_bounded(system.get("bounded", []), {key: entry[1] for key, entry in functions.items()}),
+        system=DitherSystem(TIME, PHASE, OMEGA, state, drift, tuple(fields), tuple(signals), period, name=title),
+        fast=FastStates(fast_state, **rates) if fast else None,
+        functions=tuple(function(*arguments) for function, arguments in functions.values()),
+        bounded=_bounded(system.get("bounded", []), functions),
         region=_region(data.get("region", {}), {symbol.name: symbol for symbol in (*state, *fast_state)}),
-        start=_number(system.get("start", 0), "system.start"),
-        expected=expected,
+        start=finite(system.get("start", 0), "system.start"),
+        expected=vector(data["expected"], "average", "expected") if "expected" in data else None,
     )
-
-
-def _keys(table: Mapping[str, Any], known: Sequence[str], required: Sequence[str], where: str) -> None:
-    check_known(table, known, f"key in [{where}]")
-    check_required(table, required, where)
-
-
-def _table(
-    data: Mapping[str, Any], key: str, known: Sequence[str], required: Sequence[str], above: str = ""
-) -> Mapping[str, Any]:
-    if key not in data:
-        raise InputError(f"the table [{above}{key}] is missing")
-    table = data[key]
-    if not isinstance(table, dict):
-        raise InputError(f"{above}{key}: expected a table [{above}{key}]")
-    _keys(table, known, required, f"{above}{key}")
-    return table
-
-
-def _list(value: Any, where: str, length: int | None = None) -> list[Any]:
-    if not isinstance(value, list):
-        raise InputError(f"{where}: expected a list, got {value!r}")
-    if len(value) > _MOST:
-        raise InputError(f"{where}: more than {_MOST} entries")
-    if length is not None and len(value) != length:
-        raise InputError(f"{where}: {len(value)} entries for {length} states; give one for each")
-    return value
 
 
 def _name(value: Any) -> str:
@@ -151,100 +117,77 @@ def _name(value: Any) -> str:
     return value
 
 
-def _identifier(name: Any, where: str, taken: Mapping[str, Any]) -> str:
-    name = check_name(name, where, _RESERVED)
-    if name in taken:
-        raise InputError(f"{where}: {name!r} is declared twice")
-    return name
-
-
 def _symbols(
     value: Any, where: str, taken: dict[str, Any], empty: bool = False, **assumptions: bool
 ) -> tuple[sp.Symbol, ...]:
-    names = _list(value, where)
+    names = declared(listed(value, where), where, _RESERVED, taken)
     if not names and not empty:
         raise InputError(f"{where}: expected at least one name")
-    for name in names:
-        known = _identifier(name, where, taken)
-        taken[known] = sp.Symbol(known, **assumptions)
-    return tuple(taken[name] for name in names)
+    symbols = {name: sp.Symbol(name, **assumptions) for name in names}
+    taken |= symbols
+    return tuple(symbols.values())
 
 
-def _functions(value: Any, taken: dict[str, Any]) -> dict[str, tuple[Callable[..., Any], Any]]:
-    """Name → (what the parser calls, (SymPy function, declared arguments))."""
-    if not isinstance(value, dict):
-        raise InputError('system.functions: expected a table such as { F = ["x1", "x2"] }')
-    result: dict[str, tuple[Callable[..., Any], Any]] = {}
+def _functions(value: Mapping[str, Any], taken: Mapping[str, Any]) -> dict[str, tuple[Any, tuple[sp.Symbol, ...]]]:
+    """Name → (SymPy function, declared arguments)."""
+    result = {}
+    known = [key for key in taken if key not in (PHASE.name, OMEGA.name)]
     for name, arguments in value.items():
         where = f"system.functions.{name}"
-        _identifier(name, where, {**taken, **result})
-        symbols = []
-        for argument in _list(arguments, where):
-            if not isinstance(argument, str) or argument not in taken or argument in (PHASE.name, OMEGA.name):
-                known = [key for key in taken if key not in (PHASE.name, OMEGA.name)]
+        declared([name], where, _RESERVED, taken)
+        for argument in listed(arguments, where):
+            if argument not in known:
                 raise InputError(f"{where}: {argument!r} is not a state{hint(str(argument), known)}")
-            symbols.append(taken[argument])
-        if not symbols:
+        if not arguments:
             raise InputError(f"{where}: a function needs at least one argument; a constant is a parameter")
-        function = sp.Function(name, real=True)
-        result[name] = (_of_arity(function, len(symbols)), (function, tuple(symbols)))
+        result[name] = (sp.Function(name, real=True), tuple(taken[argument] for argument in arguments))
     return result
 
 
 def _bounded(value: Any, functions: Mapping[str, Any]) -> tuple[Any, ...]:
-    result = []
-    for name in _list(value, "system.bounded"):
+    for name in listed(value, "system.bounded"):
         if not isinstance(name, str) or name not in functions:
-            near = hint(str(name), tuple(functions))
+            near = hint(str(name), functions)
             raise InputError(f"system.bounded: {name!r} is not declared in system.functions{near}")
-        function, arguments = functions[name]
-        result.append(function(*arguments))
-    return tuple(result)
+    return tuple(functions[name][0](*functions[name][1]) for name in value)
 
 
-def _of_arity(function: Any, count: int) -> Callable[..., Any]:
+def _of_arity(function: Any, declared_arguments: Sequence[sp.Symbol]) -> Callable[..., Any]:
     def call(*arguments: sp.Expr) -> sp.Expr:
-        if len(arguments) != count:
+        if len(arguments) != len(declared_arguments):
             raise TypeError
         return function(*arguments)
 
     return call
 
 
-def _number(value: Any, where: str) -> sp.Expr:
-    return finite(value, where)
-
-
 def _period(value: Any, parameters: Sequence[sp.Symbol]) -> sp.Expr:
-    period = finite(value, "system.period", {symbol.name: symbol for symbol in parameters})
+    period = finite(value, "system.period", parameters)
     if period.is_number and period.is_positive is not True:
         raise InputError(f"system.period: {period} is not positive")
     return period
 
 
-def _region(value: Any, states: Mapping[str, sp.Symbol]) -> dict[sp.Symbol, tuple[sp.Expr, sp.Expr]]:
-    if not isinstance(value, dict):
-        raise InputError("region: expected a table [region]")
+def _region(value: Mapping[str, Any], states: Mapping[str, sp.Symbol]) -> dict[sp.Symbol, tuple[sp.Expr, sp.Expr]]:
     check_known(value, tuple(states), "state in [region]")
     result = {}
     for name, interval in value.items():
         where = f"region.{name}"
-        if len(_list(interval, where)) != 2:
+        if len(listed(interval, where)) != 2:
             raise InputError(f"{where}: expected two ends, such as [-1, 1]")
-        low, high = (_number(end, where) for end in interval)
+        low, high = (finite(end, where) for end in interval)
         if (high - low).is_positive is not True:
             raise InputError(f"{where}: the interval [{low}, {high}] is empty")
         result[states[name]] = (low, high)
     return result
 
 
-def _no_states(signal: sp.Expr, states: set[sp.Symbol], where: str) -> None:
+def _separate(entries: Sequence[sp.Expr], signal: sp.Expr, states: set[sp.Symbol], where: str) -> None:
+    """A signal that depends on states, or a field that depends on the phase, is refused."""
     if found := signal.free_symbols & states:
         names = ", ".join(sorted(symbol.name for symbol in found))
-        raise InputError(f"{where}: a signal depends on theta, tau and parameters only; put {names} into the field")
-
-
-def _no_phase(fields: Sequence[Sequence[sp.Expr]], where: str) -> None:
-    for i, entries in enumerate(fields, start=1):
-        if any(PHASE in entry.free_symbols for entry in entries):
-            raise InputError(f"{where.format(i)}: a field does not depend on theta; put that into the signal")
+        raise InputError(
+            f"{where}.signal: a signal depends on theta, tau and parameters only; put {names} into the field"
+        )
+    if any(PHASE in entry.free_symbols for entry in entries):
+        raise InputError(f"{where}.field: a field does not depend on theta; put that into the signal")

@@ -110,7 +110,7 @@ WRONG = {
     "E not square": (('["0", "-1"]]', '["0"]]'), r"drift\.E\[1\]: 1 entries for 2"),
     "unknown kind": (('"gradient"', '"gradiant"'), r"drift\.kind: .*did you mean 'gradient'"),
     "E for bounded": (('"gradient"', '"bounded"'), r"drift\.f is missing"),
-    "variable twice": (('["x1", "x2"]', '["x1", "x1"]'), r"field\.variables: a name stands there twice"),
+    "variable twice": (('["x1", "x2"]', '["x1", "x1"]'), r"field\.variables: 'x1' is declared twice"),
     "variable named t": (('["x1", "x2"]', '["t", "x2"]'), r"'t' has a meaning of its own"),
     "unknown name in field": (("x1**2", "y**2"), r"field\.expression: unknown name 'y'"),
     "code in field": (("x1**2", "__import__('os')"), r"field\.expression: "),
