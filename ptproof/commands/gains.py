@@ -10,8 +10,8 @@ import click
 if TYPE_CHECKING:
     import sympy as sp
 
-    from ptproof.gains import Gains
-    from ptproof.gains.study import Study
+    from ptproof.gains.answer import Gains
+    from ptproof.gains.problem import Study
     from ptproof.problem import Problem
     from ptproof.problem.field import FieldBounds
 
@@ -123,7 +123,7 @@ def _from_numbers(values: dict[str, Any], picture: str | None, as_json: bool) ->
 
 
 def _from_problem(name: str, radius: Any, values: dict[str, Any], picture: str | None, as_json: bool) -> int:
-    from ptproof.gains.study import study
+    from ptproof.gains.problem import study
     from ptproof.problem import EXAMPLES, example, load
     from ptproof.simulation.worst import worst_distance
 

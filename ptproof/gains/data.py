@@ -8,11 +8,12 @@ from functools import cached_property
 import sympy as sp
 
 from ptproof.errors import InputError
+from ptproof.gains.horizon import Horizon, unit_clock
 from ptproof.gains.numbers import NotApplicable, short, sign
 from ptproof.problem.field import FieldBounds
 
 _LARGEST_KAPPA = 1000
-_POSITIVE = ("k", "T", "nu_min", "V0", "x0_norm", "residual", "omega", "mu")
+_POSITIVE = ("k", "T", "nu_min", "V0", "x0_norm", "residual", "omega", "mu", "exponent")
 
 
 @dataclass(frozen=True)
@@ -24,7 +25,9 @@ class GainData:
     bounds
         a₁, a₂, b₁, b₂ and κ of the field (eq:assumption2, eq:assumption3).
     k, T, nu_min
-        Gain, prescribed time, and ν_min ∈ (0, 1] at which the gain 1/ν² is clipped (eq:kt).
+        Gain, prescribed time, and ν_min ∈ (0, 1] from which on the clock's rate is constant (eq:kt).
+    clock, exponent
+        The clock whose rate is the seeker's time-varying gain, by name, and its m where that is ``"power"``.
     drift_matrix, drift_norm
         E (n × n) of a drift E∇F, and its largest singular value ‖E‖; the norm follows from the matrix.
     drift_bound
@@ -42,6 +45,12 @@ class GainData:
     ------
     InputError
         For numbers that contradict each other or the paper's assumptions, with the reason.
+
+    Examples
+    --------
+    >>> data = GainData(FieldBounds(1, 2, 1, 1, 2), k=1, T=1, nu_min=sp.Rational(1, 10), clock="power", exponent=2)
+    >>> data.horizon.cap, data.horizon.stretched_end
+    (1000, 299/2)
     """
 
     bounds: FieldBounds
@@ -58,6 +67,8 @@ class GainData:
     residual: sp.Expr | None = None
     omega: sp.Expr | None = None
     mu: sp.Expr | None = None
+    clock: str = "paper"
+    exponent: sp.Expr | None = None
 
     def __post_init__(self) -> None:
         if not isinstance(self.bounds.kappa, sp.Integer):
@@ -74,6 +85,7 @@ class GainData:
             if name in ("drift_norm", "drift_bound") and sign(value) < 0:
                 raise InputError(f"{name} must not be negative, got {short(value)}")
             object.__setattr__(self, name, value)
+        unit_clock(self.clock, self.exponent)  # which refuses what is no clock
         if self.nu_min is not None and sign(self.nu_min - 1) > 0:
             raise InputError(f"nu_min must lie in (0, 1], got {short(self.nu_min)}")
         if self.tau_star is not None and sign(self.tau_star - self.t0) <= 0:
@@ -101,6 +113,17 @@ class GainData:
         if missing := [name for name in names if getattr(self, name) is None]:
             raise NotApplicable(f"needs {' and '.join(missing)}")
         return tuple(getattr(self, name) for name in names)
+
+    @cached_property
+    def horizon(self) -> Horizon:
+        """The clock through the prescribed time, with its cap where ν_min is known."""
+        (T,) = self.known("T")
+        return Horizon(T, self.nu_min, unit_clock(self.clock, self.exponent))
+
+    @property
+    def unit(self) -> Horizon:
+        """The same clock through the prescribed time 1; its rates are those of any other."""
+        return Horizon(sp.S.One, self.nu_min, unit_clock(self.clock, self.exponent))
 
     @property
     def impossible(self) -> str | None:

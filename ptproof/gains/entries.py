@@ -8,9 +8,8 @@ from types import MappingProxyType
 import sympy as sp
 
 from ptproof.gains import nonvanishing, vanishing
-from ptproof.gains.clipped import Horizon
 from ptproof.gains.data import GainData
-from ptproof.gains.numbers import NotApplicable, sign
+from ptproof.gains.numbers import NotApplicable, sign, times_exponential
 
 
 def _along_gradient(data: GainData) -> None:
@@ -30,6 +29,11 @@ def _higher(data: GainData) -> None:
         raise NotApplicable("for kappa = 1 the bound is finite for every V0 and T")
 
 
+def _printed(data: GainData, chain: vanishing.Chain) -> None:
+    if chain == "printed":
+        data.unit.only_printed()
+
+
 def _k_min_printed(data: GainData) -> sp.Expr:
     _along_gradient(data)
     return vanishing.smallest_gain_printed(data.bounds, data.norm)
@@ -42,6 +46,7 @@ def _k_min(data: GainData) -> sp.Expr:
 
 def _overshoot(data: GainData) -> sp.Expr:
     _quadratic(data)
+    data.unit.only_printed()
     if data.norm == 0:
         return sp.sqrt(data.bounds.a1 / data.bounds.a2)
     (T,) = data.known("T")
@@ -54,10 +59,10 @@ def _overshoot_split(data: GainData) -> sp.Expr:
     factor = (bounds.a1 / bounds.a2) ** (1 / (2 * bounds.kappa))
     if sign(data.push) <= 0:
         return factor
-    k, T = data.known("k", "T")
-    top = vanishing.growth(data, Horizon(T), Horizon(T).turning(data.push, k), "split")
+    _, T = data.known("k", "T")
+    top = T * (vanishing.threshold_factor(data, "split") or sp.S.Zero)
     if bounds.sigma == 0:
-        return factor * sp.exp(top / 2)
+        return times_exponential(factor, top / 2)
     left = 1 - bounds.sigma * data.start_value**bounds.sigma * top
     if sign(left) <= 0:
         raise NotApplicable("V0 is not below the critical value: the bound escapes")
@@ -72,6 +77,7 @@ def _rate(data: GainData) -> sp.Expr:
 
 def _at_tau_star(data: GainData) -> sp.Expr:
     _higher(data)
+    data.unit.only_printed()
     _, _, tau_star = data.known("k", "T", "tau_star")
     value = vanishing.critical_value_at(data, tau_star - data.t0)
     if value is None:
@@ -82,6 +88,7 @@ def _at_tau_star(data: GainData) -> sp.Expr:
 def _V0_threshold(chain: vanishing.Chain) -> Callable[[GainData], sp.Expr]:
     def compute(data: GainData) -> sp.Expr:
         _higher(data)
+        _printed(data, chain)
         value = vanishing.critical_value(data, chain)
         if value is None:
             raise NotApplicable("no threshold: the bound decreases from the start, for every V0")
@@ -93,6 +100,7 @@ def _V0_threshold(chain: vanishing.Chain) -> Callable[[GainData], sp.Expr]:
 def _T_threshold(chain: vanishing.Chain) -> Callable[[GainData], sp.Expr]:
     def compute(data: GainData) -> sp.Expr:
         _higher(data)
+        _printed(data, chain)
         value = vanishing.critical_horizon(data, chain, data.start_value)
         if value is None:
             raise NotApplicable("no threshold: the guarantee holds for every T")
@@ -104,6 +112,7 @@ def _T_threshold(chain: vanishing.Chain) -> Callable[[GainData], sp.Expr]:
 def _escape(chain: vanishing.Chain) -> Callable[[GainData], sp.Expr]:
     def compute(data: GainData) -> sp.Expr:
         _higher(data)
+        data.unit.only_printed()
         initial = data.start_value
         threshold = vanishing.critical_value(data, chain)
         if threshold is None or sign(threshold - initial) > 0:
@@ -125,14 +134,18 @@ def _gamma(data: GainData) -> sp.Expr:
 
 def _ultimate(data: GainData) -> sp.Expr:
     k, d = data.known("k", "drift_bound")
-    gain = sp.S.One if data.nu_min is None else 1 / data.nu_min**2
-    return nonvanishing.ultimate_bound(data.bounds, k, d, gain)
+    return nonvanishing.ultimate_bound(data.bounds, k, d, _last_gain(data))
 
 
 def _ultimate_printed(data: GainData) -> sp.Expr:
     k, d = data.known("k", "drift_bound")
-    nu = sp.S.One if data.nu_min is None else data.nu_min
-    return nonvanishing.input_gain_printed(data.bounds, k, nonvanishing.input_factor(data.bounds) * d * nu**2)
+    return nonvanishing.input_gain_printed(
+        data.bounds, k, nonvanishing.input_factor(data.bounds) * d / _last_gain(data)
+    )
+
+
+def _last_gain(data: GainData) -> sp.Expr:
+    return sp.S.One if data.nu_min is None else data.unit.cap
 
 
 def _exact_bound(data: GainData) -> sp.Expr:
@@ -140,48 +153,49 @@ def _exact_bound(data: GainData) -> sp.Expr:
 
 
 def _tau_end(data: GainData) -> sp.Expr:
-    T, nu_min = data.known("T", "nu_min")
-    return data.t0 + Horizon(T, nu_min).stretched_end
+    data.known("T", "nu_min")
+    return data.t0 + data.horizon.stretched_end
 
 
 def _k_effective(data: GainData) -> sp.Expr:
-    k, nu_min = data.known("k", "nu_min")
-    return k / nu_min**2
+    k, _ = data.known("k", "nu_min")
+    return k * data.unit.cap
 
 
 def _k_min_after_clip(data: GainData) -> sp.Expr:
     _along_gradient(data)
-    (nu_min,) = data.known("nu_min")
-    return vanishing.smallest_gain(data.push) * nu_min**2
+    data.known("nu_min")
+    return vanishing.smallest_gain(data.push) / data.unit.cap
 
 
 def _u1_peak(data: GainData) -> sp.Expr:
-    omega, nu_min = data.known("omega", "nu_min")
-    return sp.sqrt(omega) / nu_min**2
+    omega, _ = data.known("omega", "nu_min")
+    return sp.sqrt(omega) * data.unit.cap
 
 
 def _u2_peak(data: GainData) -> sp.Expr:
-    """(ω + kG(√ω + ‖f‖))/ν_min², G = b₂‖x₀ − x*‖^(2κ−1): while the vehicle is no farther out than at the start.
+    """(ω + kG(√ω + ‖f‖))K, G = b₂‖x₀ − x*‖^(2κ−1), K the last gain: no farther out than at the start.
 
     With e = y − z, de/dτ = ∇F·dx/dτ − e/μ and |∇F·dx/dτ| ≤ G(√ω + ‖f‖), so |e|/μ stays below that when z starts
     at the measured field.
     """
-    omega, nu_min, k, distance = data.known("omega", "nu_min", "k", "x0_norm")
+    omega, _, k, distance = data.known("omega", "nu_min", "k", "x0_norm")
     slope = data.bounds.b2 * distance ** (2 * data.bounds.kappa - 1)
     drift = data.norm * slope if data.drift_bound is None else data.drift_bound
-    return (omega + k * slope * (sp.sqrt(omega) + drift)) / nu_min**2
+    return (omega + k * slope * (sp.sqrt(omega) + drift)) * data.unit.cap
 
 
 def _residual(chain: vanishing.Chain) -> Callable[[GainData], sp.Expr]:
     def compute(data: GainData) -> sp.Expr:
-        _, T, nu_min = data.known("k", "T", "nu_min")
+        _, T, _ = data.known("k", "T", "nu_min")
+        _printed(data, chain)
         if data.drift_bound is not None:
             if sign(data.norm) != 0:
                 raise NotApplicable("both a gradient drift and a bounded one were given; give one")
             if chain == "printed":
-                return nonvanishing.printed_distance_bound(data, Horizon(T, nu_min))
-            return nonvanishing.distance_bound(data, Horizon(T, nu_min), T)
-        value = vanishing.distance_bound(data, Horizon(T, nu_min), T, chain)
+                return nonvanishing.printed_distance_bound(data)
+            return nonvanishing.distance_bound(data, T)
+        value = vanishing.distance_bound(data, T, chain)
         if value is None:
             raise NotApplicable("the bound escapes before t0 + T: V0 is too large for this T, k and drift")
         return value

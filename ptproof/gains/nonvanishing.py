@@ -1,8 +1,9 @@
 """Bounds for a drift that is only known to be bounded, ‖f‖ ≤ d.
 
-With U = V^(1/2κ) and r = 2κ − 1 the averaged system satisfies dU/dτ ≤ −h₁U^r + h₂dν² (eq:Ux_inequality), and
+With U = V^(1/2κ) and r = 2κ − 1 the averaged system satisfies dU/dτ ≤ −h₁U^r + h₂dw with w = dt/dτ, which is ν² for
+the paper's clock (eq:Ux_inequality), and
 a₂^(1/2κ)‖x̄ − x*‖ ≤ U ≤ a₁^(1/2κ)‖x̄ − x*‖ (eq:Ux_bounds). By direct comparison (see
-:class:`ptproof.comparison.DampedBound`) U ≤ w + (ζ/h₁)^(1/r) for ζ = sup h₂dν², so that
+:class:`ptproof.comparison.DampedBound`) U ≤ w + (ζ/h₁)^(1/r) for ζ = sup h₂dw, so that
 ‖x̄ − x*‖ ≤ β + a₂^(−1/2κ)(ζ/h₁)^(1/r), which is at most β + γ with the printed γ.
 """
 
@@ -13,7 +14,6 @@ from functools import lru_cache
 import sympy as sp
 
 from ptproof.comparison import DampedBound, fading_input
-from ptproof.gains.clipped import Horizon
 from ptproof.gains.data import GainData
 from ptproof.gains.numbers import NotApplicable, sign
 from ptproof.problem.field import FieldBounds
@@ -66,10 +66,12 @@ def ultimate_bound(bounds: FieldBounds, k: sp.Expr, drift_bound: sp.Expr, gain: 
 def exact_bound(data: GainData) -> sp.Expr:
     """For κ = 1 the exact solution of the scalar inequality as an expression in τ, without a clip: it bounds √V.
 
-    Raises :class:`NotApplicable` for κ ≥ 2, and where k, T, the drift's bound or the start is unknown.
+    Raises :class:`NotApplicable` for κ ≥ 2, another clock than the paper's, and where k, T, the drift's bound or the
+    start is unknown.
     """
     bounds = data.bounds
     k, T, d = data.known("k", "T", "drift_bound")
+    data.horizon.only_printed()
     if bounds.kappa != 1:
         raise NotApplicable("the scalar inequality is solved in closed form for kappa = 1 only")
     _without_logarithms(bounds.a1, bounds.a2, bounds.b1, bounds.b2, k, T, d, data.start_value, data.t0)
@@ -80,28 +82,28 @@ def exact_bound(data: GainData) -> sp.Expr:
     return _fading_in_letters().subs(values, simultaneous=True)
 
 
-def distance_bound(data: GainData, horizon: Horizon, elapsed: sp.Expr) -> sp.Expr:
+def distance_bound(data: GainData, elapsed: sp.Expr) -> sp.Expr:
     """How far x̄ can be from the source at the elapsed time e, under a clipped gain or before T without one.
 
-    For κ = 1 the scalar inequality is solved exactly; for κ ≥ 2 it is solved in two phases before the corner
-    (halves of the stretched time, as in eq:finale) and with a constant input after it.
+    For κ = 1 and the paper's clock the scalar inequality is solved exactly; otherwise it is solved in two phases
+    before the corner (halves of the stretched time, as in eq:finale). After the corner the input is constant.
     """
-    bounds, initial, (k, T, d) = data.bounds, data.start_value, data.known("k", "T", "drift_bound")
+    k, _, d = data.known("k", "T", "drift_bound")
+    bounds, horizon, initial = data.bounds, data.horizon, data.start_value
     root = 1 / (2 * bounds.kappa)
     level = input_factor(bounds) * d
     _without_logarithms(elapsed, horizon.T, horizon.nu_min or sp.S.One)
     after = horizon.nu_min is not None and sign(elapsed - horizon.corner) > 0
     first = horizon.stretched(horizon.corner if after else elapsed)
-    if bounds.kappa == 1:
+    if bounds.kappa == 1 and horizon.is_printed:
         early = exact_bound(data).subs(STRETCHED, data.t0 + first)
     else:
         half = first / 2
         middle = _undriven(bounds, k, initial**root, half) + _rest(bounds, k, level)
-        early = _undriven(bounds, k, middle, half) + _rest(bounds, k, level / (1 + half / T) ** 2)
+        early = _undriven(bounds, k, middle, half) + _rest(bounds, k, level * horizon.weight(half))
     if not after:
         return bounds.a2 ** (-root) * early
-    assert horizon.nu_min is not None
-    remaining, late = horizon.stretched(elapsed) - first, level * horizon.nu_min**2
+    remaining, late = horizon.stretched(elapsed) - first, level / horizon.cap
     if bounds.kappa == 1:
         fade = sp.exp(-damping(bounds, k) * remaining)
         final = early * fade + late / damping(bounds, k) * (1 - fade)
@@ -110,19 +112,20 @@ def distance_bound(data: GainData, horizon: Horizon, elapsed: sp.Expr) -> sp.Exp
     return bounds.a2 ** (-root) * final
 
 
-def printed_distance_bound(data: GainData, horizon: Horizon) -> sp.Expr:
+def printed_distance_bound(data: GainData) -> sp.Expr:
     """eq:finale at t₀ + T under a clipped gain, with the explicit β and the printed γ.
 
     The second half of the stretched time begins after the corner, so that ζ is at most h₂dν_min² there.
     """
-    bounds, (k, d, nu_min) = data.bounds, data.known("k", "drift_bound", "nu_min")
+    bounds, horizon, (k, d, nu_min) = data.bounds, data.horizon, data.known("k", "drift_bound", "nu_min")
+    horizon.only_printed()
     _without_logarithms(k, d, nu_min, horizon.T, data.start_value)
     distance = data.x0_norm
     if distance is None:
         distance = (data.start_value / bounds.a2) ** (1 / (2 * bounds.kappa))
     half, level = horizon.stretched_end / 2, input_factor(bounds) * d
     middle = transient(bounds, k, distance, half) + input_gain_printed(bounds, k, level)
-    return transient(bounds, k, middle, half) + input_gain_printed(bounds, k, level * nu_min**2)
+    return transient(bounds, k, middle, half) + input_gain_printed(bounds, k, level / horizon.cap)
 
 
 def _without_logarithms(*numbers: sp.Expr) -> None:

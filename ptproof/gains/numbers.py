@@ -8,9 +8,11 @@ from typing import Any
 
 import sympy as sp
 
-from ptproof.balls.ball import separated
+from ptproof.balls.ball import enclose, precision, separated
 from ptproof.errors import InputError
-from ptproof.proof.algebra import NotAlgebraic, is_zero
+from ptproof.proof.signs import sign_of
+
+_BITS = (64, 256, 1024)
 
 
 class NotApplicable(InputError):
@@ -18,35 +20,45 @@ class NotApplicable(InputError):
 
 
 def sign(expression: sp.Expr) -> int:
-    """The exact sign (−1, 0, 1) of a number, by disjoint enclosures or by exact algebra.
+    """The exact sign (−1, 0, 1) of a number; see :func:`ptproof.proof.signs.sign_of`.
 
     Raises
     ------
     NotApplicable
-        If neither decides: two numbers that agree to hundreds of digits and are not seen to be equal.
+        If it is not decided: two numbers that agree to hundreds of digits and are not seen to be equal.
 
     Examples
     --------
-    >>> sign(sp.pi - sp.Rational(22, 7)), sign(sp.sqrt(8) - 2 * sp.sqrt(2))
-    (-1, 0)
+    >>> sign(sp.pi - sp.Rational(22, 7)), sign(sp.sqrt(8) - 2 * sp.sqrt(2)), sign(sp.LambertW(1) - sp.Rational(1, 2))
+    (-1, 0, 1)
     """
     expression = sp.sympify(expression)
-    if expression.is_Rational:
-        return int(sp.sign(expression))
-    if expression.has(sp.CRootOf):  # isolated exactly by SymPy, to the digits asked for
-        near = expression.evalf(50)
-        if abs(near) > sp.Float("1e-40"):
-            return 1 if near > 0 else -1
-    else:
-        found = separated(expression, 0)
+    found = _sign_with_lambert(expression) if expression.has(sp.LambertW) else sign_of(expression)
+    if found is None:
+        raise NotApplicable(f"cannot decide the sign of {short(expression)}; change the data a little")
+    return found
+
+
+def _sign_with_lambert(expression: sp.Expr) -> int | None:
+    """The sign where enclosures show it, each value W(c), c ≥ 0, as a ball of its own."""
+    names = {node: sp.Dummy("W", real=True) for node in expression.atoms(sp.LambertW)}
+    for bits in _BITS:
+        with precision(bits):
+            values = {name: enclose(node.args[0], bits=bits).lambertw() for node, name in names.items()}
+        found = separated(expression.xreplace(names), 0, values, bits_ladder=(bits,))
         if found is not None:
             return found
-    try:
-        if sp.expand(expression) == 0 or is_zero(expression):
-            return 0
-    except NotAlgebraic:
-        pass
-    raise NotApplicable(f"cannot decide the sign of {short(expression)}; change the data a little")
+    return None
+
+
+def times_exponential(factor: sp.Expr, exponent: sp.Expr) -> sp.Expr:
+    """``factor * exp(exponent)``, with logarithms in the exponent left there.
+
+    SymPy would turn them into powers, of hundreds of digits where the coefficients are not simple.
+    """
+    if exponent.has(sp.log):
+        return sp.Mul(factor, sp.exp(exponent, evaluate=False), evaluate=False)
+    return factor * sp.exp(exponent)
 
 
 def short(expression: Any) -> str:

@@ -11,7 +11,6 @@ import sympy as sp
 
 from ptproof.errors import InputError
 from ptproof.gains import nonvanishing, vanishing
-from ptproof.gains.clipped import Horizon
 from ptproof.gains.data import GainData
 from ptproof.gains.numbers import NotApplicable
 from ptproof.gains.tight import BoundCurve
@@ -75,16 +74,16 @@ def _against_time(axes: Any, data: GainData | None, curve: BoundCurve | None, si
 def closed_form_curves(data: GainData, points: int = 40) -> dict[str, list[tuple[float, float]]]:
     """``printed`` and ``closed form`` bounds of the distance as (t, value), where they apply."""
     (T,) = data.known("T")
-    horizon, curves = Horizon(T, data.nu_min), {}
+    curves = {}
     for name, chain in (("printed", "printed"), ("closed form", "split")):
         values = []
         for i in range(points + 1):
             e = T * sp.Rational(i, points)
             try:
                 if data.drift_bound is not None:
-                    bound = nonvanishing.distance_bound(data, horizon, e) if chain == "split" else None
+                    bound = nonvanishing.distance_bound(data, e) if chain == "split" else None
                 else:
-                    bound = vanishing.distance_bound(data, horizon, e, "printed" if chain == "printed" else "split")
+                    bound = vanishing.distance_bound(data, e, "printed" if chain == "printed" else "split")
             except NotApplicable:
                 bound = None
             if bound is not None:

@@ -17,7 +17,7 @@ from itertools import pairwise
 import sympy as sp
 
 from ptproof.errors import InputError
-from ptproof.gains.clipped import Horizon
+from ptproof.gains.horizon import horizon_of
 from ptproof.gains.numbers import NotApplicable, short, sign
 from ptproof.gains.upper import UpperSolution, time_grid
 from ptproof.problem import Problem
@@ -79,10 +79,17 @@ def tight_bound(
     ------
     InputError
         If the source is not a critical point, the distance is not positive, or ``until`` does not fit.
+
+    Examples
+    --------
+    >>> from ptproof.problem import example
+    >>> curve = tight_bound(example("saturated"), steps=20)
+    >>> curve.evidence.verdict, round(curve.final, 4)
+    (<Verdict.PROVED: 'proved'>, 0.0562)
     """
     started = time.perf_counter()
     tuning = problem.tuning
-    horizon = Horizon(tuning.T, tuning.nu_min)
+    horizon = horizon_of(tuning)
     end = tuning.T if until is None else sp.sympify(until)
     if sign(end) <= 0 or sign(tuning.T - end) < 0 or (tuning.nu_min is None and sign(tuning.T - end) == 0):
         raise InputError(f"until must lie in (0, T], and below T where nothing clips the gain; got {short(end)}")

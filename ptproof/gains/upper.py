@@ -4,17 +4,19 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 import sympy as sp
 
 from ptproof.balls.shells import down, up
-from ptproof.gains.clipped import Horizon
 from ptproof.gains.envelope import BITS, RadialEnvelope
+from ptproof.gains.horizon import Horizon
 from ptproof.gains.numbers import sign
 from ptproof.problem import Problem
 from ptproof.problem.model import TIME
 
+_FALL = 1.25  # of w = dt/dτ over one step, at most
 _GROWTH = 1000.0  # a bound that exceeds this many times the initial distance is given up
 
 
@@ -28,10 +30,9 @@ class Node:
 
 
 def time_grid(horizon: Horizon, end: sp.Expr, steps: int) -> list[Node]:
-    """Uniform in the stretched time on both sides of the corner, which is a node."""
-    T, nu = horizon.T, horizon.nu_min
+    """Uniform in the stretched time on both sides of the corner, which is a node, and finer where w falls fast."""
     final = horizon.stretched(end)
-    corner = None if nu is None or sign(end - horizon.corner) <= 0 else horizon.stretched_corner
+    corner = None if horizon.nu_min is None or sign(end - horizon.corner) <= 0 else horizon.stretched_corner
     if corner is None or sign(corner) == 0:
         marks = [final * sp.Rational(i, steps) for i in range(steps + 1)]
     else:
@@ -39,13 +40,17 @@ def time_grid(horizon: Horizon, end: sp.Expr, steps: int) -> list[Node]:
         late = max(1, steps - early)
         marks = [corner * sp.Rational(i, early) for i in range(early + 1)]
         marks += [corner + (final - corner) * sp.Rational(i, late) for i in range(1, late + 1)]
-    nodes = []
-    for s in marks:
-        if nu is not None and sign(s - horizon.stretched_corner) >= 0:
-            nodes.append(Node(s, horizon.corner + (s - horizon.stretched_corner) * nu**2, nu**2))
-        else:
-            nodes.append(Node(s, s / (1 + s / T), 1 / (1 + s / T) ** 2))
-    return nodes
+    nodes = [Node(s, horizon.elapsed(s), horizon.weight(s)) for s in marks]
+    return [nodes[0], *(node for pair in pairwise(nodes) for node in _refined(horizon, *pair))]
+
+
+def _refined(horizon: Horizon, left: Node, right: Node) -> list[Node]:
+    """The nodes after ``left`` up to ``right``: halves, until w falls by no more than a fifth from one to the next."""
+    if float(left.weight) <= _FALL * float(right.weight):
+        return [right]
+    s = (left.stretched + right.stretched) / 2
+    middle = Node(s, horizon.elapsed(s), horizon.weight(s))
+    return [*_refined(horizon, left, middle), *_refined(horizon, middle, right)]
 
 
 class UpperSolution:

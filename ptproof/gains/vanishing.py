@@ -1,7 +1,7 @@
 """Gain conditions and bounds for a drift along the gradient, f = E∇F, and for no drift.
 
-Along the averaged system dx/dτ = ν²E∇F + (k/2)∇F with V = F(x*) − F, exactly
-dV/dτ = −∇Fᵀ(ν²E + k/2)∇F ≤ (mν² − k/2)‖∇F‖², where m = ‖E‖, or the sharper −λ_min((E + Eᵀ)/2) of a known E.
+Along the averaged system dx/dτ = wE∇F + (k/2)∇F with w = dt/dτ (ν² for the paper's clock) and V = F(x*) − F, exactly
+dV/dτ = −∇Fᵀ(wE + k/2)∇F ≤ (mw − k/2)‖∇F‖², where m = ‖E‖, or the sharper −λ_min((E + Eᵀ)/2) of a known E.
 c₁V^q ≤ ‖∇F‖ ≤ c₂V^q (eq:ass4) turns this into a scalar inequality in two ways: the paper estimates the push by
 c₂ and the gain by c₁, term by term; estimating the sum, by c₂ while it is positive and by c₁ while it is
 negative, gives the *split* bound, which is never larger.
@@ -15,9 +15,8 @@ from typing import Literal
 import sympy as sp
 
 from ptproof.comparison import DilatedBound
-from ptproof.gains.clipped import Horizon
 from ptproof.gains.data import GainData
-from ptproof.gains.numbers import sign
+from ptproof.gains.numbers import sign, times_exponential
 from ptproof.problem.field import FieldBounds
 
 Chain = Literal["printed", "split"]
@@ -82,23 +81,22 @@ def _in_letters(sigma: sp.Expr) -> DilatedBound:
 
 
 def threshold_factor(data: GainData, chain: Chain) -> sp.Expr | None:
-    """(√g − √h)² of the chain, so that V₀ is critical when σT(√g − √h)²V₀^σ = 1; None if there is no threshold.
+    """The largest A of the uncapped clock through T = 1; None if A falls from the start, for every V₀.
 
-    Printed: (k·c₁²/2)(ρ − 1)² with ρ = (c₂/c₁)√(2‖E‖/k). Split: (k·c₂²/2)(ρ₀ − 1)² with ρ₀ = √(2m/k).
-    There is none where ρ ≤ 1: then the bound decreases from the start.
+    A is in proportion to T, so that V₀ is critical when σT·factor·V₀^σ = 1. Printed: (k·c₁²/2)(ρ − 1)² with
+    ρ = (c₂/c₁)√(2‖E‖/k). Split: c₂²J at the turning point.
     """
     bounds, (k,) = data.bounds, data.known("k")
     if chain == "printed":
-        lower, ratio = bounds.c1, bounds.c2 / bounds.c1 * sp.sqrt(2 * data.norm / k)
-    else:
-        lower, ratio = bounds.c2, sp.sqrt(2 * data.push / k) if sign(data.push) > 0 else sp.S.Zero
-    if sign(ratio - 1) <= 0:
-        return None
-    return k * lower**2 / 2 * (ratio - 1) ** 2
+        ratio = bounds.c2 / bounds.c1 * sp.sqrt(2 * data.norm / k)
+        return None if sign(ratio - 1) <= 0 else k * bounds.c1**2 / 2 * (ratio - 1) ** 2
+    horizon = data.unit.uncapped
+    turning = horizon.turning(data.push, k)
+    return None if sign(turning) == 0 else bounds.c2**2 * sp.expand(horizon.balance(turning, data.push, k))
 
 
 def critical_value(data: GainData, chain: Chain) -> sp.Expr | None:
-    """[σT(√g − √h)²]^(−1/σ): below it the bound is finite for all time (κ ≥ 2); None if every V₀ is below."""
+    """(σT·factor)^(−1/σ): below it the bound is finite for all time (κ ≥ 2); None if every V₀ is below."""
     factor = threshold_factor(data, chain)
     if factor is None:
         return None
@@ -115,9 +113,9 @@ def critical_horizon(data: GainData, chain: Chain, initial: sp.Expr) -> sp.Expr 
     return initial ** (-sigma) / (sigma * factor)
 
 
-def growth(data: GainData, horizon: Horizon, elapsed: sp.Expr, chain: Chain) -> sp.Expr:
+def growth(data: GainData, elapsed: sp.Expr, chain: Chain) -> sp.Expr:
     """A(e) with dV/dτ ≤ A'V^(2q): the integral of the scalar rate up to the elapsed time e."""
-    bounds, (k,) = data.bounds, data.known("k")
+    bounds, horizon, (k,) = data.bounds, data.horizon, data.known("k")
     if chain == "printed":
         return bounds.c2**2 * data.norm * elapsed - bounds.c1**2 * k / 2 * horizon.stretched(elapsed)
     turning = horizon.turning(data.push, k)
@@ -127,69 +125,53 @@ def growth(data: GainData, horizon: Horizon, elapsed: sp.Expr, chain: Chain) -> 
     return bounds.c2**2 * top + bounds.c1**2 * (horizon.balance(elapsed, data.push, k) - top)
 
 
-def largest_growth(data: GainData, horizon: Horizon, elapsed: sp.Expr, chain: Chain) -> sp.Expr:
+def largest_growth(data: GainData, elapsed: sp.Expr, chain: Chain) -> sp.Expr:
     """The maximum of A over [0, e]; A rises up to one turning point and falls from there on."""
-    bounds, (k,) = data.bounds, data.known("k")
+    bounds, horizon, (k,) = data.bounds, data.horizon, data.known("k")
     if chain == "printed":
         turning = horizon.turning(bounds.c2**2 * data.norm, k * bounds.c1**2)
     else:
         turning = horizon.turning(data.push, k)
-    return growth(data, horizon, turning if sign(elapsed - turning) > 0 else elapsed, chain)
+    return growth(data, turning if sign(elapsed - turning) > 0 else elapsed, chain)
 
 
-def lyapunov_bound(
-    data: GainData, horizon: Horizon, elapsed: sp.Expr, chain: Chain, initial: sp.Expr
-) -> sp.Expr | None:
+def lyapunov_bound(data: GainData, elapsed: sp.Expr, chain: Chain, initial: sp.Expr) -> sp.Expr | None:
     """The bound of V at the elapsed time from V₀ = ``initial``; None if it has escaped by then."""
     sigma = data.bounds.sigma
-    amount = growth(data, horizon, elapsed, chain)
+    amount = growth(data, elapsed, chain)
     if sigma == 0:
-        return _times_exponential(initial, amount)
-    if sign(1 - sigma * initial**sigma * largest_growth(data, horizon, elapsed, chain)) <= 0:
+        return times_exponential(initial, amount)
+    if sign(1 - sigma * initial**sigma * largest_growth(data, elapsed, chain)) <= 0:
         return None
     return initial * (1 - sigma * initial**sigma * amount) ** (-1 / sigma)
 
 
-def _times_exponential(factor: sp.Expr, exponent: sp.Expr) -> sp.Expr:
-    # SymPy turns logarithms in an exponent into powers, of hundreds of digits where the coefficients are not simple.
-    if exponent.has(sp.log):
-        return sp.Mul(factor, sp.exp(exponent, evaluate=False), evaluate=False)
-    return factor * sp.exp(exponent)
-
-
-def distance_bound(data: GainData, horizon: Horizon, elapsed: sp.Expr, chain: Chain) -> sp.Expr | None:
+def distance_bound(data: GainData, elapsed: sp.Expr, chain: Chain) -> sp.Expr | None:
     """(V/a₂)^(1/2κ) with the bound of V: how far x̄ can be from the source; None if the bound has escaped."""
     if data.bounds.sigma == 0:
         factor = sp.sqrt(data.start_value / data.bounds.a2)
-        return _times_exponential(factor, growth(data, horizon, elapsed, chain) / 2)
-    value = lyapunov_bound(data, horizon, elapsed, chain, data.start_value)
+        return times_exponential(factor, growth(data, elapsed, chain) / 2)
+    value = lyapunov_bound(data, elapsed, chain, data.start_value)
     return None if value is None else (value / data.bounds.a2) ** (1 / (2 * data.bounds.kappa))
 
 
 def clip_for_residual(data: GainData, chain: Chain, residual: sp.Expr) -> sp.Expr | None:
     """The largest ν_min ≤ 1 whose bound at t₀ + T is at most ``residual``; None if none is.
 
-    The bound at T falls with the stretched time s_T = T(2/ν_min − 1) that the clip allows, and A at T is linear in
-    s_T, so the condition is solved for s_T in closed form.
+    The bound at T falls with the stretched time s_T that the clip allows, and A at T is linear in s_T, so the
+    condition is solved for s_T in closed form, and that for ν_min where the gain is a power of ν.
     """
     bounds, initial, (k, T) = data.bounds, data.start_value, data.known("k", "T")
-    sigma, target = bounds.sigma, bounds.a2 * residual ** (2 * bounds.kappa)
+    sigma, target, clip = bounds.sigma, bounds.a2 * residual ** (2 * bounds.kappa), data.horizon.clip_for
     wanted = (
         sp.log(target / initial) if sigma == 0 else (initial ** (-sigma) - target ** (-sigma)) / sigma
     )  # A at T must not exceed this
-    if sigma != 0:  # the bound must survive its maximum, which no clip lowers once it lies behind the maximum
-        factor = threshold_factor(data, chain)
-        if factor is not None and sign(1 - sigma * T * factor * initial**sigma) <= 0:
-            return None
-
-    def clip(stretched: sp.Expr) -> sp.Expr:
-        nu = 2 * T / (stretched + T) if sign(stretched + T) > 0 else sp.S.One
-        return sp.S.One if sign(nu - 1) > 0 else nu
-
+    factor = threshold_factor(data, chain)
+    if sigma != 0 and factor is not None and sign(1 - sigma * T * factor * initial**sigma) <= 0:
+        return None  # the bound must survive its maximum, which no clip lowers once it lies behind the maximum
     if chain == "printed":
         return clip((bounds.c2**2 * data.norm * T - wanted) * 2 / (k * bounds.c1**2))
-    turning = Horizon(T).turning(data.push, k)
-    top = Horizon(T).balance(turning, data.push, k)
-    if sign(turning) == 0 or sign(wanted - bounds.c2**2 * top) <= 0:  # the gain wins before the clip
-        return clip((data.push * T - top - (wanted - bounds.c2**2 * top) / bounds.c1**2) * 2 / k)
+    top = sp.S.Zero if factor is None else T * factor
+    if factor is None or sign(wanted - top) <= 0:  # the gain wins before the clip
+        return clip((data.push * T - top / bounds.c2**2 - (wanted - top) / bounds.c1**2) * 2 / k)
     return clip((data.push * T - wanted / bounds.c2**2) * 2 / k)

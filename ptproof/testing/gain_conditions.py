@@ -15,7 +15,8 @@ from ptproof.testing.failure import assertion
 from ptproof.testing.wording import lines
 
 if TYPE_CHECKING:
-    from ptproof.gains import GainData, Gains
+    from ptproof.gains import GainData
+    from ptproof.gains.answer import Gains
     from ptproof.problem import Problem
 
 __unittest = True
@@ -123,7 +124,7 @@ def _decide(asked: GainData | Problem, condition: str, left: str, symbol: str, r
 def _answer(asked: GainData | Problem) -> tuple[Gains | None, str]:
     """All quantities; None, and why, where the constants of a problem are not certain along its average."""
     from ptproof.gains import GainData, gains
-    from ptproof.gains.study import study
+    from ptproof.gains.problem import study
     from ptproof.proof.verdict import Verdict
 
     if isinstance(asked, GainData):

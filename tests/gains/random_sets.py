@@ -12,10 +12,18 @@ import numpy as np
 import sympy as sp
 from scipy.integrate import solve_ivp
 
-from ptproof.gains import GainData, Horizon, nonvanishing, vanishing
+from ptproof.gains import GainData, nonvanishing, vanishing
 from ptproof.problem.field import FieldBounds
 
 R = sp.Rational
+# The rate of each clock at ν, in floats and by hand.
+GAINS = {
+    "paper": lambda nu, m: nu**-2,
+    "power": lambda nu, m: nu ** -(m + 1),
+    "logarithmic": lambda nu, m: 1 / nu,
+    "exponential": lambda nu, m: nu**-2 * math.exp(1 / nu - 1),
+    "tangent": lambda nu, m: 1 + math.tan(math.pi / 2 * (1 - nu)) ** 2,
+}
 
 
 @dataclass(frozen=True)
@@ -58,7 +66,7 @@ def matrix(rng):
     return sp.ImmutableDenseMatrix(2, 2, lambda i, j: rational(rng, -1.5, 1.5))
 
 
-def make(seed):
+def make(seed, clock="paper"):
     rng = random.Random(seed)
     bounds, gradient = field(rng)
     angle = rng.uniform(0, 2 * math.pi)
@@ -69,6 +77,8 @@ def make(seed):
         "T": rational(rng, 0.2, 3),
         "nu_min": rational(rng, 0.15, 1),
         "x0_norm": distance,
+        "clock": clock,
+        "exponent": rng.choice([R(1, 2), R(2), R(3)]) if clock == "power" else None,
     }
     kind = rng.choice(["none", "norm", "matrix", "bounded"])
     if kind == "none":
@@ -98,12 +108,13 @@ class Escape(Exception):
 def distances(case, elapsed):
     """The averaged distance at these elapsed times, integrated in the original time up to and from the corner."""
     k, T, nu_min = (float(value) for value in (case.data.k, case.data.T, case.data.nu_min))
+    gain, order = GAINS[case.data.clock], float(case.data.exponent or 0)
 
     def rate(e, x):
         if not np.linalg.norm(x) < 1e9:
             raise Escape
         g = case.gradient(x)
-        return case.drift(e, x, g) + k / 2 / max(nu_min, 1 - e / T) ** 2 * g
+        return case.drift(e, x, g) + k / 2 * gain(max(nu_min, 1 - e / T), order) * g
 
     corner = T * (1 - nu_min)
     grid = sorted({*map(float, elapsed), corner, T})
@@ -122,25 +133,25 @@ def distances(case, elapsed):
     return found, False
 
 
-def violations(seed):
+def violations(seed, clock="paper"):
     """The largest distance/bound over chains and times for one set; more than 1 would be a false bound."""
-    case = make(seed)
+    case = make(seed, clock)
     data = case.data
-    horizon = Horizon(data.T, data.nu_min)
+    chains = ("printed", "split") if clock == "paper" else ("split",)
     times = [data.T * share for share in (R(1, 5), R(1, 2), R(4, 5), R(1))]
     found, escaped = distances(case, times)
     worst = 0.0
     for e in times:
         distance = found.get(float(e), math.inf if escaped else None)
-        if distance is None:
+        if distance is None or distance < 1e-9:
             continue
         if data.drift_bound is not None:
-            bounds = [nonvanishing.distance_bound(data, horizon, e)]
-            if e == data.T:
-                bounds.append(nonvanishing.printed_distance_bound(data, horizon))
+            bounds = [nonvanishing.distance_bound(data, e)]
+            if e == data.T and "printed" in chains:
+                bounds.append(nonvanishing.printed_distance_bound(data))
         else:
-            bounds = [vanishing.distance_bound(data, horizon, e, chain) for chain in ("printed", "split")]
-            if None not in bounds and bounds[1].evalf() > bounds[0].evalf() * (1 + R(1, 10**9)):
+            bounds = [vanishing.distance_bound(data, e, chain) for chain in chains]
+            if None not in bounds and bounds[-1].evalf() > bounds[0].evalf() * (1 + R(1, 10**9)):
                 return math.inf
         for bound in bounds:
             if bound is not None:

@@ -6,13 +6,23 @@ import pytest
 import random_sets
 import sympy as sp
 
-from ptproof.gains import Horizon, nonvanishing, vanishing
+from ptproof.gains import nonvanishing, vanishing
 
 
 @pytest.mark.parametrize("first", range(0, 50, 10))
 def test_the_bounds_hold_along_the_averaged_system(first):
     worst = max(random_sets.violations(seed) for seed in range(first, first + 10))
     assert worst <= 1 + 1e-6
+
+
+@pytest.mark.parametrize("clock", ["power", "logarithmic", "exponential", "tangent"])
+def test_the_bounds_hold_under_every_clock(clock):
+    assert max(random_sets.violations(seed, clock) for seed in range(12)) <= 1 + 1e-6
+
+
+def test_the_gain_of_another_clock_gives_a_bound_that_is_violated(monkeypatch):
+    monkeypatch.setitem(random_sets.GAINS, "power", random_sets.GAINS["logarithmic"])
+    assert max(random_sets.violations(seed, "power") for seed in range(12)) > 1.01
 
 
 def corrupt(case, **factors):
@@ -25,15 +35,15 @@ def corrupt(case, **factors):
 def test_wrong_constants_give_a_bound_that_is_violated(monkeypatch):
     """The check can fail: with b1 and b2 twice too large some bound is false."""
     make = random_sets.make
-    monkeypatch.setattr(random_sets, "make", lambda seed: corrupt(make(seed), b1=2, b2=2))
+    monkeypatch.setattr(random_sets, "make", lambda *asked: corrupt(make(*asked), b1=2, b2=2))
     assert max(random_sets.violations(seed) for seed in range(12)) > 1.01
 
 
 def test_a_gain_that_is_not_applied_gives_a_bound_that_is_violated(monkeypatch):
     make = random_sets.make
 
-    def stronger(seed):
-        case = make(seed)
+    def stronger(*asked):
+        case = make(*asked)
         return dataclasses.replace(case, data=dataclasses.replace(case.data, nu_min=case.data.nu_min / 2))
 
     distances = random_sets.distances
@@ -82,13 +92,16 @@ def test_the_residual_is_met_at_the_clip_that_is_named_and_not_above_it(seed):
     )
     data = case.data
     residual = data.x0_norm / 3
+
+    def end(nu_min, chain):
+        return vanishing.distance_bound(dataclasses.replace(data, nu_min=nu_min), data.T, chain)
+
     for chain in ("printed", "split"):
         nu = vanishing.clip_for_residual(data, chain, residual)
         if nu is None:
-            assert vanishing.distance_bound(data, Horizon(data.T, sp.Rational(1, 1000)), data.T, chain) is None
+            assert end(sp.Rational(1, 1000), chain) is None
             continue
-        at = vanishing.distance_bound(data, Horizon(data.T, nu), data.T, chain)
-        assert float(at) <= float(residual) * (1 + 1e-9)
+        assert float(end(nu, chain)) <= float(residual) * (1 + 1e-9)
         if float(nu) < 0.95:
-            above = vanishing.distance_bound(data, Horizon(data.T, nu * sp.Rational(101, 100)), data.T, chain)
+            above = end(nu * sp.Rational(101, 100), chain)
             assert above is None or float(above) > float(residual)

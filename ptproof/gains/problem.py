@@ -101,6 +101,13 @@ def study(
     ------
     InputError
         If ``radius`` is smaller than the certified reach, or data contradict each other.
+
+    Examples
+    --------
+    >>> from ptproof.problem import example
+    >>> found = study(example("saturated"))
+    >>> found.condition, found.answer["asymptotic.k_min"].exact
+    ('within 2.82843 of the source, which is certified up to t = 1', 0)
     """
     until = None if problem.tuning.nu_min is not None else problem.tuning.T * _UNCLIPPED
     curve = tight_bound(problem, known.get("x0_norm"), until=until)
