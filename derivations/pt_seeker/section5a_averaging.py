@@ -11,7 +11,7 @@ from ptproof.proof.engines.existence import defeats_every_choice
 from ptproof.proof.engines.integrals import integrals
 from ptproof.proof.engines.limits import limits
 from ptproof.proof.engines.reals import reals
-from ptproof.proof.engines.regularity import smooth
+from ptproof.proof.engines.smoothness import smooth
 from ptproof.proof.engines.witnesses import refute
 from ptproof.proof.statement import Exists, Prose, Smooth, eq, every, ge, le
 from ptproof.proof.verdict import Evidence

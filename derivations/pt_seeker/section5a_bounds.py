@@ -7,7 +7,7 @@ import sympy as sp
 from ptproof.problem.drift import gradient_drift
 from ptproof.proof.claim import Goal, claim
 from ptproof.proof.engines.reals import reals
-from ptproof.proof.engines.regularity import smooth
+from ptproof.proof.engines.smoothness import smooth
 from ptproof.proof.statement import Smooth, every, ge, le
 from ptproof.proof.verdict import Evidence
 

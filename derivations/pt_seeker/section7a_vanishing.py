@@ -11,7 +11,7 @@ from ptproof.proof.engines.exact import exact
 from ptproof.proof.engines.existence import exists_by
 from ptproof.proof.engines.quantified import specialise
 from ptproof.proof.engines.reals import reals
-from ptproof.proof.engines.regularity import smooth
+from ptproof.proof.engines.smoothness import smooth
 from ptproof.proof.engines.witnesses import refute
 from ptproof.proof.lemmas import cosine_parabola, sine_square
 from ptproof.proof.statement import Exists, Relation, Smooth, eq, every, ge, gt, le, lt

@@ -11,7 +11,7 @@ from ptproof.proof.engines.exact import exact
 from ptproof.proof.engines.existence import defeats_every_choice
 from ptproof.proof.engines.quantified import specialise
 from ptproof.proof.engines.reals import reals
-from ptproof.proof.engines.regularity import smooth
+from ptproof.proof.engines.smoothness import smooth
 from ptproof.proof.lemmas import cosine_parabola, cosine_quartic, norm_below, power_monotone, sine_cubic, sine_square
 from ptproof.proof.statement import Exists, Relation, Smooth, eq, every, ge, gt, le, lt
 from ptproof.proof.verdict import Evidence

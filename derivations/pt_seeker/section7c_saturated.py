@@ -9,7 +9,7 @@ from ptproof.proof.claim import Goal, claim
 from ptproof.proof.engines.exact import exact
 from ptproof.proof.engines.existence import exists_by
 from ptproof.proof.engines.reals import reals
-from ptproof.proof.engines.regularity import smooth
+from ptproof.proof.engines.smoothness import smooth
 from ptproof.proof.engines.witnesses import refute
 from ptproof.proof.statement import Exists, Smooth, eq, every, ge, gt, le, lt
 from ptproof.proof.verdict import Evidence

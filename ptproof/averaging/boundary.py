@@ -63,7 +63,7 @@ def routh_column(matrix: sp.Matrix) -> list[sp.Expr]:
 
 def _hurwitz(matrix: sp.Matrix) -> bool:
     return all(
-        bool(minor.is_positive) or follows(Relation(sp.S.Zero, "<", minor), (), seconds=_SECONDS)[0]
+        bool(minor.is_positive) or follows(Relation(sp.S.Zero, "<", minor), (), seconds=_SECONDS).shown
         for minor in routh_column(matrix)
     )
 
@@ -81,7 +81,7 @@ def _lyapunov(fast: FastStates, steady: Sequence[sp.Expr], domain: Sequence[Rela
             if time.perf_counter() > end:
                 return None
             bound = Relation(product, "<=", -rate * scale * squared**power)
-            if follows(bound, domain, seconds=_SECONDS)[0]:
+            if follows(bound, domain, seconds=_SECONDS).shown:
                 return f"V = |y|^2/2 decreases at least by {rate * scale}*|y|^{2 * power}, uniformly in the slow states"
     return None
 

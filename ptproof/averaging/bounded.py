@@ -158,4 +158,4 @@ class _Tame:
         return not polynomial.free_symbols_in_domain & self.states and bool(polynomial.LC().is_negative)
 
     def holds(self, relation: Relation) -> bool:
-        return follows(relation, self.domain, seconds=_SECONDS)[0]
+        return follows(relation, self.domain, seconds=_SECONDS).shown

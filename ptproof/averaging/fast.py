@@ -116,7 +116,7 @@ def _monotone_root(fast: FastStates, rate: sp.Expr, symbol: sp.Symbol, domain: S
         return None
     slope = sp.diff(rate, symbol)
     for relation in (Relation(slope, "<", sp.S.Zero), Relation(sp.S.Zero, "<", slope)):
-        if follows(relation, domain, seconds=_SECONDS)[0]:
+        if follows(relation, domain, seconds=_SECONDS).shown:
             return fast.quasi_steady_state[fast.state.index(symbol)]
     return None
 
@@ -136,7 +136,7 @@ def _only_root(rate: sp.Expr, symbol: sp.Symbol, domain: Sequence[Relation]) -> 
     if len(roots) != 1:
         return None
     for other in others:
-        if other.is_nonzero or follows(Relation(other, "!=", sp.S.Zero), domain, seconds=_SECONDS)[0]:
+        if other.is_nonzero or follows(Relation(other, "!=", sp.S.Zero), domain, seconds=_SECONDS).shown:
             continue
         return None
     return roots[0].xreplace(back)
@@ -184,6 +184,6 @@ def _monotone(fast: FastStates, domain: Sequence[Relation]) -> bool:
     matrix = -sp.Matrix(list(fast.rate)).jacobian(list(fast.state))
     symmetric = (matrix + matrix.T) / 2
     return all(
-        follows(Relation(sp.S.Zero, "<", symmetric[:size, :size].det()), domain, seconds=_SECONDS)[0]
+        follows(Relation(sp.S.Zero, "<", symmetric[:size, :size].det()), domain, seconds=_SECONDS).shown
         for size in range(1, len(fast.state) + 1)
     )

@@ -17,6 +17,7 @@ from ptproof.averaging.problem import DitherProblem
 from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided
 from ptproof.proof.claim import Goal
 from ptproof.proof.engines.exact import exact
+from ptproof.proof.settling import settle
 from ptproof.proof.statement import Relation
 from ptproof.proof.verdict import Evidence, Verdict
 from ptproof.system import DitherSystem, System
@@ -143,7 +144,7 @@ def compare(system: System, expected: Vector) -> Evidence:
     which the two sides are apart. The two sides are compared as given; neither is computed from the other.
     """
     goal = Goal("expected average", Relation(sp.Matrix(system.rhs), "=", sp.Matrix(list(expected))))
-    return exact(goal)
+    return settle(goal, exact)
 
 
 def recognise_gradient(problem: DitherProblem, system: System) -> tuple[sp.Expr, AppliedUndef] | None:

@@ -12,7 +12,9 @@ from typing import Any
 from ptproof.errors import InputError
 from ptproof.proof.claim import Claim, Goal, Result
 from ptproof.proof.load import Derivation, load
+from ptproof.proof.settling import with_witness
 from ptproof.proof.verdict import Evidence, Verdict
+from ptproof.reading.limits import Answered, Unanswered, Why, Workers
 
 SECONDS_PER_CLAIM = 60.0
 
@@ -47,15 +49,20 @@ def run_one(claim: Claim) -> Evidence:
     """Run one proof; an exception in it makes the claim undecided, with the exception as what was tried."""
     start = time.perf_counter()
     try:
-        evidence = claim.prove(claim.goal())
+        evidence = _examined(claim)
     except Exception as error:
-        seconds = time.perf_counter() - start
-        return Evidence("crash", Verdict.UNDECIDED, f"{type(error).__name__}: {error}", seconds)
+        evidence = Evidence("crash", Verdict.UNDECIDED, f"{type(error).__name__}: {error}")
+    return replace(evidence, certifies=None, seconds=time.perf_counter() - start)
+
+
+def _examined(claim: Claim) -> Evidence:
+    """What the claim's proof says, if it is about the claim, or a witness against what it leaves open."""
+    evidence = claim.prove(claim.goal())
     if not isinstance(evidence, Evidence):
         return Evidence("crash", Verdict.UNDECIDED, f"the proof returned {type(evidence).__name__}, not evidence")
     if reason := _mismatch(claim, evidence):
-        return Evidence("mismatch", Verdict.UNDECIDED, reason, evidence.seconds)
-    return replace(evidence, certifies=None)
+        return Evidence("mismatch", Verdict.UNDECIDED, reason)
+    return with_witness(claim.goal(), evidence)
 
 
 def _mismatch(claim: Claim, evidence: Evidence) -> str:
@@ -67,6 +74,8 @@ def _mismatch(claim: Claim, evidence: Evidence) -> str:
         return f"the evidence is about another statement: {goal.statement}"
     if not set(goal.assumptions) <= set(claim.assumptions):
         return "the evidence assumes more than the claim does"
+    if evidence.verdict is Verdict.REFUTED and set(goal.assumptions) != set(claim.assumptions):
+        return "the refutation leaves out an assumption of the claim"
     if not all(used in claim.uses for used in goal.uses):
         return "the evidence uses claims that the claim does not name"
     return ""
@@ -159,32 +168,19 @@ def _in_workers(
     claims: Sequence[Claim], paths: tuple[str, ...], jobs: int, timeout: float
 ) -> Iterator[tuple[Claim, Evidence]]:
     """Each claim with its evidence, as they finish; a worker over its time is killed, and only its claim is lost."""
-    import multiprocessing
-    from concurrent.futures import FIRST_COMPLETED, wait
-
-    from pebble import ProcessPool
-
-    # Workers start afresh rather than as copies: a copy of a process with threads can hang.
+    by_id = {claim.id: claim for claim in claims}
     absolute = tuple(str(Path(path).resolve()) for path in paths)
-    context = multiprocessing.get_context("spawn")
-    with ProcessPool(max_workers=min(jobs, len(claims)), context=context,
-                     initializer=_start_worker, initargs=(absolute,)) as pool:  # fmt: skip
-        running = {pool.schedule(_run_by_id, args=(claim.id,), timeout=timeout): claim for claim in claims}
-        while running:
-            done, _ = wait(running, return_when=FIRST_COMPLETED)
-            for future in done:
-                claim = running.pop(future)
-                yield claim, _outcome(future, timeout)
+    with Workers(min(jobs, len(claims)), start=_start_worker, arguments=(absolute,)) as workers:
+        for id, outcome in workers.each(timeout, _run_by_id, {id: (id,) for id in by_id}):
+            yield by_id[id], outcome_of(outcome, timeout)
 
 
-def _outcome(future: Any, timeout: float) -> Evidence:
-    from concurrent.futures import TimeoutError as FutureTimeout
-
-    try:
-        found = future.result()
-    except FutureTimeout:
-        return Evidence("time limit", Verdict.UNDECIDED, f"no answer in {timeout:g} s", timeout)
-    except Exception as error:
-        return Evidence("crash", Verdict.UNDECIDED, f"the process ended: {type(error).__name__}: {error}")
-    assert isinstance(found, Evidence)
-    return found
+def outcome_of(outcome: Answered[Evidence] | Unanswered, timeout: float) -> Evidence:
+    """The evidence of a claim that ran in a worker; a claim without an answer is undecided."""
+    match outcome:
+        case Answered(evidence):
+            return evidence
+        case Unanswered(Why.TIME, reason):
+            return Evidence("time limit", Verdict.UNDECIDED, reason, timeout)
+        case Unanswered(_, reason):
+            return Evidence("crash", Verdict.UNDECIDED, reason)

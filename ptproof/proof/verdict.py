@@ -45,9 +45,20 @@ class Witness:
 
 @dataclass(frozen=True)
 class Evidence:
-    """What one engine says about one statement: the verdict, how, and in how many seconds.
+    """What one engine says about one statement: the verdict, and how.
 
-    ``certifies`` is the goal that the engine was asked about; evidence without one counts for nothing.
+    Attributes
+    ----------
+    seconds
+        How long the proof took; whoever runs it says so. [s]
+    witness
+        Exact values at which the statement fails.
+    found
+        The values of integrals and limits that the engine has found, for whoever looks for a witness.
+    suspect
+        Exact values at which the engine expects the statement to fail: a witness, if they stand the check.
+    certifies
+        The goal that the engine was asked about; evidence without one counts for nothing.
     """
 
     engine: str
@@ -55,7 +66,8 @@ class Evidence:
     detail: str
     seconds: float = 0.0
     witness: Witness | None = None
-    data: Mapping[str, Any] = field(default_factory=dict, compare=False)
+    found: Mapping[Any, Any] = field(default_factory=dict, compare=False, repr=False)
+    suspect: Mapping[Any, Any] | None = field(default=None, compare=False, repr=False)
     certifies: Any = field(default=None, compare=False, repr=False)
 
     def to_json(self) -> dict[str, Any]:

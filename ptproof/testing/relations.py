@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import sympy as sp
@@ -78,8 +79,12 @@ def decide(goal: Goal, seconds: float) -> Evidence:
 
 
 def _first_decision(goal: Goal, seconds: float) -> Evidence:
-    tried = []
-    for evidence in _attempts(goal, seconds):
+    from ptproof.proof.settling import settle
+
+    tried: list[Evidence] = []
+    for proof in _attempts(goal, seconds):
+        # A witness is sought after the first attempt: what it doesn't find then, it doesn't find later.
+        evidence = settle(goal, proof, seconds=0 if tried else None)
         if evidence.verdict is not Verdict.UNDECIDED:
             return evidence
         tried.append(evidence)
@@ -88,7 +93,7 @@ def _first_decision(goal: Goal, seconds: float) -> Evidence:
     return replace(tried[-1], detail="; ".join(f"{item.engine}: {item.detail}" for item in tried))
 
 
-def _attempts(goal: Goal, seconds: float) -> Iterator[Evidence]:
+def _attempts(goal: Goal, seconds: float) -> Iterator[Callable[[Goal], Evidence]]:
     from ptproof.proof.engines.enclosures import enclosures
     from ptproof.proof.engines.exact import exact
     from ptproof.proof.engines.integrals import integrals
@@ -98,20 +103,20 @@ def _attempts(goal: Goal, seconds: float) -> Iterator[Evidence]:
     parts = relations_of(goal.statement)
     equalities = all(part.sign == "=" for part in parts)
     if equalities and any(part.left.has(sp.Limit) for part in parts):
-        yield limits(goal)
+        yield limits
         return
     if equalities and any(part.left.has(sp.Integral) for part in parts):
-        yield integrals(goal)
+        yield integrals
         return
     if equalities:
-        yield exact(goal)
+        yield exact
         if goal.assumptions or any(part.left.has(sp.Max, sp.Min, sp.Abs) for part in parts):
-            yield reals(goal, seconds=seconds / 2)
+            yield partial(reals, seconds=seconds / 2)
         return
-    yield reals(goal, seconds=seconds / 3)
+    yield partial(reals, seconds=seconds / 3)
     box = _box(goal)
     if box is not None and all(part.sign in ("<", "<=", ">", ">=") for part in parts):
-        yield enclosures(goal, box, seconds=seconds / 3)
+        yield partial(enclosures, box=box, seconds=seconds / 3)
 
 
 def _box(goal: Goal) -> dict[sp.Symbol, tuple[sp.Expr, sp.Expr]] | None:

@@ -11,7 +11,7 @@ import pytest
 import sympy as sp
 
 import ptproof.proof.engines.reals
-import ptproof.proof.engines.witnesses
+import ptproof.proof.settling
 from ptproof.proof.claim import Claim
 from ptproof.proof.engines.witnesses import refute
 from ptproof.proof.load import load
@@ -215,7 +215,7 @@ TWINS = [
 def test_corrupted_twin(twin: Claim, verdict: Verdict | None, monkeypatch: pytest.MonkeyPatch) -> None:
     # A failed proof is what is expected here, so it may give up early; that can only lose proofs.
     monkeypatch.setattr(ptproof.proof.engines.reals, "SECONDS", 2.0)
-    monkeypatch.setattr(ptproof.proof.engines.witnesses, "SEARCH_SECONDS", 2.0 if verdict is Verdict.REFUTED else 0.0)
+    monkeypatch.setattr(ptproof.proof.settling, "SEARCH_SECONDS", 2.0 if verdict is Verdict.REFUTED else 0.0)
     found = run_one(twin)
     assert found.verdict is not Verdict.PROVED
     assert verdict is None or found.verdict is verdict, found.detail

@@ -9,6 +9,7 @@ from ptproof.proof.engines.existence import defeats_every_choice
 from ptproof.proof.engines.limits import limits
 from ptproof.proof.engines.reals import reals
 from ptproof.proof.lemmas import power_monotone
+from ptproof.proof.settling import settle
 from ptproof.proof.statement import Exists, Relation, eq, ge, gt, le
 from ptproof.proof.verdict import Verdict
 
@@ -19,12 +20,13 @@ half = sp.Rational(1, 2)
 
 @pytest.mark.parametrize("exponent", [half, half / 2, sp.Rational(1, 3)])
 def test_lemma_that_mentions_a_root_says_nothing_of_the_sign(exponent):
-    assert reals(Goal("a", ge(x, 0)), power_monotone(x, y, exponent)).verdict is Verdict.REFUTED
+    found = settle(Goal("a", ge(x, 0)), lambda goal: reals(goal, power_monotone(x, y, exponent)))
+    assert found.verdict is Verdict.REFUTED
 
 
 def test_power_with_even_coefficient_is_not_a_square_of_a_real_number():
     # x = −1, p = 1/2: x^(2p) = −1.
-    assert reals(Goal("a", ge(x ** (2 * p), 0))).verdict is Verdict.REFUTED
+    assert settle(Goal("a", ge(x ** (2 * p), 0)), reals).verdict is Verdict.REFUTED
 
 
 @pytest.mark.parametrize("statement", [
@@ -80,5 +82,5 @@ def test_symbol_that_may_be_complex_is_not_taken_for_real():
 
 def test_assumed_value_of_a_function_is_not_differentiated():
     F = sp.Function("F", real=True)(x)
-    found = exact(Goal("a", eq(sp.Derivative(F, x), 2 * x), (eq(F, x**2),)))
+    found = settle(Goal("a", eq(sp.Derivative(F, x), 2 * x), (eq(F, x**2),)), exact)
     assert found.verdict is Verdict.REFUTED

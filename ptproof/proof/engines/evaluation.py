@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import sympy as sp
 
+from ptproof.proof.engines.integrals import definite
+from ptproof.proof.engines.limits import limit_of
 from ptproof.system import differentiated
 
 
@@ -18,9 +20,6 @@ def carried_out(expression: sp.Expr) -> sp.Expr | None:
     >>> carried_out(sp.Integral(sp.cos(x) ** 2, (x, 0, sp.pi))), carried_out(sp.Integral(abs(sp.sin(x)), (x, 0, 9)))
     (pi/2, None)
     """
-    from ptproof.proof.engines.integrals import definite
-    from ptproof.proof.engines.limits import limit_of
-
     while True:
         expression = differentiated(expression)
         if expression.has(sp.Sum, sp.Product):

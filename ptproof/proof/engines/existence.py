@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
@@ -18,7 +17,6 @@ from ptproof.proof.verdict import Evidence, Verdict, Witness
 @engine
 def exists_by(goal: Goal, choice: Mapping[sp.Symbol, Any], *lemmas: Implication) -> Evidence:
     """Show "there is …" by values, which may depend on the universal symbols; the rest is a real inequality."""
-    start = time.perf_counter()
     statement = goal.statement
     if not isinstance(statement, Exists) or set(choice) != set(statement.variables):
         return Evidence("existence", Verdict.UNDECIDED, "the values given are not for the variables that exist")
@@ -30,10 +28,7 @@ def exists_by(goal: Goal, choice: Mapping[sp.Symbol, Any], *lemmas: Implication)
     body = All(tuple(substitute_in(part, choice) for part in statement.body))
     shown = reals(replace(goal, statement=body), *lemmas)
     named = ", ".join(f"{symbol} = {value}" for symbol, value in choice.items())
-    seconds = time.perf_counter() - start
-    if shown.verdict is Verdict.PROVED:
-        return Evidence("existence", Verdict.PROVED, f"with {named}: {shown.detail}", seconds)
-    return Evidence("existence", Verdict.UNDECIDED, f"with {named}: {shown.detail}", seconds)
+    return Evidence("existence", shown.verdict, f"with {named}: {shown.detail}")
 
 
 @engine
@@ -43,37 +38,34 @@ def defeats_every_choice(goal: Goal, values: Mapping[sp.Symbol, Any], lemmas: Se
     One relation of the body is shown to fail for all values of A that its declaration allows. Assumptions about x
     restrict the x that count, so they are shown to hold for this one.
     """
-    start = time.perf_counter()
+
+    def undecided(detail: str) -> Evidence:
+        return Evidence("counterexample family", Verdict.UNDECIDED, detail)
+
     statement = goal.statement
     if not isinstance(statement, Exists) or set(values) != set(statement.over):
-        return Evidence(
-            "counterexample family", Verdict.UNDECIDED, "values are needed for exactly the symbols after it"
-        )
+        return undecided("values are needed for exactly the symbols after it")
     for symbol, value in values.items():
         if not admissible(symbol, value):
-            return Evidence(
-                "counterexample family", Verdict.UNDECIDED, f"{value} is not known to be what {symbol} may be"
-            )
+            return undecided(f"{value} is not known to be what {symbol} may be")
     facts = [*goal.facts, *lemmas]
     # What is assumed of a letter outside says nothing of the A that is asked for.
     outside, _ = _split(goal.relations, set(statement.variables))
     given, about_these = _split(outside, set(statement.over))
     for assumption in about_these:
-        inside, how = follows(substitute_in(assumption, values), given, facts)
-        if not inside:
-            detail = f"the values are not shown to satisfy {assumption}: {how}"
-            return Evidence("counterexample family", Verdict.UNDECIDED, detail, time.perf_counter() - start)
+        inside = follows(substitute_in(assumption, values), given, facts)
+        if not inside.shown:
+            return undecided(f"the values are not shown to satisfy {assumption}: {inside.how}")
     tried = []
     for part in statement.body:
         there = substitute_in(part, values)
-        shown, how = follows(there.negation(), given, facts)
-        if shown:
+        fails = follows(there.negation(), given, facts)
+        if fails.shown:
             witness = Witness(_family(statement, values), str(there.left), str(there.right))
-            detail = f"for every {', '.join(map(str, statement.variables))}: {there.negation()} ({how})"
-            seconds = time.perf_counter() - start
-            return Evidence("counterexample family", Verdict.REFUTED, detail, seconds, witness)
-        tried.append(f"{there}: {how}")
-    return Evidence("counterexample family", Verdict.UNDECIDED, "; ".join(tried), time.perf_counter() - start)
+            detail = f"for every {', '.join(map(str, statement.variables))}: {there.negation()} ({fails.how})"
+            return Evidence("counterexample family", Verdict.REFUTED, detail, witness=witness)
+        tried.append(f"{there}: {fails.how}")
+    return undecided("; ".join(tried))
 
 
 def _split(relations: Sequence[Relation], symbols: set[sp.Symbol]) -> tuple[list[Relation], list[Relation]]:

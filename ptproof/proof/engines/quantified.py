@@ -15,7 +15,7 @@ from sympy.core.function import AppliedUndef
 
 from ptproof.errors import InputError
 from ptproof.proof.claim import Goal
-from ptproof.proof.engines.reals import follows
+from ptproof.proof.engines.reals import Answer, follows
 from ptproof.proof.statement import (
     Assumption,
     Exists,
@@ -46,7 +46,7 @@ def at_point(
         return None
     there = {quantified.variables[0]: point}
     domain = [substitute_in(part, there) for part in quantified.domain]
-    if not all(part in known or follows(part, known, facts, seconds=_SECONDS)[0] for part in domain):
+    if not all(part in known or follows(part, known, facts, seconds=_SECONDS).shown for part in domain):
         return None
     return substitute_in(quantified.relation, there)
 
@@ -59,15 +59,15 @@ def instances(goal: Goal, *points: sp.Expr) -> list[Implication]:
     return [Implication((), relation) for relation in found if relation is not None]
 
 
-def entailed(needed: ForAll, given: Sequence[Assumption], facts: Sequence[Implication] = ()) -> tuple[bool, str]:
+def entailed(needed: ForAll, given: Sequence[Assumption], facts: Sequence[Implication] = ()) -> Answer:
     """Whether ``needed`` follows from ``given``: shown at one arbitrary value of its variable.
 
     Quantified assumptions among ``given`` are used at that same value, where it is in their domain.
     """
     if needed in given:
-        return True, "it is assumed"
+        return Answer(True, "it is assumed")
     if len(needed.variables) != 1:
-        return False, "more than one bound variable"
+        return Answer(False, "more than one bound variable")
     (variable,) = needed.variables
     # A fresh symbol: nothing that is assumed about a free symbol of the same name may be used.
     known_of = {name: truth for name, truth in variable._assumptions_orig.items() if name != "commutative"}
@@ -113,9 +113,9 @@ def specialise(
             continue
         domain = tuple(substitute_in(part, values) for part in item.domain)
         there = ForAll(item.variables, substitute_in(item.relation, values), domain)
-        shown, why = entailed(there, goal.assumptions, facts)
-        if not shown:
-            raise InputError(f"{goal.id}: what {used.id} assumes does not follow: {there} ({why})")
+        answer = entailed(there, goal.assumptions, facts)
+        if not answer.shown:
+            raise InputError(f"{goal.id}: what {used.id} assumes does not follow: {there} ({answer.how})")
     parts = relations_of(used.statement)
     return [Implication(tuple(hypotheses), substitute_in(part, values), source=used.id) for part in parts]
 
@@ -135,7 +135,7 @@ def _is_kind(key: Any, value: sp.Expr, known: Sequence[Relation], facts: Sequenc
     if not missing <= {"positive", "nonnegative"} or not masked.is_real:
         return False
     sign = gt(value, 0) if "positive" in missing else ge(value, 0)
-    return follows(sign, known, facts, seconds=_SECONDS)[0]
+    return follows(sign, known, facts, seconds=_SECONDS).shown
 
 
 def mask_positive(value: sp.Expr, known: Sequence[Relation], facts: Sequence[Implication] = ()) -> sp.Expr:
@@ -144,7 +144,7 @@ def mask_positive(value: sp.Expr, known: Sequence[Relation], facts: Sequence[Imp
     while True:
         bases = {node.base for node in value.atoms(sp.Pow) if node.base.is_positive is None and node.base.is_real}
         for base in sorted(bases - refused, key=sp.count_ops):
-            if follows(gt(base, 0), known, facts, seconds=_SECONDS)[0]:
+            if follows(gt(base, 0), known, facts, seconds=_SECONDS).shown:
                 symbol = sp.Dummy("positive", positive=True)
                 powers = [node for node in value.atoms(sp.Pow) if node.base == base]
                 value = value.xreplace({node: symbol**node.exp for node in powers})

@@ -7,15 +7,14 @@ of the generators is a proof for the values that they have; a counterexample is 
 
 from __future__ import annotations
 
-import time
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import sympy as sp
 
 from ptproof.proof.algebra import Generators, NotAlgebraic
 from ptproof.proof.claim import Goal, engine
-from ptproof.proof.engines.witnesses import or_refute
 from ptproof.proof.statement import Implication, Relation, free_symbols, relations_of, undefined_functions
 from ptproof.proof.verdict import Evidence, Verdict
 
@@ -25,28 +24,33 @@ _ABSURD = Relation(sp.S.One, "<", sp.S.Zero)
 _REAL_ON_REALS = (sp.exp, sp.log, sp.sin, sp.cos, sp.atan, sp.Abs, sp.sign, sp.floor, sp.Max, sp.Min, sp.Piecewise)
 
 
+@dataclass(frozen=True)
+class Answer:
+    """Whether something is shown, and how, or what was tried."""
+
+    shown: bool
+    how: str
+
+
 @engine
 def reals(goal: Goal, *lemmas: Implication, seconds: float | None = None) -> Evidence:
     """Show the goal's relations from its assumptions, the claims that it uses, and the ``lemmas``."""
-    start = time.perf_counter()
     # The limits that the goal uses say nothing to z3.
     facts = [fact for fact in (*goal.facts, *lemmas) if not _speaks_of_limits(fact)]
-    details = []
-    for part in relations_of(goal.statement):
-        outcome, detail = follows(part, goal.relations, facts, seconds=seconds)
-        details.append(detail)
-        if not outcome:
-            tried = Evidence("z3", Verdict.UNDECIDED, f"{part}: {detail}", time.perf_counter() - start)
-            return or_refute(goal, tried)
-    if goal.relations and follows(_ABSURD, goal.relations, seconds=_SECONDS_TO_CONTRADICT)[0]:
+    parts = relations_of(goal.statement)
+    for part in parts:
+        answer = follows(part, goal.relations, facts, seconds=seconds)
+        if not answer.shown:
+            return Evidence("z3", Verdict.UNDECIDED, f"{part}: {answer.how}")
+    if goal.relations and follows(_ABSURD, goal.relations, seconds=_SECONDS_TO_CONTRADICT).shown:
         detail = "the assumptions contradict each other, so that everything follows from them"
-        return Evidence("z3", Verdict.UNDECIDED, detail, time.perf_counter() - start)
+        return Evidence("z3", Verdict.UNDECIDED, detail)
     names = sorted({fact.source for fact in facts if fact.source})
     told = f" with {', '.join(names)}" if names else ""
     detail = f"the negation is unsatisfiable over the reals{told}"
-    if len(details) > 1:
-        detail += f" ({len(details)} parts)"
-    return Evidence("z3", Verdict.PROVED, detail, time.perf_counter() - start)
+    if len(parts) > 1:
+        detail += f" ({len(parts)} parts)"
+    return Evidence("z3", Verdict.PROVED, detail)
 
 
 def _speaks_of_limits(fact: Implication) -> bool:
@@ -59,38 +63,38 @@ def follows(
     facts: Sequence[Implication] = (),
     *,
     seconds: float | None = None,
-) -> tuple[bool, str]:
-    """Whether ``conclusion`` follows over the reals: (True, how) or (False, what was tried).
+) -> Answer:
+    """Whether ``conclusion`` is shown to follow over the reals.
 
     It is tried without the facts first: fewer powers and products make an easier problem.
     """
     seconds = SECONDS if seconds is None else seconds
     if facts:
-        alone, how = _follows(conclusion, assumptions, (), min(seconds / 8, 1.0))
-        if alone:
-            return True, how
+        alone = _follows(conclusion, assumptions, (), min(seconds / 8, 1.0))
+        if alone.shown:
+            return alone
     return _follows(conclusion, assumptions, facts, seconds)
 
 
 def _follows(
     conclusion: Relation, assumptions: Sequence[Relation], facts: Sequence[Implication], seconds: float
-) -> tuple[bool, str]:
+) -> Answer:
     import z3
 
     try:
         problem = _Problem(conclusion, assumptions, facts)
     except NotAlgebraic as error:
-        return False, str(error)
+        return Answer(False, str(error))
     tried = []
     for tactic, share in (("default", 0.5), ("qfnra-nlsat", 0.5)):
         context = problem.solver(z3, tactic, int(1000 * seconds * share))
         answer = context.check()
         if answer == z3.unsat:
-            return True, f"z3 ({tactic})"
+            return Answer(True, f"z3 ({tactic})")
         if answer == z3.sat:
-            return False, f"z3 ({tactic}) finds values of the generators that satisfy the negation"
+            return Answer(False, f"z3 ({tactic}) finds values of the generators that satisfy the negation")
         tried.append(f"{tactic}: {context.reason_unknown()}")
-    return False, f"z3 gave no answer in {seconds:g} s ({'; '.join(tried)})"
+    return Answer(False, f"z3 gave no answer in {seconds:g} s ({'; '.join(tried)})")
 
 
 class _Problem:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -11,11 +10,12 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 from sympy.core.relational import Relational
 
+from ptproof.proof.claim import Goal, engine
 from ptproof.proof.engines.glued import glued_smoothly
 from ptproof.proof.engines.reals import follows
 from ptproof.proof.engines.singular import find_singularity
 from ptproof.proof.kinks import KINKS, switching
-from ptproof.proof.statement import Relation
+from ptproof.proof.statement import Relation, Smooth
 from ptproof.proof.verdict import Evidence, Verdict
 
 ENGINE = "smoothness"
@@ -29,6 +29,21 @@ class _Need:
 
     node: sp.Basic
     relation: Relation | None
+
+
+@engine
+def smooth(goal: Goal) -> Evidence:
+    """Show that all expressions of the goal are as smooth as it says, on the domain that its assumptions leave."""
+    statement = goal.statement
+    if not isinstance(statement, Smooth):
+        return Evidence(ENGINE, Verdict.UNDECIDED, f"not a statement about smoothness: {statement}")
+    details = []
+    for expression in statement.expressions:
+        found = smoothness(expression, statement.variables, statement.order, dict(statement.assumed), goal.relations)
+        if found.verdict is not Verdict.PROVED:
+            return found
+        details.append(found.detail)
+    return Evidence(ENGINE, Verdict.PROVED, "; ".join(dict.fromkeys(details)))
 
 
 def smoothness(
@@ -70,7 +85,6 @@ def smoothness(
     >>> print(smoothness(sp.Abs(x) ** 3, [x], 2).verdict)
     proved
     """
-    start = time.perf_counter()
     orders = {_key(function): value for function, value in (assumed or {}).items()}
     examiner = _Examiner(frozenset(variables), orders, tuple(domain))
     shown, left = [], []
@@ -85,16 +99,15 @@ def smoothness(
             detail += f", {', '.join(map(str, examiner.glued))} glued to order {order}"
         if shown:
             detail += f", with {', '.join(shown)} on the whole domain"
-        return Evidence(ENGINE, Verdict.PROVED, detail, time.perf_counter() - start)
+        return Evidence(ENGINE, Verdict.PROVED, detail)
     found = find_singularity(expression, variables, order, [need.node for need in left], domain)
-    seconds = time.perf_counter() - start
     if found is not None:
         reason, witness = found
-        return Evidence(ENGINE, Verdict.REFUTED, f"not C^{order}: {reason}", seconds, witness)
+        return Evidence(ENGINE, Verdict.REFUTED, f"not C^{order}: {reason}", witness=witness)
     remaining = "; ".join(
         f"{need.node}" + (f" needs {need.relation}" if need.relation is not None else "") for need in left
     )
-    return Evidence(ENGINE, Verdict.UNDECIDED, f"C^{order} not shown, it rests on {remaining}", seconds)
+    return Evidence(ENGINE, Verdict.UNDECIDED, f"C^{order} not shown, it rests on {remaining}")
 
 
 def _key(function: Any) -> str:
@@ -219,4 +232,4 @@ def _holds(relation: Relation, domain: Sequence[Relation]) -> bool:
         "<": difference.is_negative,
         "<=": difference.is_nonpositive,
     }[relation.sign]
-    return bool(by_assumptions) or follows(relation, list(domain), seconds=_SECONDS)[0]
+    return bool(by_assumptions) or follows(relation, list(domain), seconds=_SECONDS).shown

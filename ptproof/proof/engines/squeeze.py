@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
@@ -35,10 +34,9 @@ def squeezed(
     facts
         Given the goal ``v(t) ≤ bound`` at one arbitrary t near the point, the facts that show it over the reals.
     """
-    start = time.perf_counter()
 
     def undecided(reason: str) -> Evidence:
-        return Evidence(ENGINE, Verdict.UNDECIDED, reason, time.perf_counter() - start)
+        return Evidence(ENGINE, Verdict.UNDECIDED, reason)
 
     statement = goal.statement
     if not (isinstance(statement, Relation) and statement.sign == "=" and isinstance(statement.left, sp.Limit)):
@@ -60,7 +58,7 @@ def squeezed(
     if shown.verdict is not Verdict.PROVED:
         return undecided(f"the bound is not shown: {shown.detail}")
     detail = f"0 ≤ {value} ≤ {bound}, which tends to 0; the bound: {shown.detail}"
-    return Evidence(ENGINE, Verdict.PROVED, detail, time.perf_counter() - start)
+    return Evidence(ENGINE, Verdict.PROVED, detail)
 
 
 def _eventually(part: Relation, t: sp.Symbol, point: sp.Expr) -> bool:

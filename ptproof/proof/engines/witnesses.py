@@ -10,17 +10,17 @@ import itertools
 import random
 import time
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
 from typing import Any
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from ptproof.balls.ball import enclose, enclosure_text
 from ptproof.proof.claim import Goal, admissible, engine
 from ptproof.proof.engines.evaluation import carried_out
+from ptproof.proof.engines.reals import follows
 from ptproof.proof.signs import holds
 from ptproof.proof.statement import (
-    All,
     Assumption,
     ForAll,
     Relation,
@@ -32,7 +32,7 @@ from ptproof.proof.statement import (
 from ptproof.proof.verdict import Evidence, Verdict, Witness
 from ptproof.system import differentiated
 
-SEARCH_SECONDS = 4.0
+DIFFER = "the two sides differ at exact values"
 _TRIES = 3000
 _PLAIN_TRIES = 40
 
@@ -40,31 +40,23 @@ _PLAIN_TRIES = 40
 @engine
 def refute(goal: Goal, values: Mapping[Any, Any]) -> Evidence:
     """Check one explicit witness: exact values of all symbols and undefined functions of the goal."""
-    start = time.perf_counter()
     witness, reason = check_witness(goal, values)
-    seconds = time.perf_counter() - start
     if witness is None:
-        return Evidence("witness", Verdict.UNDECIDED, f"the values given are no witness: {reason}", seconds)
-    return Evidence("witness", Verdict.REFUTED, "the two sides differ at exact values", seconds, witness)
+        return Evidence("witness", Verdict.UNDECIDED, f"the values given are no witness: {reason}")
+    return Evidence("witness", Verdict.REFUTED, DIFFER, witness=witness)
 
 
-def or_refute(goal: Goal, tried: Evidence, *, seconds: float | None = None) -> Evidence:
-    """Look for a witness after a proof has failed; without one, the evidence of the failed proof stays."""
-    start = time.perf_counter()
-    seconds = SEARCH_SECONDS if seconds is None else seconds
-    if not isinstance(goal.statement, Relation | All):
-        return tried
-    count = 0
+def search(goal: Goal, seconds: float) -> tuple[Witness | None, int]:
+    """A witness against the goal, looked for among its :func:`candidates`, and how many of them were tried."""
+    end, count = time.monotonic() + seconds, 0
     for values in candidates(goal):
-        if time.perf_counter() - start > seconds:
+        if time.monotonic() > end:
             break
         count += 1
         witness, _ = check_witness(goal, values)
         if witness is not None:
-            spent = tried.seconds + time.perf_counter() - start
-            return Evidence("witness", Verdict.REFUTED, "the two sides differ at exact values", spent, witness)
-    spent = tried.seconds + time.perf_counter() - start
-    return replace(tried, detail=f"{tried.detail}; no witness among {count} points", seconds=spent)
+            return witness, count
+    return None, count
 
 
 def check_witness(goal: Goal, values: Mapping[Any, Any]) -> tuple[Witness | None, str]:
@@ -116,20 +108,16 @@ def _holds(assumption: Assumption, values: Mapping[Any, Any]) -> bool:
             parts = [_at(part, values) for part in assumption.components()]
             return all(part is not None and holds(part) for part in parts)
         case ForAll(variables=variables, relation=relation, domain=domain):
-            from ptproof.proof.engines.reals import follows
-
             # A bound variable may carry the name of a free one: its value at the witness is not meant here.
             values = {key: value for key, value in values.items() if key not in variables}
             free = {key: value for key, value in values.items() if key not in assumption.variables}
             there = substitute_in(relation, free).map(differentiated)
             where = [substitute_in(part, free) for part in domain]
-            return follows(there, where, seconds=2.0)[0]
+            return follows(there, where, seconds=2.0).shown
     return False
 
 
 def _sides(relation: Relation) -> tuple[str, str]:
-    from ptproof.balls.ball import enclose, enclosure_text
-
     def side(value: sp.Expr) -> str:
         if value.is_Rational:
             return str(value)

@@ -57,7 +57,7 @@ def is_positive(expression: sp.Expr) -> bool:
     forms = (expression, sp.factor(sp.cancel(sp.together(expression))))
     if any(form.is_positive for form in forms):
         return True
-    return follows(gt(forms[1], 0), (), seconds=2.0)[0]
+    return follows(gt(forms[1], 0), (), seconds=2.0).shown
 
 
 def limit_at_infinity(expression: sp.Expr, variable: sp.Symbol) -> sp.Expr | None:

@@ -25,12 +25,6 @@ product = sp.Integral(sp.Abs(sp.sin(x) * sp.cos(x)), (x, 0, 2 * sp.pi))  # 2; Sy
 one_sided = sp.Limit(sp.atan((1 - s) ** sp.Rational(-1, 2)), s, 1, "-")  # π/2; SymPy says −π/2
 
 
-@pytest.fixture(autouse=True)
-def short_search(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The search for a witness would be at its end after the first few points if SymPy were asked."""
-    monkeypatch.setattr("ptproof.proof.engines.witnesses.SEARCH_SECONDS", 0.1)
-
-
 ENGINES = [exact, integrals, limits, reals, enclosures]
 FALSE = [eq(arch, 2), le(arch, 3), eq(product, 1), le(product, sp.Rational(3, 2)), le(one_sided, 0)]
 TRUE = [eq(arch, 14), ge(arch, 13), eq(product, 2), eq(one_sided, sp.pi / 2), ge(one_sided, 0)]

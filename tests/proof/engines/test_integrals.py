@@ -7,6 +7,7 @@ import sympy as sp
 
 from ptproof.proof.claim import Goal
 from ptproof.proof.engines.integrals import definite, integrals
+from ptproof.proof.settling import settle
 from ptproof.proof.statement import eq
 from ptproof.proof.verdict import Verdict
 
@@ -21,7 +22,7 @@ def test_rational_integral_to_infinity() -> None:
 
 def test_wrong_value_is_refuted() -> None:
     goal = Goal("t", eq(sp.Integral(a / (1 + s / T) ** 2, (s, 0, sp.oo)), 2 * a * T))
-    assert integrals(goal).verdict is Verdict.REFUTED
+    assert settle(goal, integrals).verdict is Verdict.REFUTED
 
 
 def test_iterated_integral() -> None:

@@ -7,6 +7,7 @@ import sympy as sp
 
 from ptproof.proof.claim import Goal
 from ptproof.proof.engines.limits import limit_of, limits
+from ptproof.proof.settling import settle
 from ptproof.proof.statement import eq
 from ptproof.proof.verdict import Verdict
 
@@ -47,7 +48,7 @@ def test_no_rule_no_answer(expression: sp.Expr, variable: sp.Symbol, point: sp.E
 
 def test_wrong_value_is_refuted() -> None:
     goal = Goal("t", eq(sp.Limit(s / (1 + s / T), s, sp.oo, "-"), 2 * T))
-    assert limits(goal).verdict is Verdict.REFUTED
+    assert settle(goal, limits).verdict is Verdict.REFUTED
 
 
 def test_sympy_is_wrong_about_a_positive_time() -> None:
