@@ -1,22 +1,20 @@
 """Signals that switch: Piecewise, Abs, sign, Max, Min, Mod, floor and triangle waves become smooth pieces.
 
-A switch is resolved by the signs of some functions and by the integer parts of others. The exact route
-decides these between exact switching points, the enclosure decides them on balls; the rewriting is one.
+A switch is resolved by the signs of some functions and by the integer parts of others, which are decided between
+exact switching points.
 """
 
 from __future__ import annotations
 
 import functools
 import itertools
-from collections.abc import Iterator, Mapping
-from typing import Any
+from collections.abc import Iterator
 
 import sympy as sp
 
 from ptproof.averaging.quasipolynomial import exact_sign, linear_part, read
 from ptproof.averaging.refusal import AveragingUndecided
-from ptproof.balls.ball import enclose
-from ptproof.proof.kinks import branch, innermost, level, resolved, switching
+from ptproof.proof.kinks import branch, innermost, level, switching
 
 _MOST_PIECES = 4096
 _BITS = 96
@@ -133,39 +131,3 @@ def zeros(side: sp.Expr, variable: sp.Symbol, start: sp.Expr, end: sp.Expr, wher
     low = int(sp.floor((rate * start) / (2 * sp.pi))) - 1
     high = int(sp.floor((rate * end) / (2 * sp.pi))) + 1
     return [sp.expand((shift + sign * half + 2 * sp.pi * k) / rate) for k in range(low, high + 1) for sign in (1, -1)]
-
-
-def on_ball(expression: sp.Expr, variable: sp.Symbol, ball: Any, values: Mapping[sp.Symbol, Any]) -> sp.Expr | None:
-    """The smooth expression that ``expression`` is on the whole ``ball``, or None where it is not shown to be one."""
-
-    def at(expression: sp.Expr, where: Any) -> Any:
-        return enclose(expression, {**values, variable: where}, bits=_BITS)
-
-    def sign_of(side: sp.Expr) -> int | None:
-        if (sign := _sign(at(side, ball))) is not None:
-            return sign
-        # A monotone function has on the whole ball the sign that it has at both ends.
-        if variable not in side.free_symbols or _sign(at(_slope(side, variable), ball)) is None:
-            return None
-        first, last = (_sign(at(side, end)) for end in (ball.lower(), ball.upper()))
-        return first if first == last else None
-
-    def floor_of(level: sp.Expr) -> int | None:
-        ends = [at(level, end).floor().unique_fmpz() for end in (ball.lower(), ball.upper())]
-        if linear_part(level, variable) is None or ends[0] is None or ends[0] != ends[1]:
-            return None
-        return int(ends[0])
-
-    smooth = resolved(expression, {variable}, sign_of, floor_of)
-    if smooth is not None:
-        _require_value(smooth, expression)
-    return smooth
-
-
-def _sign(ball: Any) -> int | None:
-    return 1 if ball > 0 else -1 if ball < 0 else None
-
-
-@functools.lru_cache(maxsize=1024)
-def _slope(side: sp.Expr, variable: sp.Symbol) -> sp.Expr:
-    return sp.diff(side, variable)

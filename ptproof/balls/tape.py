@@ -266,6 +266,10 @@ class _Builder:
         if isinstance(node, sp.Mod):
             dividend, divisor = node.args
             return self.visit(dividend - divisor * sp.floor(dividend / divisor))
+        if isinstance(node, sp.ceiling):
+            return self.emit("mul", self.visit(sp.S.NegativeOne), self.emit("floor", self.visit(-node.args[0])))
+        if isinstance(node, sp.Heaviside):
+            return self.visit(node.rewrite(sp.Piecewise))
         if isinstance(node, sp.Piecewise):
             branches = tuple(
                 (compile_tape([value], self.symbols), self.condition(condition)) for value, condition in node.args
