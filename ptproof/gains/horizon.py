@@ -115,7 +115,7 @@ class Horizon:
 
         The drift enters dx/dτ with w = dt/dτ, whose integral over τ is the elapsed time itself.
         """
-        return push * elapsed - k / 2 * self.stretched(elapsed)
+        return sp.expand_mul(push * elapsed - k / 2 * self.stretched(elapsed))
 
     def turning(self, push: sp.Expr, k: sp.Expr) -> sp.Expr:
         """The e up to which the push outweighs the gain, where K = 2m/k: 0 for small m, T if the cap prevents it."""

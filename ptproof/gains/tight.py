@@ -1,7 +1,7 @@
 """A certified bound of the averaged distance that is tight: the scalar comparison system of the radial envelope.
 
 In the stretched time s the averaged distance r satisfies dr/ds ≤ w·d + r·G(w, r), with w = dt/ds, G the envelope of
-:class:`ptproof.gains.envelope.RadialEnvelope` and d a bound of the drift that does not vanish. On each short step
+:class:`ptproof.balls.radial.RadialEnvelope` and d a bound of the drift that does not vanish. On each short step
 and in each shell both are replaced by constants from above, y' = a + g·y, which is solved by its formula in ball
 arithmetic with every rounding outward. y lies above r: where y moves inside a shell by the Lipschitz comparison, and
 where it rests on a boundary because the outer shell's rate is negative there.

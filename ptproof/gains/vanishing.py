@@ -92,7 +92,7 @@ def threshold_factor(data: GainData, chain: Chain) -> sp.Expr | None:
         return None if sign(ratio - 1) <= 0 else k * bounds.c1**2 / 2 * (ratio - 1) ** 2
     horizon = data.unit.uncapped
     turning = horizon.turning(data.push, k)
-    return None if sign(turning) == 0 else bounds.c2**2 * sp.expand(horizon.balance(turning, data.push, k))
+    return None if sign(turning) == 0 else bounds.c2**2 * horizon.balance(turning, data.push, k)
 
 
 def critical_value(data: GainData, chain: Chain) -> sp.Expr | None:

@@ -1,26 +1,28 @@
-"""Certified upper envelopes of the radial rate u·M∇F/r, cell by cell in the distance r from the source.
+"""Certified upper envelopes of the radial rate u·M∇F/r, shell by shell in the distance r from a critical point.
 
 With x = x* + r·u, ‖u‖ = 1, the distance of a solution of dx/ds = w·f + M∇F, M = wE + (k/2)I, satisfies
-dr/ds = w·u·f + u·M∇F. For each shell r ∈ [b_j, b_(j+1)] and each weight w of a grid, ball arithmetic over a cover of
-the shell encloses the largest u·M∇F/r. As a supremum of functions that are affine in w it is convex in w, so that
-chords between grid weights are upper bounds too. Near the source ∇F is written by the Hessian on the segment from
-the source, ∇F(x)/r = (mean of H over the segment)·u, which loses nothing where the quotient of two balls would.
+dr/ds = w·u·f + u·M∇F. For each shell r ∈ [b_j, b_(j+1)] and each weight w of a grid, branch and bound over the shell
+encloses the largest u·M∇F/r. As a supremum of functions that are affine in w it is convex in w, so that chords between
+grid weights are upper bounds too. Near the source ∇F is written by the Hessian on the segment from the source,
+∇F(x)/r = (mean of H over the segment)·u, which loses nothing where the quotient of two balls would.
 """
 
 from __future__ import annotations
 
-import heapq
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any, TypeAlias
 
 import sympy as sp
+from flint import arb
 
-from ptproof.balls.shells import Piece, down, exact, faces, up
+from ptproof.balls.ball import BALLS, ball_from, interval, precision
+from ptproof.balls.boxes import centre
+from ptproof.balls.cube import Box, shell
+from ptproof.balls.rounding import down, up
+from ptproof.balls.search import Look, Search
+from ptproof.balls.tape import Undefined, compile_tape
 from ptproof.errors import InputError
-from ptproof.gains.numbers import NotApplicable
-from ptproof.proof.algebra import NotAlgebraic, is_zero
 from ptproof.system import gradient
 
 BITS = 64
@@ -31,9 +33,10 @@ _PIECES = 300
 _NOT_SMOOTH = (
     sp.Piecewise, sp.Abs, sp.sign, sp.Max, sp.Min, sp.floor, sp.ceiling, sp.Mod, sp.atan2, sp.Heaviside, sp.DiracDelta,
 )  # fmt: skip
-_FINEST = 30
 _TOLERANCE = 0.02  # of the largest rate of a shell, or of this fraction of any rate there
 _SMALL = 0.1
+
+_Matrix: TypeAlias = list[list[Any]]
 
 
 @dataclass
@@ -43,7 +46,7 @@ class RadialEnvelope:
     Parameters
     ----------
     variables, expression, source
-        The field F over n coordinates, and its critical point.
+        The field F over n coordinates, and a point at which its gradient vanishes, which is the caller's to show.
     k
         The gain.
     matrix
@@ -55,9 +58,7 @@ class RadialEnvelope:
 
     Raises
     ------
-    InputError
-        If the gradient is not zero at the source by exact algebra.
-    NotApplicable
+    Undefined
         If the field is not twice continuously differentiable in closed form: the mean values need that.
     """
 
@@ -72,28 +73,16 @@ class RadialEnvelope:
     _cells: dict[tuple[int, int], float] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        from ptproof.balls.ball import ball_from, precision
-        from ptproof.balls.tape import Undefined, compile_tape
-
         if found := [kind.__name__ for kind in _NOT_SMOOTH if self.expression.has(kind)]:
-            raise NotApplicable(f"a field with {found[0]}, which is not smooth in closed form")
-        slope = gradient(self.expression, self.variables)
-        at_source = dict(zip(self.variables, self.source, strict=True))
-        for entry in slope:
-            try:
-                critical = is_zero(entry.subs(at_source, simultaneous=True))
-            except NotAlgebraic:
-                critical = False
-            if not critical:
-                raise InputError(f"the gradient of the field is not zero at the source {self.source}")
+            raise Undefined(f"a field with {found[0]}, which is not smooth in closed form")
         n = self.dimension
-        hessian = sp.hessian(self.expression, self.variables)
+        slope, hessian = gradient(self.expression, self.variables), sp.hessian(self.expression, self.variables)
         upper = [hessian[i, j] for i in range(n) for j in range(i, n)]
         try:
             self._both = compile_tape([*slope, *upper], self.variables)
             self._hessian = compile_tape(upper, self.variables)
         except Undefined as error:
-            raise NotApplicable(f"a field without enclosures ({error})") from None
+            raise Undefined(f"a field without enclosures ({error})") from None
         with precision(BITS):
             self._source = [ball_from(value) for value in self.source]
             half = ball_from(self.k) / 2
@@ -101,7 +90,7 @@ class RadialEnvelope:
                 [ball_from(self.matrix[i, j] if self.matrix is not None else 0) for j in range(n)] for i in range(n)
             ]
             self._maps = [
-                [[exact(w) * entries[i][j] + (half if i == j else 0) for j in range(n)] for i in range(n)]
+                [[arb(w) * entries[i][j] + (half if i == j else 0) for j in range(n)] for i in range(n)]
                 for w in self.weights
             ]  # fmt: skip
 
@@ -137,8 +126,6 @@ class RadialEnvelope:
         return max(self._chord(index, low), self._chord(index, high))
 
     def _chord(self, index: int, w: float) -> float:
-        from ptproof.balls.ball import precision
-
         grid = self.weights
         if not grid[0] <= w <= grid[-1]:
             raise InputError(f"the weight {w} lies outside the grid")
@@ -149,75 +136,61 @@ class RadialEnvelope:
         if math.inf in (first, second):
             return math.inf
         with precision(BITS):
-            share = (exact(w) - exact(grid[i - 1])) / (exact(grid[i]) - exact(grid[i - 1]))
-            return up(exact(first) * (1 - share) + exact(second) * share)
+            share = (arb(w) - arb(grid[i - 1])) / (arb(grid[i]) - arb(grid[i - 1]))
+            return up(arb(first) * (1 - share) + arb(second) * share)
 
     def _column(self, index: int, column: int) -> float:
         if (index, column) not in self._cells:
-            self._cells[index, column] = self._enclose(index, self._maps[column])
+            with precision(BITS):
+                self._cells[index, column] = self._enclose(index, self._maps[column])
         return self._cells[index, column]
 
     def _enclose(self, index: int, M: _Matrix) -> float:
-        """Branch and bound over the shell: the piece with the largest upper bound is halved first."""
-        from ptproof.balls.ball import precision
-
-        low, high = self.boundary(index), self.boundary(index + 1)
+        """Branch and bound over the shell, until the largest rate is known closely enough."""
+        low, high, finer = self.boundary(index), self.boundary(index + 1), max(1, self.dimension - 1)
         near = index <= -_NEAR or low == 0 or self.dimension > 2
-        with precision(BITS):
-            best, counter = -math.inf, 0
-            heap: list[tuple[float, int, Piece]] = []
-            waiting: Sequence[Piece] = faces(self.dimension, low, high)
-            scale = 0.0
-            while True:
-                for piece in waiting:
-                    best = max(best, self._at_least(piece, M))
-                    bound = self._at_most(piece, near, M)
-                    if counter < len(waiting) and math.isfinite(bound):
-                        scale = max(scale, abs(bound))
-                    heapq.heappush(heap, (-bound, counter, piece))
-                    counter += 1
-                top, worst = -heap[0][0], heap[0][2]
-                if (
-                    top <= best + _TOLERANCE * max(1, self.dimension - 1) * max(abs(best), _SMALL * scale)
-                    or counter >= _PIECES * max(1, self.dimension - 1) ** 2
-                    or worst.level >= _FINEST
-                ):
-                    return top
-                heapq.heappop(heap)
-                waiting = worst.halves()
+        parts, scale = shell(self.dimension, arb(low), arb(high), 4), 0.0
 
-    def _at_least(self, piece: Piece, M: _Matrix) -> float:
-        """What the middle of the piece certainly reaches, −inf where the field has no value."""
-        from ptproof.balls.ball import BALLS
-        from ptproof.balls.tape import Undefined
+        def look(box: Box, best: float) -> Look[Box, Box]:
+            nonlocal scale
+            middle, bound = _middle(box), self._at_most(box, near, M)
+            if search.looks < len(parts) and math.isfinite(bound):
+                scale = max(scale, abs(bound))
+            return Look(bound, False, lambda: box.split(box.widest()), self._at_least(middle, M), middle)
 
-        r, u = piece.middle()
+        def enough() -> bool:
+            return search.upper <= search.best + _TOLERANCE * finer * max(abs(search.best), _SMALL * scale)
+
+        search: Search[Box, Box] = Search(look, parts)
+        search.run(enough, most=_PIECES * finer**2)
+        return search.upper
+
+    def _at_least(self, middle: Box, M: _Matrix) -> float:
+        """What a point certainly reaches, −inf where the field has no value."""
+        r, u = middle.sides[0][0], middle.direction()
         try:
             g = self._both.run([c + r * ui for c, ui in zip(self._source, u, strict=True)], BALLS)
         except Undefined:
             return -math.inf
         return down(_pair(u, M, g, self.dimension) / r)
 
-    def _at_most(self, piece: Piece, near: bool, M: _Matrix) -> float:
-        """An upper bound of u·M∇F/r on the piece: the least of three enclosures; inf where the field has no value."""
-        from ptproof.balls.ball import BALLS, interval
-        from ptproof.balls.tape import Undefined
-
-        n, u = self.dimension, piece.direction()
+    def _at_most(self, box: Box, near: bool, M: _Matrix) -> float:
+        """An upper bound of u·M∇F/r on the box: the least of three enclosures; inf where the field has no value."""
+        n, u, (low, high) = self.dimension, box.direction(), box.sides[0]
         self.evaluations += 1
         result = math.inf
-        if piece.low > 0:
-            r = interval(exact(piece.low), exact(piece.high))
+        if low > 0:
+            r = interval(low, high)
             x = [r * ui for ui in u]
             try:
                 values = self._both.run([c + xi for c, xi in zip(self._source, x, strict=True)], BALLS)
                 g, H = values[:n], _square(values[n:], n)
                 result = up(_pair(u, M, g, n) / r)
-                result = min(result, up(self._mean_value(piece, M, u, x, g, H)))
+                result = min(result, up(self._mean_value(box, M, u, x, g, H)))
             except Undefined:
                 pass
         if near:
-            r = interval(exact(0.0), exact(piece.high))
+            r = interval(0, high)
             try:
                 H = _square(self._hessian.run([c + r * ui for c, ui in zip(self._source, u, strict=True)], BALLS), n)
             except Undefined:
@@ -229,23 +202,21 @@ class RadialEnvelope:
             result = min(result, up(common + _pair(u, A, u, n)))
         return result
 
-    def _mean_value(self, piece: Piece, M: _Matrix, u: list[Any], x: list[Any], g: list[Any], H: _Matrix) -> Any:
-        """φ(m) + ∇φ·(x − m) for φ(x) = x·M∇F/‖x‖² and the middle m of the piece; ``g``, ``H`` over the box ``x``."""
-        from ptproof.balls.ball import BALLS, interval
-
-        n = self.dimension
-        rm, um = piece.middle()
+    def _mean_value(self, box: Box, M: _Matrix, u: list[Any], x: list[Any], g: list[Any], H: _Matrix) -> Any:
+        """φ(m) + ∇φ·(x − m) for φ(x) = x·M∇F/‖x‖² and the middle m of the box; ``g``, ``H`` over all its ``x``."""
+        n, middle, (low, high) = self.dimension, _middle(box), box.sides[0]
+        rm, um = middle.sides[0][0], middle.direction()
         m = [rm * ui for ui in um]
         gm = self._both.run([c + mi for c, mi in zip(self._source, m, strict=True)], BALLS)[:n]
-        centre = _pair(um, M, gm, n) / rm
-        # A chord of the piece keeps its directions, a convex cone, but comes closer to the source than its ends.
-        nearest = (piece.low * sum((a * b for a, b in zip(u, um, strict=True)), exact(0.0))).lower()
+        centred = _pair(um, M, gm, n) / rm
+        # A chord of the box keeps its directions, a convex cone, but comes closer to the source than its ends.
+        nearest = (low * sum((a * b for a, b in zip(u, um, strict=True)), arb(0))).lower()
         if not nearest > 0:
-            return exact(math.inf)
-        r = interval(nearest, exact(piece.high))
+            return arb(math.inf)
+        r = interval(nearest, high)
         radial = _pair(u, M, g, n) / r
         backward = [sum((M[i][j] * u[i] for i in range(1, n)), M[0][j] * u[0]) for j in range(n)]  # Mᵀu
-        total = centre
+        total = centred
         for j in range(n):
             forward = sum((M[j][i] * g[i] for i in range(1, n)), M[j][0] * g[0])
             curved = sum((H[j][i] * backward[i] for i in range(1, n)), H[j][0] * backward[0])
@@ -254,7 +225,10 @@ class RadialEnvelope:
         return total
 
 
-_Matrix: TypeAlias = list[list[Any]]
+def _middle(box: Box) -> Box:
+    """The point in the middle of the box; its radius is positive also where the box begins at the source."""
+    radius, *rest = centre(box.sides)
+    return box.at((box.sides[0][1] if box.sides[0][0].is_zero() else radius, *rest))
 
 
 def _pair(u: list[Any], M: _Matrix, g: list[Any], n: int) -> Any:
