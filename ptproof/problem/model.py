@@ -1,22 +1,28 @@
-"""The data of a seeking problem, checked when they are put together."""
+"""The parts of a seeking problem beside its field and drift, each checked when it is made, and their symbols."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any
 
 import sympy as sp
 
 from ptproof.errors import InputError
-from ptproof.problem.drift import Drift
-from ptproof.problem.field import Field
-from ptproof.system import System
+from ptproof.transforms.clocks.named import check_clock
 
 TIME = sp.Symbol("t", real=True)
+TAU = sp.Symbol("tau", real=True)
+GAIN = sp.Symbol("K", positive=True)
 _LARGEST = 1e15
 _SMALLEST = 1e-15
+
+
+class parameters:
+    """The symbols of the symbolic closed loops; ``p0`` is the constant θ₀ + k z₀ of the reduced coordinates."""
+
+    k, omega, mu, T, nu_min, exponent = sp.symbols("k omega mu T nu_min exponent", positive=True)
+    epsilon, level, gain = sp.symbols("epsilon S C", positive=True)
+    t0, p0 = sp.symbols("t0 p0", real=True)
 
 
 def number(value: Any, where: str) -> sp.Expr:
@@ -53,7 +59,11 @@ class Tuning:
     t0
         The start. [time]
     nu_min
-        ν_min in (0, 1], at which the gain 1/ν² is clipped; None if it never is.
+        ν_min in (0, 1], at which the gain is clipped; None if it never is.
+    clock
+        The name of the clock whose rate is the gain (:data:`ptproof.transforms.CLOCKS`); ``paper`` for 1/ν².
+    exponent
+        The m > 0 of the clock ``power``, whose rate is 1/ν^(m + 1); None for the others.
     """
 
     k: sp.Expr
@@ -62,6 +72,8 @@ class Tuning:
     T: sp.Expr
     t0: sp.Expr = sp.S.Zero
     nu_min: sp.Expr | None = None
+    clock: str = "paper"
+    exponent: sp.Expr | None = None
 
     def __post_init__(self) -> None:
         for name in ("k", "omega", "mu", "T"):
@@ -72,6 +84,12 @@ class Tuning:
             if nu_min > 1:
                 raise InputError(f"seeker.nu_min: must lie in (0, 1], got {nu_min}")
             object.__setattr__(self, "nu_min", nu_min)
+        try:
+            check_clock(self.clock, self.exponent)
+        except InputError as error:
+            raise InputError(f"seeker.{error}") from None
+        if self.exponent is not None:
+            object.__setattr__(self, "exponent", positive(self.exponent, "seeker.exponent"))
 
 
 @dataclass(frozen=True)
@@ -103,114 +121,3 @@ class Initial:
             value = getattr(self, name)
             if value is not None:
                 object.__setattr__(self, name, number(value, f"initial.{name}"))
-
-
-@dataclass(frozen=True)
-class Problem:
-    """A source to seek: a field with its source, a drift, a seeker's tuning and an initial state.
-
-    Attributes
-    ----------
-    field
-        F over n coordinates with its source x* and κ. Closed loops need n = 2.
-    drift
-        f(t, x) in :data:`TIME` and ``variables``.
-    tuning, initial, saturation
-        See the classes; ``saturation`` is None where the problem has none.
-    name
-        For people.
-
-    Raises
-    ------
-    InputError
-        For data that don't fit together, naming the key at fault.
-    """
-
-    field: Field
-    drift: Drift
-    tuning: Tuning
-    initial: Initial
-    saturation: Saturation | None = None
-    name: str = "problem"
-
-    def __post_init__(self) -> None:
-        n = self.field.dimension
-        for what, length in (("initial.x", len(self.initial.x)), ("drift", len(self.drift.rate))):
-            if length != n:
-                raise InputError(f"{what}: {length} entries for {n} coordinates; give one for each")
-        if self.kappa > 1000:
-            raise InputError(f"field.kappa: must be a positive integer (up to 1000), got {self.kappa}")
-        for i, value in enumerate(self.source):
-            number(value, f"field.source[{i}]")
-        for where, point in (("field.source", self.source), ("initial.x", self.initial.x)):
-            value = self.field.value(point)
-            try:
-                number(value, where)
-            except InputError:
-                raise InputError(
-                    f"field.expression at {where}: the field has no finite real value there ({value})"
-                ) from None
-
-    def __hash__(self) -> int:
-        return self._hash
-
-    @cached_property
-    def _hash(self) -> int:
-        # Problems are looked up several times in each run; hashing their expressions anew would cost more than a run.
-        return hash((self.field, self.drift, self.tuning, self.initial, self.saturation, self.name))
-
-    def __getstate__(self) -> dict[str, Any]:
-        # The hash of a name differs from process to process.
-        return {key: value for key, value in self.__dict__.items() if key != "_hash"}
-
-    @property
-    def variables(self) -> tuple[sp.Symbol, ...]:
-        """The n coordinates of the field, real symbols."""
-        return self.field.variables
-
-    @property
-    def source(self) -> tuple[sp.Expr, ...]:
-        """x*, n exact numbers."""
-        return self.field.source
-
-    @property
-    def kappa(self) -> int:
-        """The κ of the field's bounds, a positive integer."""
-        return self.field.kappa
-
-    @property
-    def peak(self) -> sp.Expr:
-        """F(x*)."""
-        return self.field.peak
-
-    @cached_property
-    def measured(self) -> sp.Expr:
-        """z₀: the given filter state, or the field at the initial position."""
-        return self.field.value(self.initial.x) if self.initial.z is None else self.initial.z
-
-    @property
-    def values(self) -> Mapping[sp.Symbol, sp.Expr]:
-        """The exact value of each parameter symbol of the symbolic closed loops."""
-        from ptproof.problem.loops import parameter_values
-
-        return parameter_values(self)
-
-    def closed_loop(
-        self, seeker: str = "pt", frame: str = "t", *, coordinates: str = "full", symbolic: bool = False
-    ) -> System:
-        """The closed loop as a :class:`System`; see :func:`ptproof.problem.closed_loop`."""
-        from ptproof.problem.loops import closed_loop
-
-        return closed_loop(self, seeker, frame, coordinates=coordinates, symbolic=symbolic)
-
-    def reduced_model(self, seeker: str = "pt", frame: str = "t", *, symbolic: bool = False) -> System:
-        """The closed loop with the filter at its quasi-steady state; see :func:`ptproof.problem.reduced_model`."""
-        from ptproof.problem.models import reduced_model
-
-        return reduced_model(self, seeker, frame, symbolic=symbolic)
-
-    def averaged(self, seeker: str = "pt", frame: str = "t", *, symbolic: bool = False) -> System:
-        """Its Lie bracket average as a :class:`System`; see :func:`ptproof.problem.averaged_system`."""
-        from ptproof.problem.models import averaged_system
-
-        return averaged_system(self, seeker, frame, symbolic=symbolic)

@@ -14,11 +14,12 @@ import sympy as sp
 from ptproof.errors import InputError
 from ptproof.problem.drift import Drift, bounded_drift, gradient_drift, no_drift
 from ptproof.problem.field import Field
-from ptproof.problem.model import TIME, Initial, Problem, Saturation, Tuning, number, positive
+from ptproof.problem.model import TIME, Initial, Saturation, Tuning, number, positive
+from ptproof.problem.problem import Problem
 from ptproof.reading.tables import RESERVED, build_from, check_choice, declared, finite, hint, listed, read_file
+from ptproof.transforms.clocks.named import CLOCKS
 
 EXAMPLES = ("vanishing", "nonvanishing", "saturated")
-CLOCKS = ("paper", "power", "logarithmic", "exponential", "tangent")
 _DRIFTS = {"none": (), "gradient": ("E",), "bounded": ("f",)}
 _RESERVED = RESERVED | {"t", "tau"}
 
@@ -111,11 +112,7 @@ def _kappa(value: Any) -> int:
 
 
 def _tuning(table: Mapping[str, Any]) -> Tuning:
-    clock = check_choice(table.get("clock", "paper"), CLOCKS, "seeker.clock")
-    if clock == "power" and "exponent" not in table:
-        raise InputError("seeker.exponent is missing; the clock 'power' needs it")
-    if clock != "power" and "exponent" in table:
-        raise InputError(f"seeker.exponent: the clock {clock!r} has no exponent; only 'power' has")
+    check_choice(table.get("clock", "paper"), tuple(CLOCKS), "seeker.clock")
     given = {key: value if key == "clock" else _number(value, f"seeker.{key}") for key, value in table.items()}
     return Tuning(**given)
 

@@ -16,9 +16,7 @@ import numpy as np
 import sympy as sp
 
 from ptproof.errors import InputError
-from ptproof.problem import Problem, parameters
-from ptproof.problem.loops import gain_of, loop_letters
-from ptproof.problem.model import TIME
+from ptproof.problem import TIME, Problem, parameters
 from ptproof.problem.seekers import unicycle
 from ptproof.simulation.plan import Array
 from ptproof.simulation.run import simulate
@@ -88,9 +86,9 @@ def figure_loop(problem: Problem, *, dilated_filter: bool) -> Any:
     """
     import control
 
-    letters = loop_letters(problem)
+    letters = problem.states
     values = {symbol.name: float(value) for symbol, value in problem.values.items()}
-    gain = _scalar(gain_of(problem), problem)
+    gain = _scalar(problem.seeker_clock().rate, problem)
     u1, u2 = sp.symbols("u1 u2", real=True)
     vehicle = _vehicle(problem, u1, u2)
     x1, x2 = problem.variables
@@ -135,7 +133,7 @@ def _vehicle(problem: Problem, u1: sp.Symbol, u2: sp.Symbol) -> Any:
 
     from ptproof.problem.seekers import Feedback
 
-    letters = loop_letters(problem)
+    letters = problem.states
     # The unicycle of the seekers with its inputs left free; its filter state is not part of the vehicle.
     open_loop = unicycle(TIME, problem.drift.rate, Feedback(u1, u2, sp.S.Zero), letters, "unicycle")
     states = open_loop.state[:3]
@@ -214,7 +212,7 @@ def drawn_loop(problem: Problem) -> System:
     """The figure as drawn, as a system: the closed loop with the filter's rate not multiplied by K(t)."""
     loop = problem.closed_loop("pt", "t", symbolic=True)
     rhs = [*loop.rhs]
-    rhs[-1] = sp.cancel(rhs[-1] / gain_of(problem))
+    rhs[-1] = sp.cancel(rhs[-1] / problem.seeker_clock().rate)
     return System(loop.time, loop.state, tuple(rhs), name="block diagram as drawn")
 
 

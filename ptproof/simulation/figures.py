@@ -102,7 +102,7 @@ def draw_field(problem: Problem, ax: Any, low: Any, high: Any) -> None:
     """Level lines of the field in the rectangle from ``low`` to ``high``, and the source."""
     grid = [np.linspace(a, b, 160) for a, b in zip(low, high, strict=True)]
     X, Y = np.meshgrid(*grid)
-    values = field_function(problem)(np.array([X, Y]))
+    values = field_function(problem.field)(np.array([X, Y]))
     ax.contour(X, Y, values, levels=14, colors=GREY, linewidths=0.5, alpha=0.6, linestyles="solid")
     source = [float(value) for value in problem.source]
     ax.plot(*source, "*", color=RED, ms=9, label="source", zorder=5)

@@ -9,12 +9,10 @@ from typing import Any
 import numpy as np
 import sympy as sp
 
-from ptproof.problem import Problem, parameters
-from ptproof.problem.loops import gain_of, loop_letters
-from ptproof.problem.model import TIME
-from ptproof.problem.seekers import feedback
+from ptproof.problem import TIME, Field, parameters
+from ptproof.problem.seekers import Letters, Seeker
 from ptproof.simulation.plan import Array
-from ptproof.system import System
+from ptproof.transforms import CappedClock, Clock
 
 
 @lru_cache(maxsize=64)
@@ -23,9 +21,9 @@ def _vectorised(expression: sp.Expr, variables: tuple[sp.Symbol, ...]) -> Callab
 
 
 @lru_cache(maxsize=64)
-def field_function(problem: Problem) -> Callable[[Array], Array]:
+def field_function(field: Field) -> Callable[[Array], Array]:
     """F for arrays of positions (n × …)."""
-    function = _vectorised(problem.field.expression, problem.variables)
+    function = _vectorised(field.expression, field.variables)
 
     def evaluate(x: Array) -> Array:
         with np.errstate(all="ignore"):
@@ -36,29 +34,45 @@ def field_function(problem: Problem) -> Callable[[Array], Array]:
 
 @lru_cache(maxsize=64)
 def input_function(
-    problem: Problem, seeker: str, system: System
+    field: Field, seeker: Seeker, clock: Clock | CappedClock, states: Letters, order: tuple[sp.Symbol, ...]
 ) -> Callable[[Array, Array, Mapping[str, float]], dict[str, Array]]:
-    """The inputs u₁ and u₂ (and the angular acceleration a) along a run in full coordinates, from t and x."""
-    letters, symbols = loop_letters(problem), parameters
-    law = feedback(
-        problem.field.expression, letters.filter, symbols.k, symbols.omega, symbols.mu, gain_of(problem, seeker)
-    )
-    wanted = {"u1": law.forward, "u2": law.angular}
-    if seeker.startswith("saturated"):
-        loop = problem.closed_loop(seeker, "t", symbolic=True)
-        wanted = {"u1": law.forward, "a": loop.rhs[loop.state.index(letters.angular_velocity)]}
-    order = (
-        symbols.k, symbols.omega, symbols.mu, symbols.T, symbols.nu_min, symbols.epsilon, symbols.level,
-        symbols.gain, symbols.t0,
-    )  # fmt: skip
-    functions = {name: _vectorised(expression, (TIME, *system.state, *order)) for name, expression in wanted.items()}
+    """The inputs of a seeker along a run in full coordinates, from t and the states in their ``order``.
+
+    ``clock`` is the symbolic clock whose rate is the seeker's gain.
+    """
+    wanted = seeker.inputs(field.expression, clock.rate, states)
+    given = {TIME, *order}
+    symbols = tuple(sorted(set().union(*(entry.free_symbols for entry in wanted.values())) - given, key=str))
+    functions = {name: _vectorised(expression, (TIME, *order, *symbols)) for name, expression in wanted.items()}
 
     def evaluate(t: Array, x: Array, table: Mapping[str, float]) -> dict[str, Array]:
-        values = [table.get(symbol.name, 1.0) for symbol in order]
+        values = [table[symbol.name] for symbol in symbols]
         with np.errstate(all="ignore"):
             return {
                 name: np.asarray(function(t, *x, *values), dtype=float) + 0.0 * t
                 for name, function in functions.items()
             }
+
+    return evaluate
+
+
+def _select(conditions: list[Any], choices: list[Any], default: Any = np.nan) -> Any:
+    # As numpy.select, whose checks take longer than a short run.
+    result = default
+    for condition, choice in zip(reversed(conditions), reversed(choices), strict=True):
+        result = np.where(condition, choice, result)
+    return result
+
+
+@lru_cache(maxsize=64)
+def time_map(expression: sp.Expr, variable: sp.Symbol) -> Callable[[Array, Mapping[str, Any]], Array]:
+    """``expression`` for arrays of ``variable``, given the parameters of a clock by name."""
+    symbols = (parameters.t0, parameters.T, parameters.nu_min, parameters.exponent, parameters.gain)
+    function = sp.lambdify([variable, *symbols], expression, modules=[{"select": _select}, "numpy"])
+
+    def evaluate(times: Array, table: Mapping[str, Any]) -> Array:
+        values = [table.get(symbol.name, 1.0) for symbol in symbols]
+        with np.errstate(all="ignore"):
+            return np.asarray(function(times, *values), dtype=float) + 0.0 * times
 
     return evaluate

@@ -3,26 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
 import numpy as np
 import sympy as sp
+from sympy.core.relational import Relational
 
 from ptproof.errors import InputError
-from ptproof.problem import Problem, parameters
-from ptproof.problem.clipped import ClippedClock
-from ptproof.problem.loops import TAU, clock_of, loop_letters
-from ptproof.problem.model import TIME
+from ptproof.problem import TAU, TIME, Problem, parameters
 from ptproof.reading.expressions import parse
 from ptproof.simulation.plan import Array
-from ptproof.simulation.quantities import field_function, input_function
+from ptproof.simulation.quantities import field_function, input_function, time_map
 from ptproof.system import System
+from ptproof.transforms import CappedClock, Clock
 
 MODELS = ("closed loop", "reduced model", "average")
 LARGEST = 1e15
 # How close an unclipped gain, infinite at T, is followed towards it.
+_NU = sp.Symbol("nu", positive=True)
 NU_END = {"closed loop": 0.01, "reduced model": 0.01, "average": 1e-4}
 
 
@@ -44,6 +44,8 @@ class Setup:
         Indices of the states whose distance to ``source`` counts.
     complete
         Whether the end is T itself; False where the gain is infinite there.
+    conditions
+        The conditions of the choices in ``system`` that change at the edges between start and end, and nowhere else.
     to_t, to_tau
         Maps between the run's own time and t, τ for arrays, given the parameters of one member.
     """
@@ -60,7 +62,8 @@ class Setup:
     to_tau: Callable[[Array, Mapping[str, Any]], Array] | None = None
     field_at: Callable[[Array], Array] | None = None
     inputs_at: Callable[[Array, Array, Mapping[str, float]], dict[str, Array]] | None = None
-    free: tuple[str, ...] = field(default=())
+    free: tuple[str, ...] = ()
+    conditions: tuple[Relational, ...] = ()
 
 
 def as_float(value: Any, where: str) -> float:
@@ -133,42 +136,34 @@ def from_problem(
     else:
         derive = problem.reduced_model if model == "reduced model" else problem.averaged
         system = derive(seeker, frame, symbolic=True)
-    letters = loop_letters(problem)
-    theta, z = letters.heading.name, letters.filter.name
+    states, clock = problem.states, problem.seeker_clock(seeker)
+    z = states.filter.name
     defaults = dict(_defaults(problem))
-    field_at = field_function(problem)
-
-    def completed(table: Mapping[str, Array]) -> dict[str, Array]:
-        full = with_filter(problem, table)
-        full["p0"] = full[theta] + full["k"] * full[z]
-        return full
 
     def initial(table: Mapping[str, Array]) -> Array:
-        full = completed(table)
+        full = _completed(problem, table)
         return np.array([full[symbol.name] for symbol in system.state])
 
-    complete = until is not None or problem.tuning.nu_min is not None or clock_of(problem, seeker) is None
     last = as_float(until, "until") if until is not None else None
-    ending = _Ending(problem, seeker, frame, last, complete, NU_END[model] if nu_end is None else nu_end)
-    clock = clock_of(problem, seeker)
-    note = "" if complete else ending.note
+    ending = _Ending(clock, frame, last, nu_end, NU_END[model])
     full = model == "closed loop" and coordinates == "full"
-    inputs_at = input_function(problem, seeker, system) if full else None
+    record = problem.seeker(seeker)
     return Setup(
         system, defaults,
         initial=initial, edges=ending, position=(0, 1), source=_source(problem),
-        complete=complete, note=note,
-        to_t=_identity if clock is None or frame == "t" else _time_map(clock.to_t, TAU),
-        to_tau=_identity if clock is None or frame == "tau" else _time_map(clock.to_tau, TIME),
-        field_at=field_at,
-        inputs_at=inputs_at, free=(*defaults, *([] if z in defaults else [z])),
+        complete=until is not None or clock.horizon is sp.oo, note=ending.note(defaults),
+        to_t=_identity if frame == "t" else time_map(clock.to_t, TAU),
+        to_tau=_identity if frame == "tau" else time_map(clock.to_tau, TIME),
+        field_at=field_function(problem.field),
+        inputs_at=input_function(problem.field, record, clock, states, system.state) if full else None,
+        free=(*defaults, *([] if z in defaults else [z])), conditions=clock.conditions,
     )  # fmt: skip
 
 
 @lru_cache(maxsize=64)
 def _defaults(problem: Problem) -> tuple[tuple[str, float], ...]:
     """Parameters and initial states as floats, by name; without z where it starts at the measured field."""
-    letters, start = loop_letters(problem), problem.initial
+    letters, start = problem.states, problem.initial
     found = {symbol.name: float(value) for symbol, value in problem.values.items() if symbol != parameters.p0}
     found |= {symbol.name: float(value) for symbol, value in zip(problem.variables, start.x, strict=True)}
     found |= {letters.heading.name: float(start.theta), letters.angular_velocity.name: float(start.u2)}
@@ -184,11 +179,18 @@ def _source(problem: Problem) -> tuple[float, ...]:
 
 def with_filter(problem: Problem, table: Mapping[str, Array]) -> dict[str, Array]:
     """The table with the filter's start, which is the measured field at each member's position unless it is given."""
-    z = loop_letters(problem).filter.name
+    z = problem.states.filter.name
     if z in table:
         return dict(table)
     position = np.array([table[symbol.name] for symbol in problem.variables])
-    return dict(table) | {z: field_function(problem)(position)}
+    return dict(table) | {z: field_function(problem.field)(position)}
+
+
+def _completed(problem: Problem, table: Mapping[str, Array]) -> dict[str, Array]:
+    """The table with the filter's start and with p₀, which follows from heading and filter of each member."""
+    full = with_filter(problem, table)
+    full["p0"] = full[problem.states.heading.name] + full["k"] * full[problem.states.filter.name]
+    return full
 
 
 def completed_parameters(setup: Setup, problem: Problem | None, table: Mapping[str, Array]) -> Array:
@@ -196,29 +198,29 @@ def completed_parameters(setup: Setup, problem: Problem | None, table: Mapping[s
     full = dict(table)
     names = [symbol.name for symbol in setup.system.parameters or ()]
     if "p0" in names and problem is not None:
-        full = with_filter(problem, full)
-        letters = loop_letters(problem)
-        full["p0"] = full[letters.heading.name] + full["k"] * full[letters.filter.name]
+        full = _completed(problem, full)
     size = len(next(iter(full.values())))
     return np.array([full[name] for name in names]).reshape(len(names), size)
 
 
 @dataclass(frozen=True)
 class _Ending:
-    """Start, kink and end of each member, in the frame's own time."""
+    """Start, corner and end of each member, in the frame's own time."""
 
-    problem: Problem
-    seeker: str
+    clock: Clock | CappedClock
     frame: str
     until: float | None
-    complete: bool
-    nu_end: float
+    nu_end: float | None
+    smallest: float
 
-    @property
-    def note(self) -> str:
+    def note(self, table: Mapping[str, float]) -> str:
+        """Where a run of an infinite gain was asked to stop, and why."""
+        if self.clock.horizon is sp.oo:
+            return ""
+        values = {name: np.array([value]) for name, value in table.items()}
         return (
             f"the gain is not clipped and infinite at T, so that no run gets there; this one was asked as far as "
-            f"nu = {self.nu_end:g}"
+            f"nu = {self._last_nu(values):g}"
         )
 
     def __call__(self, table: Mapping[str, Array]) -> Array:
@@ -226,45 +228,27 @@ class _Ending:
         end = start + horizon if self.until is None else np.full_like(start, self.until)
         if self.until is not None and np.any(end <= start):
             raise InputError(f"until: must be after the start t0 = {start.min():g}, got {self.until:g}")
-        clock = clock_of(self.problem, self.seeker)
-        if clock is None:
-            return np.array([start, end])
-        if not isinstance(clock, ClippedClock):
-            last = start + horizon * (1 - self.nu_end)
-            end = last if self.until is None else np.minimum(end, last)
-            return self._in_frame(np.array([start, end]), table)
-        corner = np.clip(start + horizon * (1 - table["nu_min"]), start, end)
-        return self._in_frame(np.array([start, corner, end]), table)
+        edges = [start, end]
+        if isinstance(self.clock, CappedClock):
+            edges = [start, np.clip(time_map(self.clock.until, TIME)(start, table), start, end), end]
+        elif isinstance(self.clock, Clock) and self.clock.horizon is not sp.oo:
+            last = time_map(self.clock.instant(_NU), _NU)(np.full_like(start, self._last_nu(table)), table)
+            edges = [start, np.minimum(end, last)]
+        found = np.array(edges)
+        return found if self.frame == "t" else time_map(self.clock.to_tau, TIME)(found, table)
 
-    def _in_frame(self, edges: Array, table: Mapping[str, Array]) -> Array:
-        if self.frame == "t":
-            return edges
-        clock = clock_of(self.problem, self.seeker)
-        assert clock is not None
-        to_tau = _time_map(clock.to_tau, TIME)
-        return to_tau(edges, table)
+    def _last_nu(self, table: Mapping[str, Array]) -> float:
+        """The ν at which an infinite gain is left: as given, or where none of the members has a larger gain than 1/ν²
+        has at the smallest ν of its model."""
+        if self.nu_end is not None:
+            return self.nu_end
+        assert isinstance(self.clock, Clock)
+        rate = time_map(self.clock.rate.subs(TIME, self.clock.instant(_NU)), _NU)
+        for nu in np.geomspace(self.smallest, 1, 400):
+            if np.all(rate(np.full_like(table["T"], nu), table) <= self.smallest**-2 * (1 + 1e-9)):
+                return float(nu)
+        return 1.0
 
 
 def _identity(times: Array, _: Mapping[str, Any]) -> Array:
     return times
-
-
-def _select(conditions: list[Any], choices: list[Any], default: Any = np.nan) -> Any:
-    # As numpy.select, whose checks take longer than a short run.
-    result = default
-    for condition, choice in zip(reversed(conditions), reversed(choices), strict=True):
-        result = np.where(condition, choice, result)
-    return result
-
-
-@lru_cache(maxsize=16)
-def _time_map(expression: sp.Expr, variable: sp.Symbol) -> Callable[[Array, Mapping[str, Any]], Array]:
-    symbols = [parameters.t0, parameters.T, parameters.nu_min]
-    function = sp.lambdify([variable, *symbols], expression, modules=[{"select": _select}, "numpy"])
-
-    def evaluate(times: Array, table: Mapping[str, Any]) -> Array:
-        values = [table.get(symbol.name, 1.0) for symbol in symbols]
-        with np.errstate(all="ignore"):
-            return np.asarray(function(times, *values), dtype=float) + 0.0 * times
-
-    return evaluate

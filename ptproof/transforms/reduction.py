@@ -9,7 +9,7 @@ import sympy as sp
 from sympy.solvers.solveset import NonlinearError
 
 from ptproof.errors import InputError
-from ptproof.proof.algebra import NotAlgebraic, is_zero
+from ptproof.proof.signs import vanishes
 from ptproof.system import System
 
 
@@ -90,7 +90,7 @@ def split(
     else:
         steady, unique = tuple(map(sp.sympify, quasi_steady_state)), _is_affine_regular(rates, fast)
         residual = [rate.subs(dict(zip(fast, steady, strict=True)), simultaneous=True) for rate in rates]
-        if not all(is_zero(entry) for entry in residual):
+        if not all(vanishes(entry) for entry in residual):
             raise InputError(f"{system.name}: the quasi-steady state {steady} does not make the fast rates vanish")
     slow = [i for i, symbol in enumerate(system.state) if symbol not in fast]
     return SlowFast(
@@ -120,11 +120,8 @@ def solve_quasi_steady_state(
         values = tuple(candidate.get(symbol, symbol) for symbol in fast)
         if any(set(fast) & value.free_symbols or value.is_real is False for value in values):
             continue
-        try:
-            if all(is_zero(rate.subs(dict(zip(fast, values, strict=True)), simultaneous=True)) for rate in rates):
-                solutions.append(values)
-        except NotAlgebraic:
-            continue
+        if all(vanishes(rate.subs(dict(zip(fast, values, strict=True)), simultaneous=True)) for rate in rates):
+            solutions.append(values)
     if not solutions:
         raise InputError(f"{name}: no quasi-steady state found; give it as an expression in the slow states")
     if len(solutions) > 1:

@@ -7,8 +7,9 @@ from collections.abc import Mapping
 import sympy as sp
 
 from ptproof.errors import InputError
+from ptproof.proof.signs import vanishes
 from ptproof.system import System
-from ptproof.transforms.clocks.algebra import settle, shown_zero
+from ptproof.transforms.clocks.algebra import settle
 from ptproof.transforms.clocks.clock import Clock
 
 
@@ -57,6 +58,6 @@ def solves(system: System, solution: Mapping[sp.Symbol, sp.Expr], clock: Clock |
         raise InputError(f"{system.name}: no solution is given for {', '.join(missing)}")
     view = clock.on_interval if clock is not None else (lambda entry: entry)
     return all(
-        shown_zero(view(sp.diff(solution[state], system.time) - rate.subs(dict(solution), simultaneous=True)))
+        vanishes(view(sp.diff(solution[state], system.time) - rate.subs(dict(solution), simultaneous=True)))
         for state, rate in zip(system.state, system.rhs, strict=True)
     )

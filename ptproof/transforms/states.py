@@ -7,7 +7,7 @@ from dataclasses import replace
 import sympy as sp
 
 from ptproof.errors import InputError
-from ptproof.proof.algebra import is_zero
+from ptproof.proof.signs import vanishes
 from ptproof.system import System
 
 
@@ -35,7 +35,7 @@ def change_variable(
     InputError
         Unless ``forward`` and ``backward`` undo each other by exact algebra.
     """
-    if not (is_zero(forward.subs(replaced, backward) - by) and is_zero(backward.subs(by, forward) - replaced)):
+    if not (vanishes(forward.subs(replaced, backward) - by) and vanishes(backward.subs(by, forward) - replaced)):
         raise InputError(f"{system.name}: {by} = {forward} and {replaced} = {backward} do not undo each other")
     old = {replaced: backward}
     rate = system.derivative_along(forward).subs(old)
@@ -60,7 +60,7 @@ def solve_state(system: System, variable: sp.Symbol, solution: sp.Expr, name: st
     """
     index = system.state.index(variable)
     rate = system.rhs[index].subs(variable, solution)
-    if not is_zero(sp.diff(solution, system.time) - rate):
+    if not vanishes(sp.diff(solution, system.time) - rate):
         raise InputError(f"{system.name}: {variable} = {solution} does not solve its equation")
     keep = [i for i in range(system.dimension) if i != index]
     return System(

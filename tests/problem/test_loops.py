@@ -6,14 +6,10 @@ import pytest
 import sympy as sp
 
 from ptproof.errors import InputError
-from ptproof.problem import SEEKERS, example
-from ptproof.problem.clipped import ClippedClock
-from ptproof.problem.loops import TAU, loop_letters, parameters
-from ptproof.problem.model import TIME
+from ptproof.problem import SEEKERS, TAU, TIME, example, parameters
 from ptproof.problem.seekers import asymptotic_seeker, prescribed_time_seeker
 from ptproof.proof.algebra import is_zero
-from ptproof.transforms.clocks.named import identity_clock, prescribed_time_clock
-from ptproof.transforms.time import dilate
+from ptproof.transforms import capped, dilate, identity_clock, prescribed_time_clock
 
 P = parameters
 
@@ -34,7 +30,7 @@ def test_in_t_it_is_the_prescribed_time_seeker(clock):
     problem = example("nonvanishing")
     expected = prescribed_time_seeker(
         problem.field.expression, problem.drift, k=P.k, omega=P.omega, mu=P.mu, clock=clock, minimum=P.nu_min,
-        states=loop_letters(problem),
+        states=problem.states,
     )  # fmt: skip
     assert problem.closed_loop("pt", "t", symbolic=True).rhs == expected.rhs
 
@@ -66,7 +62,7 @@ def test_reduced_coordinates_are_the_full_ones_with_the_heading_put_in(seeker, f
     problem = example("nonvanishing")
     full = problem.closed_loop(seeker, frame)
     reduced = problem.closed_loop(seeker, frame, coordinates="reduced")
-    letters = loop_letters(problem)
+    letters = problem.states
     # T = 2 and nu_min = 0.3: the clip is at t = 1.4 and tau = 14/3; after it the rate is 100/9.
     time = sp.Rational(17, 10) if late else sp.Rational(1, 2)
     tau = time
@@ -83,7 +79,7 @@ def test_reduced_coordinates_are_the_full_ones_with_the_heading_put_in(seeker, f
 
 
 def test_the_clipped_clock_continues_the_papers_map(clock):
-    clipped = ClippedClock(clock, P.nu_min)
+    clipped = capped(clock, P.nu_min)
     values = {P.t0: 1, P.T: 2, P.nu_min: sp.Rational(3, 10)}
     for t in (1, sp.Rational(3, 2), sp.Rational(12, 5), sp.Rational(5, 2), 3):
         tau = clipped.to_tau.subs(values).subs(TIME, t)

@@ -4,9 +4,7 @@ import pytest
 import sympy as sp
 
 from ptproof.errors import InputError
-from ptproof.problem import example
-from ptproof.problem.loops import TAU, parameters
-from ptproof.problem.model import TIME
+from ptproof.problem import TAU, TIME, example, parameters
 from ptproof.proof.algebra import is_zero
 
 P = parameters

@@ -7,14 +7,13 @@ import sympy as sp
 from derivations.pt_seeker.experiments.gallery import problem_order
 from ptproof.averaging.correction import first_correction
 from ptproof.errors import InputError
-from ptproof.problem import example, parameters
-from ptproof.problem.loops import TAU
+from ptproof.problem import SEEKERS, TAU, example, parameters
 from ptproof.problem.models import generic_dithers
 from ptproof.simulation.order import fit_order, gap_order, hover_radius
 from ptproof.simulation.run import simulate
 from ptproof.system import DitherSystem, System, gradient
 
-DITHERS, AVERAGE = generic_dithers()
+DITHERS, AVERAGE = generic_dithers(SEEKERS["pt"].law)
 X1, X2 = DITHERS.state
 F = sp.Function("F", real=True)(X1, X2)
 G = [sp.Function(name, real=True)(TAU, X1, X2) for name in ("g1", "g2")]

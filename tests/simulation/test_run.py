@@ -132,11 +132,13 @@ def test_average_and_reduced_model_run_too():
 
 
 def test_the_boundary_layer_decays():
-    from ptproof.problem.loops import loop_letters, parameters, reduced_loop
-    from ptproof.transforms.reduction import split
+    from ptproof.problem import SEEKERS, parameters
+    from ptproof.problem.loops import reduced_loop
+    from ptproof.transforms import split
 
     problem = example("vanishing")
-    parts = split(reduced_loop(problem), [loop_letters(problem).filter], parameters.mu)
+    loop = reduced_loop(problem.field.expression, problem.drift, SEEKERS["pt"].law, problem.states)
+    parts = split(loop, [problem.states.filter], parameters.mu)
     layer = parts.boundary_layer([y], t).with_values({sp.Symbol("K", positive=True): 1})
     run = simulate(layer, initial=[2], span=(0, 3))
     assert run["y"][-1] == pytest.approx(2 * math.exp(-3), rel=1e-7)

@@ -5,21 +5,25 @@ import sympy as sp
 
 from ptproof.errors import InputError
 from ptproof.proof.engines.limits import limit_of
+from ptproof.proof.signs import vanishes
 from ptproof.system import System
-from ptproof.transforms.clocks.algebra import is_positive, limit_at_infinity, settle, shown_zero
-from ptproof.transforms.clocks.cap import ClippedClock
-from ptproof.transforms.clocks.clock import Clock
-from ptproof.transforms.clocks.length import dilated_length
-from ptproof.transforms.clocks.made import clock_from_formula, clock_from_rate
-from ptproof.transforms.clocks.named import (
+from ptproof.transforms.clocks import (
+    CappedClock,
+    Clock,
+    capped,
+    clock_from_formula,
+    clock_from_rate,
+    dilated_length,
     exponential_clock,
     growing_clock,
     identity_clock,
     logarithmic_clock,
+    named_clock,
     power_clock,
     prescribed_time_clock,
     tangent_clock,
 )
+from ptproof.transforms.clocks.algebra import is_positive, limit_at_infinity, settle
 from ptproof.transforms.solutions import bring_solution, carry_solution, solves
 from ptproof.transforms.time import contract, dilate
 
@@ -63,14 +67,14 @@ def test_contract_undoes_dilate(name):
     system = System(t, (x,), (f(t, x) + k * x**2 * sp.cos(t),))
     again = contract(dilate(system, clock), clock)
     assert again.time == t
-    assert shown_zero(clock.on_interval(again.rhs[0] - system.rhs[0]))
+    assert vanishes(clock.on_interval(again.rhs[0] - system.rhs[0]))
 
 
 @clocks
 def test_dilate_divides_by_the_rate(name):
     clock = CLOCKS[name]
     (dilated,) = dilate(System(t, (x,), (k * x * RATES[name],)), clock).rhs
-    assert shown_zero(settle(dilated.subs(tau, t0 + sp.Symbol("e", positive=True)) - k * x))
+    assert vanishes(settle(dilated.subs(tau, t0 + sp.Symbol("e", positive=True)) - k * x))
 
 
 @clocks
@@ -89,14 +93,14 @@ def test_a_solution_in_tau_becomes_a_solution_in_t_and_back(name):
 
 def test_under_the_logarithmic_map_an_exponential_becomes_a_power():
     carried = carry_solution({x: sp.exp(-k * e)}, CLOCKS["logarithmic"])[x]
-    assert shown_zero(CLOCKS["logarithmic"].on_interval(carried - nu ** (k * T)))
+    assert vanishes(CLOCKS["logarithmic"].on_interval(carried - nu ** (k * T)))
 
 
 @finite
 def test_the_end_of_the_interval_is_infinitely_late(name):
     clock = CLOCKS[name]
     back, forth = limit_at_infinity(clock.to_t, tau), limit_of(clock.to_tau, t, t0 + T, "-")
-    assert forth is sp.oo if back is None else shown_zero(back - t0 - T)
+    assert forth is sp.oo if back is None else vanishes(back - t0 - T)
 
 
 @clocks
@@ -108,7 +112,7 @@ def test_a_clock_shows_itself_as_a_formula(name):
 
 def test_the_power_map_of_order_one_is_the_papers():
     one = power_clock(t, tau, order=1, **HERE)
-    assert shown_zero(one.to_tau - CLOCKS["prescribed time"].to_tau)
+    assert vanishes(one.to_tau - CLOCKS["prescribed time"].to_tau)
 
 
 def twin(name, **changes):
@@ -196,8 +200,8 @@ def test_a_wrong_inverse_that_is_given_is_refused():
 )
 def test_a_clock_is_made_from_its_rate(rate, name):
     clock = clock_from_rate(t, tau, rate, **HERE)
-    assert shown_zero(clock.on_interval(clock.to_tau - CLOCKS[name].to_tau))
-    assert shown_zero(clock.on_interval(clock.rate - rate))
+    assert vanishes(clock.on_interval(clock.to_tau - CLOCKS[name].to_tau))
+    assert vanishes(clock.on_interval(clock.rate - rate))
 
 
 @pytest.mark.parametrize(
@@ -220,7 +224,7 @@ def test_a_gain_with_a_finite_integral_is_refused_with_the_value(rate, value):
 
 def test_the_same_rate_is_a_clock_where_no_prescribed_time_is_meant():
     clock = clock_from_rate(t, tau, 1 / sp.sqrt(nu), prescribed_time=False, **HERE)
-    assert shown_zero(clock.on_interval(clock.rate - 1 / sp.sqrt(nu)))
+    assert vanishes(clock.on_interval(clock.rate - 1 / sp.sqrt(nu)))
 
 
 @pytest.mark.parametrize("rate", [nu**-2 - 3, -1 / nu, 1 - 2 * nu, 1 / (half - s / T) ** 2])
@@ -238,7 +242,7 @@ def test_a_rate_whose_integral_is_not_known_is_not_guessed():
 def test_the_integral_of_a_power_is_infinite_from_order_one_on(order):
     length = dilated_length(nu**-order, t, **HERE)
     expected = sp.oo if order >= 1 else T / (1 - order)
-    assert length.value is sp.oo if expected is sp.oo else shown_zero(length.value - expected)
+    assert length.value is sp.oo if expected is sp.oo else vanishes(length.value - expected)
 
 
 def test_a_pole_before_the_end_is_not_integrated_over():
@@ -250,7 +254,7 @@ CORNER = t0 + T * w / (1 + w)  # at ν = 1/(1 + w)
 
 @pytest.mark.parametrize("name", ["prescribed time", "power 2", "logarithmic", "tangent"])
 def test_a_clipped_map_goes_on_with_its_last_rate(name):
-    clipped = ClippedClock(CLOCKS[name], CORNER)
+    clipped = CappedClock(CLOCKS[name], CORNER)
     values = {t0: 1, T: 2, w: 3}
     corner = CORNER.subs(values)
     rate = clipped.rate.subs(values)
@@ -263,36 +267,91 @@ def test_a_clipped_map_goes_on_with_its_last_rate(name):
 
 @pytest.mark.parametrize("name", ["prescribed time", "logarithmic"])
 def test_contracting_what_a_clipped_map_dilated_gives_the_system_back(name):
-    clipped = ClippedClock(CLOCKS[name], CORNER)
+    clipped = CappedClock(CLOCKS[name], CORNER)
     system = System(t, (x,), (f(t, x) + k * x**2 * sp.cos(t),))
-    dilated = clipped.dilate(system)
+    dilated = dilate(system, clipped)
     assert dilated.time == tau
     assert dilated.rhs[0].has(sp.Piecewise)
-    again = clipped.contract(dilated)
+    again = contract(dilated, clipped)
     assert not again.rhs[0].has(sp.Piecewise)
-    assert shown_zero(again.rhs[0] - system.rhs[0])
+    assert vanishes(again.rhs[0] - system.rhs[0])
 
 
 def test_a_clipped_gain_is_one_in_the_clipped_maps_time():
-    clipped = ClippedClock(CLOCKS["prescribed time"], CORNER)
-    dilated = clipped.dilate(System(t, (x,), (clipped.rate * k * x,)))
-    assert shown_zero(dilated.rhs[0] - k * x)
+    clipped = CappedClock(CLOCKS["prescribed time"], CORNER)
+    dilated = dilate(System(t, (x,), (clipped.rate * k * x,)), clipped)
+    assert vanishes(dilated.rhs[0] - k * x)
 
 
 def test_it_is_the_map_of_the_papers_clipped_gain():
-    from ptproof.problem.clipped import ClippedClock as Papers
-
-    numbers = {"start": sp.S.Zero, "horizon": sp.S(2)}
-    clock = prescribed_time_clock(t, tau, **numbers)
-    ours, papers = ClippedClock(clock, sp.Rational(7, 5)), Papers(clock, sp.Rational(3, 10))
-    for instant in (half, sp.Rational(7, 5), sp.Rational(9, 5), 3):
-        assert ours.to_tau.subs(t, instant) == papers.to_tau.subs(t, instant)
+    clock = capped(prescribed_time_clock(t, tau, start=sp.S.Zero, horizon=sp.S(2)), sp.Rational(3, 10))
+    for instant in (half, sp.Rational(7, 5), sp.Rational(9, 5), sp.S(3), sp.S(8)):
+        assert clock.rate.subs(t, instant) == 1 / sp.Max(sp.Rational(3, 10), 1 - instant / 2) ** 2
 
 
-@pytest.mark.parametrize("corner", [t0, t0 - 1, t0 + T, t0 + 2 * T, t])
+# (dτ/dt at ν = 1/2, dτ/dt from ν = 1/10 on), by hand
+CAPS = {
+    "paper": (4, 100),
+    "power": (8, 1000),
+    "logarithmic": (2, 10),
+    "exponential": (4 * sp.E, 100 * sp.exp(9)),
+    "tangent": (2, 1 / sp.sin(sp.pi / 20) ** 2),
+}
+
+
+@pytest.mark.parametrize("name", CAPS)
+@pytest.mark.parametrize("symbolic", [False, True])
+def test_the_cap_is_the_clocks_own_rate_where_nu_is_the_smallest(name, symbolic):
+    nu_min = sp.Symbol("nu_min", positive=True)
+    m = sp.Symbol("m", positive=True) if name == "power" else None
+    values = {t0: 1, T: 2, nu_min: sp.Rational(1, 10), sp.Symbol("m", positive=True): 2}
+    if symbolic:
+        clock = capped(named_clock(name, t, tau, **HERE, exponent=m), nu_min)
+    else:
+        order = None if m is None else sp.S(2)
+        numbers = {"start": sp.S(1), "horizon": sp.S(2)}
+        clock = capped(named_clock(name, t, tau, **numbers, exponent=order), sp.Rational(1, 10))
+    rate = clock.rate.subs(values)
+    before, after = CAPS[name]
+    for instant, value in ((sp.S(2), before), (sp.Rational(28, 10), after), (sp.S(3), after), (sp.S(30), after)):
+        assert abs((rate.subs(t, instant) - value).evalf(30)) < 1e-20 * sp.N(value)
+    there = clock.to_tau.subs(values)
+    for instant in (sp.S(1), sp.S(2), sp.Rational(28, 10), sp.S(3), sp.S(4)):
+        assert abs((clock.to_t.subs(values).subs(tau, there.subs(t, instant)) - instant).evalf(30)) < 1e-20
+    for choice in (clock.rate, clock.to_tau, clock.rate_back, clock.to_t):
+        assert {condition for _, condition in choice.args} <= {*clock.conditions, sp.true}
+
+
+@pytest.mark.parametrize("name", CAPS)
+def test_a_cap_at_one_is_a_constant_rate_from_the_start(name):
+    clock = capped(named_clock(name, t, tau, **HERE, exponent=sp.S(3) if name == "power" else None), sp.S(1))
+    assert (clock.until, clock.last_rate, clock.corner_tau) == (t0, 1, t0)
+    assert vanishes(clock.to_tau.subs(t, t0 + 5) - t0 - 5)
+
+
+@pytest.mark.parametrize("nu_min", [sp.S(0), sp.S(-1), sp.S(2), sp.Rational(11, 10)])
+def test_a_cap_outside_the_interval_is_refused(nu_min):
+    with pytest.raises(InputError, match="not shown to lie between"):
+        capped(CLOCKS["prescribed time"], nu_min)
+
+
+@pytest.mark.parametrize(
+    ("name", "exponent", "message"),
+    [
+        ("papers", None, "clock: 'papers' is not one of paper, power"),
+        ("power", None, "exponent: the clock 'power' needs one"),
+        ("tangent", 2, "exponent: the clock 'tangent' takes none"),
+    ],
+)
+def test_names_that_no_clock_has_are_refused(name, exponent, message):
+    with pytest.raises(InputError, match=message):
+        named_clock(name, t, tau, exponent=exponent, **HERE)
+
+
+@pytest.mark.parametrize("corner", [t0 - 1, t0 + T, t0 + 2 * T, t])
 def test_a_corner_outside_the_interval_is_refused(corner):
-    with pytest.raises(InputError, match="is not shown to lie after"):
-        ClippedClock(CLOCKS["prescribed time"], corner)
+    with pytest.raises(InputError, match="is not shown to lie between"):
+        CappedClock(CLOCKS["prescribed time"], corner)
 
 
 @pytest.mark.parametrize(

@@ -239,7 +239,7 @@ def _start(problem: Problem) -> float:
 def _fields(problem: Problem, ends: Ensemble) -> Array:
     from ptproof.simulation.quantities import field_function
 
-    return field_function(problem)(ends.x[:2])
+    return field_function(problem.field)(ends.x[:2])
 
 
 def _spread(name: str, values: Array) -> dict[str, float]:

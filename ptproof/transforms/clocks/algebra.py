@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import sympy as sp
 
-from ptproof.proof.algebra import NotAlgebraic, is_zero
 from ptproof.proof.engines.limits import limit_of
 from ptproof.proof.engines.reals import follows
-from ptproof.proof.statement import gt
+from ptproof.proof.statement import Relation, ge, gt
 
 
 def factored(expression: sp.Expr) -> sp.Expr:
@@ -41,23 +42,21 @@ def _within_quarter_turn(angle: sp.Expr) -> bool:
     return all(sp.factor(sp.cancel(sp.pi / 2 + side)).is_positive for side in (angle, -angle))
 
 
-def shown_zero(difference: sp.Expr) -> bool:
-    """Whether it is shown that ``difference`` vanishes; what exact algebra has no rule for is not shown."""
-    try:
-        return is_zero(difference)
-    except NotAlgebraic:
-        return False
-
-
-def is_positive(expression: sp.Expr) -> bool:
-    """Whether it is shown, by the declared signs of its symbols or by z3, that ``expression`` is positive."""
+def is_positive(expression: sp.Expr, given: Sequence[Relation] = ()) -> bool:
+    """Whether it is shown, by the declared signs of the symbols or by z3 from what is ``given``, to be positive."""
     expression = expression.replace(
         sp.tan, lambda angle: sp.Dummy("tan", real=True) if _within_quarter_turn(angle) else sp.tan(angle)
     )
     forms = (expression, sp.factor(sp.cancel(sp.together(expression))))
     if any(form.is_positive for form in forms):
         return True
-    return follows(gt(forms[1], 0), (), seconds=2.0).shown
+    return follows(gt(forms[1], 0), given, seconds=2.0).shown
+
+
+def is_nonnegative(expression: sp.Expr, given: Sequence[Relation] = ()) -> bool:
+    """As :func:`is_positive`, with 0 allowed; for expressions without tan."""
+    form = sp.factor(expression)
+    return bool(form.is_nonnegative) or follows(ge(form, 0), given, seconds=2.0).shown
 
 
 def limit_at_infinity(expression: sp.Expr, variable: sp.Symbol) -> sp.Expr | None:

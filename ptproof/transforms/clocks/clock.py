@@ -4,11 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 
 import sympy as sp
+from sympy.core.relational import Relational
 
 from ptproof.errors import InputError
-from ptproof.transforms.clocks.algebra import factored, is_positive, limit_at_infinity, settle, shown_zero
+from ptproof.proof.signs import vanishes
+from ptproof.transforms.clocks.algebra import factored, is_positive, limit_at_infinity, settle
+
+
+@dataclass(frozen=True)
+class Piece:
+    """A change of time on a stretch without corners: both maps and both rates, in t, τ, t and τ."""
+
+    to_tau: sp.Expr
+    to_t: sp.Expr
+    rate: sp.Expr
+    rate_back: sp.Expr
 
 
 @dataclass(frozen=True)
@@ -52,12 +65,38 @@ class Clock:
         if not isinstance(self.t, sp.Symbol) or not isinstance(self.tau, sp.Symbol) or self.t == self.tau:
             raise InputError(f"{self.name}: the two times must be distinct symbols")
         starts = (self.to_tau.subs(self.t, self.start), self.to_t.subs(self.tau, self.start))
-        if not all(shown_zero(instant - self.start) for instant in starts):
+        if not all(vanishes(instant - self.start) for instant in starts):
             raise InputError(f"{self.name}: it does not hold, or cannot be shown, that both times agree at the start")
         if not self._is_inverse():
             raise InputError(f"{self.name}: it does not hold, or cannot be shown, that the inverse undoes the map")
         if not self._increases():
             raise InputError(f"{self.name}: it does not hold, or cannot be shown, that the map increases")
+
+    @property
+    def nu(self) -> sp.Expr:
+        """ν = 1 − (t − t₀)/horizon, which falls from 1 to 0 (eq:nu)."""
+        return 1 - (self.t - self.start) / self.horizon
+
+    def instant(self, nu: sp.Expr) -> sp.Expr:
+        """The t at which ν has the value ``nu``."""
+        if self.horizon is sp.oo:
+            raise InputError(f"{self.name}: without an end of its interval it has no nu; name an instant in t")
+        return self.start + self.horizon * (1 - nu)
+
+    @property
+    def until(self) -> None:
+        """The instant from which on the rate is capped: never."""
+        return None
+
+    @property
+    def conditions(self) -> tuple[Relational, ...]:
+        """The conditions of the choices that the clock makes: none."""
+        return ()
+
+    @cached_property
+    def pieces(self) -> tuple[Piece, ...]:
+        """The map itself, in one piece."""
+        return (Piece(self.to_tau, self.to_t, self.rate, self.rate_back),)
 
     def on_interval(self, expression: sp.Expr) -> sp.Expr:
         """An expression in t for t₀ ≤ t < t₀ + horizon, by one symbol w ≥ 0: t − t₀ is w, or horizon·w/(1 + w)."""
@@ -79,11 +118,11 @@ class Clock:
         back = self.to_t.subs(self.tau, self.to_tau) - self.t
         rates = self.rate * self.rate_back.subs(self.tau, self.to_tau) - 1
         views: tuple[Callable[[sp.Expr], sp.Expr], ...] = (lambda entry: entry, self._by_nu, self.on_interval)
-        if any(shown_zero(view(back)) and shown_zero(view(rates)) for view in views):
+        if any(vanishes(view(back)) and vanishes(view(rates)) for view in views):
             return True
         forth = self.to_tau.subs(self.t, self.to_t) - self.tau
         rates = self.rate.subs(self.t, self.to_t) * self.rate_back - 1
-        if not (shown_zero(self._later(forth)) and shown_zero(self._later(rates))):
+        if not (vanishes(self._later(forth)) and vanishes(self._later(rates))):
             return False
         # Injective: then a(a⁻¹(a(t))) = a(t) gives a⁻¹(a(t)) = t, if a⁻¹ stays in the interval.
         if is_positive(self.on_interval(self.rate)) and self._stays_inside():
@@ -99,7 +138,7 @@ class Clock:
         return end is not None and (end is sp.oo if self.horizon is sp.oo else self._ends_at(end))
 
     def _ends_at(self, end: sp.Expr) -> bool:
-        return end is not sp.oo and shown_zero(end - self.start - self.horizon)
+        return end is not sp.oo and vanishes(end - self.start - self.horizon)
 
     def _stays_inside(self) -> bool:
         elapsed = self._later(self.to_t - self.start)
@@ -121,17 +160,12 @@ class Clock:
     def _repr_latex_(self) -> str:
         return f"$\\displaystyle {self.latex()}$"
 
-    @property
+    @cached_property
     def rate(self) -> sp.Expr:
         """dτ/dt as an expression in t."""
         return factored(sp.diff(self.to_tau, self.t))
 
-    @property
+    @cached_property
     def rate_back(self) -> sp.Expr:
         """dt/dτ as an expression in τ."""
         return factored(sp.diff(self.to_t, self.tau))
-
-    @property
-    def rate_at_tau(self) -> sp.Expr:
-        """dτ/dt as an expression in τ: the reciprocal of :attr:`rate_back`."""
-        return 1 / self.rate_back

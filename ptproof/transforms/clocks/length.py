@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import sympy as sp
 
 from ptproof.proof.engines.limits import limit_of
+from ptproof.proof.signs import vanishes
 from ptproof.reading.limits import OutOfTime, within
-from ptproof.transforms.clocks.algebra import shown_zero
 
 SECONDS = 10.0
 _SMOOTH = (sp.Add, sp.Mul, sp.Pow, sp.Symbol, sp.Number, sp.NumberSymbol, sp.exp, sp.log, sp.sin, sp.cos, sp.atan)
@@ -98,7 +98,7 @@ def _improper(integrand: sp.Expr, nu: sp.Symbol, low: sp.Expr, high: sp.Expr) ->
         found = within(SECONDS, lambda: sp.integrate(sp.simplify(integrand), nu))
     except OutOfTime:
         return None
-    if found.has(sp.Integral, sp.Piecewise) or not shown_zero(sp.diff(found, nu) - integrand):
+    if found.has(sp.Integral, sp.Piecewise) or not vanishes(sp.diff(found, nu) - integrand):
         return None
     if not _smooth(found, nu):
         return None

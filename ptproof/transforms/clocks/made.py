@@ -7,8 +7,9 @@ from collections.abc import Sequence
 import sympy as sp
 
 from ptproof.errors import InputError
+from ptproof.proof.signs import vanishes
 from ptproof.reading.limits import OutOfTime, within
-from ptproof.transforms.clocks.algebra import is_positive, limit_at_infinity, shown_zero
+from ptproof.transforms.clocks.algebra import is_positive, limit_at_infinity
 from ptproof.transforms.clocks.clock import Clock
 from ptproof.transforms.clocks.length import dilated_length
 
@@ -39,7 +40,7 @@ def clock_from_formula(
         raise InputError(f"{name}: no inverse{found}; give it as an expression in {tau} with inverse=")
     if wanted and not known:
         end = limit_at_infinity(clock.to_t, tau)
-        if end is None or end is sp.oo or not shown_zero(end - start - horizon):
+        if end is None or end is sp.oo or not vanishes(end - start - horizon):
             raise InputError(_unknown(sp.diff(formula, t), start, horizon, name))
     return clock
 
@@ -112,7 +113,7 @@ def _integral_from_start(rate: sp.Expr, t: sp.Symbol, start: sp.Expr, horizon: s
         found = within(SOLVE_SECONDS, lambda: sp.integrate(sp.simplify(integrand), inside))
     except OutOfTime:
         found = sp.Integral(integrand, inside)
-    if found.has(sp.Integral, sp.Piecewise) or not shown_zero(sp.diff(found, inside) - integrand):
+    if found.has(sp.Integral, sp.Piecewise) or not vanishes(sp.diff(found, inside) - integrand):
         raise InputError(f"{name}: no antiderivative of {rate} was found; give the map with clock_from_formula")
     back = 1 - (t - start) / horizon if finite else t - start
     first = found.subs(inside, 1) if finite else found.subs(inside, 0)

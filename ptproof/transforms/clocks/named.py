@@ -20,6 +20,8 @@ the others.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
+
 import sympy as sp
 
 from ptproof.errors import InputError
@@ -42,6 +44,16 @@ def prescribed_time_clock(
 def identity_clock(t: sp.Symbol, tau: sp.Symbol, *, start: sp.Expr) -> Clock:
     """τ = t: the clock of an asymptotic seeker."""
     return Clock(t, tau, to_tau=t, to_t=tau, start=start, horizon=sp.oo, name="identity clock")
+
+
+def constant_clock(
+    t: sp.Symbol, tau: sp.Symbol, *, start: sp.Expr, rate: sp.Expr, name: str = "constant clock"
+) -> Clock:
+    """dτ/dt = ``rate`` > 0 all the time: the clock of a seeker with a constant gain."""
+    return Clock(
+        t, tau, to_tau=start + rate * (t - start), to_t=start + (tau - start) / rate, start=start, horizon=sp.oo,
+        name=name,
+    )  # fmt: skip
 
 
 def power_clock(
@@ -112,3 +124,39 @@ def growing_clock(
         to_t=start + sp.log(1 + g * (tau - start)) / g,
         start=start, horizon=sp.oo, name=name,
     )  # fmt: skip
+
+
+# What a problem file may say, and ``exponent`` is the power clock's order.
+CLOCKS: Mapping[str, Callable[..., Clock]] = {
+    "paper": prescribed_time_clock,
+    "power": power_clock,
+    "logarithmic": logarithmic_clock,
+    "exponential": exponential_clock,
+    "tangent": tangent_clock,
+}
+_TAKES_EXPONENT = ("power",)
+
+
+def check_clock(name: str, exponent: object = None) -> None:
+    """Refuse a name that no clock with a prescribed time has, and an exponent where none belongs or one is missing.
+
+    Raises
+    ------
+    InputError
+        Opening with ``clock`` or ``exponent``, whichever is at fault.
+    """
+    if name not in CLOCKS:
+        raise InputError(f"clock: {name!r} is not one of {', '.join(CLOCKS)}")
+    if name in _TAKES_EXPONENT and exponent is None:
+        raise InputError(f"exponent: the clock {name!r} needs one, the m > 0 of the rate 1/nu^(m + 1)")
+    if name not in _TAKES_EXPONENT and exponent is not None:
+        raise InputError(f"exponent: the clock {name!r} takes none; that of the clock 'power' does")
+
+
+def named_clock(
+    name: str, t: sp.Symbol, tau: sp.Symbol, *, start: sp.Expr, horizon: sp.Expr, exponent: sp.Expr | None = None
+) -> Clock:
+    """The clock of that name in :data:`CLOCKS`, on [start, start + horizon)."""
+    check_clock(name, exponent)
+    more = {"order": exponent} if exponent is not None else {}
+    return CLOCKS[name](t, tau, start=start, horizon=horizon, **more)

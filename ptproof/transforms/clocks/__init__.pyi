@@ -1,0 +1,16 @@
+from .cap import CappedClock as CappedClock
+from .cap import capped as capped
+from .clock import Clock as Clock
+from .length import dilated_length as dilated_length
+from .made import clock_from_formula as clock_from_formula
+from .made import clock_from_rate as clock_from_rate
+from .named import CLOCKS as CLOCKS
+from .named import constant_clock as constant_clock
+from .named import exponential_clock as exponential_clock
+from .named import growing_clock as growing_clock
+from .named import identity_clock as identity_clock
+from .named import logarithmic_clock as logarithmic_clock
+from .named import named_clock as named_clock
+from .named import power_clock as power_clock
+from .named import prescribed_time_clock as prescribed_time_clock
+from .named import tangent_clock as tangent_clock
