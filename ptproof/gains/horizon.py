@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 
@@ -12,14 +11,10 @@ from ptproof.errors import InputError
 from ptproof.gains.numbers import NotApplicable, sign
 from ptproof.problem.model import Tuning
 from ptproof.proof.signs import sign_of, vanishes
-from ptproof.transforms.clocks import named
 from ptproof.transforms.clocks.algebra import settle
 from ptproof.transforms.clocks.clock import Clock
+from ptproof.transforms.clocks.named import named_clock
 
-_MAKERS: Mapping[str, Callable[..., Clock]] = {
-    "paper": named.prescribed_time_clock, "power": named.power_clock, "logarithmic": named.logarithmic_clock,
-    "exponential": named.exponential_clock, "tangent": named.tangent_clock,
-}  # fmt: skip
 _T, _TAU = sp.symbols("t tau", real=True)
 _NU = sp.Symbol("nu", positive=True)
 _OWN = "the paper prints this for its own clock, dτ/dt = 1/ν²"
@@ -28,12 +23,7 @@ _OWN = "the paper prints this for its own clock, dτ/dt = 1/ν²"
 @lru_cache
 def unit_clock(name: str = "paper", exponent: sp.Expr | None = None) -> Clock:
     """The clock of that name on [0, 1); the power clock needs its exponent m, and no other has one."""
-    if name not in _MAKERS:
-        raise InputError(f"clock: {name!r} is not one of {', '.join(_MAKERS)}")
-    if (exponent is None) == (_MAKERS[name] is named.power_clock):
-        raise InputError("exponent: the clock 'power' needs one, and no other clock has one")
-    order = {} if exponent is None else {"order": exponent}
-    return _MAKERS[name](_T, _TAU, start=sp.S.Zero, horizon=sp.S.One, **order)
+    return named_clock(name, _T, _TAU, start=sp.S.Zero, horizon=sp.S.One, exponent=exponent)
 
 
 @dataclass(frozen=True)
@@ -155,7 +145,7 @@ class Horizon:
 
 def horizon_of(tuning: Tuning) -> Horizon:
     """That of a problem's seeker."""
-    return Horizon(tuning.T, tuning.nu_min)
+    return Horizon(tuning.T, tuning.nu_min, unit_clock(tuning.clock, tuning.exponent))
 
 
 @lru_cache
@@ -192,7 +182,7 @@ def instant(clock: Clock, rate: sp.Expr) -> sp.Expr:
             return 1 - rate ** (-1 / p)
         inverse = 1 + sp.log(rate) / q if p == 0 else p / q * sp.LambertW(q / p * (rate * sp.exp(q)) ** (1 / p))
         return 1 - 1 / inverse
-    parabola = sp.cancel(clock.rate_at_tau)
+    parabola = sp.cancel(1 / clock.rate_back)
     if parabola.is_polynomial(clock.tau) and sp.degree(parabola, clock.tau) == 2:
         a, b, c = sp.Poly(parabola, clock.tau).all_coeffs()
         if all((sign_of(value) or 0) >= 0 for value in (a, b)):
