@@ -10,9 +10,8 @@ import sympy as sp
 
 from ptproof.averaging.fast import SAMPLES, masked_functions
 from ptproof.averaging.problem import FastStates
-from ptproof.averaging.quasipolynomial import exact_sign
-from ptproof.averaging.refusal import AveragingUndecided
 from ptproof.proof.engines.reals import follows
+from ptproof.proof.signs import sign_of
 from ptproof.proof.statement import Relation
 from ptproof.proof.verdict import Evidence, Verdict, Witness
 
@@ -30,22 +29,19 @@ def boundary_layer_stability(fast: FastStates, steady: Sequence[sp.Expr], domain
     refuted: with exact values at which the linearisation has an eigenvalue with positive real part, or is affine
     and not asymptotically stable. undecided otherwise.
     """
-    start = time.perf_counter()
     matrix = sp.Matrix(list(fast.rate)).jacobian(list(fast.state))
     slow = {symbol for entry in matrix for symbol in entry.free_symbols if not symbol.is_positive}
     constant = not slow and not any(entry.has(sp.Function) for entry in matrix)
 
-    def result(verdict: Verdict, detail: str, witness: Witness | None = None) -> Evidence:
-        return Evidence(ENGINE, verdict, detail, time.perf_counter() - start, witness)
-
     if constant and _hurwitz(matrix):
-        return result(Verdict.PROVED, "linear with a constant matrix; the Routh-Hurwitz conditions hold")
+        return Evidence(ENGINE, Verdict.PROVED, "linear with a constant matrix; the Routh-Hurwitz conditions hold")
     if (detail := _lyapunov(fast, steady, domain)) is not None:
-        return result(Verdict.PROVED, detail)
-    found = _unstable(matrix, fast, steady, affine=constant)
-    if found is not None:
-        return result(Verdict.REFUTED, *found)
-    return result(Verdict.UNDECIDED, "no Lyapunov function was found, and no point at which it is unstable")
+        return Evidence(ENGINE, Verdict.PROVED, detail)
+    if (found := _unstable(matrix, fast, steady, affine=constant)) is not None:
+        detail, witness = found
+        return Evidence(ENGINE, Verdict.REFUTED, detail, witness=witness)
+    detail = "no Lyapunov function was found, and no point at which it is unstable"
+    return Evidence(ENGINE, Verdict.UNDECIDED, detail)
 
 
 def routh_column(matrix: sp.Matrix) -> list[sp.Expr]:
@@ -100,11 +96,8 @@ def _unstable(
     for values in itertools.islice(itertools.product(*samples), 64):
         point = dict(zip(symbols, values, strict=True))
         numbers = local.subs(point)
-        try:
-            signs = [exact_sign(minor) for minor in routh_column(numbers)]
-        except AveragingUndecided:
-            continue
-        if all(sign > 0 for sign in signs):
+        signs = {sign_of(minor) for minor in routh_column(numbers)}
+        if None in signs or signs == {1}:
             continue
         if not affine and 0 in signs:
             continue  # a vanishing real part leaves a nonlinear boundary layer open

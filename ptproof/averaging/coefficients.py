@@ -10,10 +10,10 @@ from sympy.simplify.fu import TR10i
 
 from ptproof.averaging.enclosure import check_coefficients, sample
 from ptproof.averaging.quasipolynomial import exact_sign
-from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided
+from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided, NotAPeriod
 from ptproof.averaging.signal import Signal, common_pieces, period_of, rates_of, read_signal
 from ptproof.balls.ball import separated
-from ptproof.proof.algebra import NotAlgebraic, is_zero
+from ptproof.proof.signs import vanishes
 from ptproof.system import DitherSystem
 
 Coefficients = dict[tuple[int, int], sp.Expr]
@@ -36,9 +36,7 @@ def signals(system: DitherSystem) -> tuple[Signal, ...]:
         where = f"dither {i}"
         try:
             signal = read_signal(dither, system.phase, system.period, where)
-        except AveragingRefused as refusal:
-            if "is not a period" not in refusal.reason:
-                raise
+        except NotAPeriod as refusal:
             raise AveragingRefused("D", where, refusal.reason + _period_hint(system)) from None
         mean_is_zero(signal.mean, where, system)
         result.append(signal)
@@ -59,15 +57,9 @@ def _period_hint(system: DitherSystem) -> str:
 def mean_is_zero(mean: sp.Expr, where: str, system: DitherSystem) -> None:
     """Return if ``mean`` is identically zero, else raise :class:`AveragingRefused` or, unsure, `...Undecided`."""
     mean = sp.expand(mean)
-    if mean == 0:
+    if vanishes(mean):
         return
-    try:
-        if is_zero(mean):
-            return
-    except NotAlgebraic:
-        pass
-    values = sample(mean.free_symbols)
-    if separated(mean, sp.S.Zero, values) is None:
+    if separated(mean, sp.S.Zero, sample(mean.free_symbols)) is None:
         raise AveragingUndecided(f"{where}: whether its mean {mean} vanishes is not known")
     raise AveragingRefused(
         "D",

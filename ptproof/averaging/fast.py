@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -12,8 +11,9 @@ from sympy.core.function import AppliedUndef
 
 from ptproof.averaging.problem import FastStates
 from ptproof.errors import InputError
-from ptproof.proof.algebra import NotAlgebraic, is_zero
+from ptproof.proof.algebra import NotAlgebraic
 from ptproof.proof.engines.reals import follows
+from ptproof.proof.signs import vanishes
 from ptproof.proof.statement import Relation
 from ptproof.proof.verdict import Evidence, Verdict, Witness
 from ptproof.transforms import reduction
@@ -39,12 +39,11 @@ def quasi_steady_state(fast: FastStates, domain: Sequence[Relation] = ()) -> Qua
     every other factor was shown not to vanish or g to be strictly monotone in z, and refuted with exact values
     at which g has no real zero or several.
     """
-    start = time.perf_counter()
 
     def result(
         values: Sequence[sp.Expr] | None, verdict: Verdict, detail: str, witness: Witness | None = None
     ) -> QuasiSteadyState:
-        evidence = Evidence(ENGINE, verdict, detail, time.perf_counter() - start, witness)
+        evidence = Evidence(ENGINE, verdict, detail, witness=witness)
         return QuasiSteadyState(None if values is None else tuple(values), evidence)
 
     values = fast.quasi_steady_state
@@ -64,9 +63,9 @@ def quasi_steady_state(fast: FastStates, domain: Sequence[Relation] = ()) -> Qua
         return result(values, Verdict.REFUTED, detail, witness)
     if values is None:
         try:
-            values, _ = reduction.solve_quasi_steady_state(fast.rate, fast.state)
+            values, _ = reduction.solve_quasi_steady_state(fast.rate, fast.state, "the fast rates")
         except (InputError, NotAlgebraic) as error:
-            return result(None, Verdict.UNDECIDED, str(error).removeprefix("system: "))
+            return result(None, Verdict.UNDECIDED, str(error))
     if _monotone(fast, domain):
         return result(values, Verdict.PROVED, "the rates are strictly monotone in the fast states")
     return result(values, Verdict.UNDECIDED, f"z = {list(values)} is one solution; {reason}")
@@ -74,10 +73,7 @@ def quasi_steady_state(fast: FastStates, domain: Sequence[Relation] = ()) -> Qua
 
 def _vanishes(fast: FastStates, values: Sequence[sp.Expr]) -> bool:
     there = dict(zip(fast.state, values, strict=True))
-    try:
-        return all(is_zero(rate.subs(there, simultaneous=True)) for rate in fast.rate)
-    except NotAlgebraic:
-        return False
+    return all(vanishes(rate.subs(there, simultaneous=True)) for rate in fast.rate)
 
 
 def _affine(fast: FastStates) -> bool:

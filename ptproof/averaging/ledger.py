@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -17,9 +18,12 @@ from ptproof.averaging.coefficients import signals
 from ptproof.averaging.fast import QuasiSteadyState, quasi_steady_state
 from ptproof.averaging.problem import DitherProblem, FastStates
 from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided
+from ptproof.errors import InputError
 from ptproof.proof.engines.smoothness import smoothness
+from ptproof.proof.signs import vanishes
 from ptproof.proof.statement import Relation
-from ptproof.proof.verdict import Evidence, Verdict
+from ptproof.proof.verdict import Evidence, Verdict, Witness
+from ptproof.reading.expressions import parse
 
 LETTERS = ("A", "B", "C", "D", "E", "F", "boundary layer")
 MEANING = {
@@ -165,25 +169,22 @@ def _smooth_fields(problem: DitherProblem) -> Evidence:
     found = []
     for place, entry in _places(problem):
         evidence = smoothness(entry, variables, 2, _assumed(problem), problem.domain)
-        if evidence.witness and evidence.verdict is Verdict.REFUTED and "unbounded" in evidence.detail:
-            evidence = replace(evidence, detail=evidence.detail + _dilation_hint(problem, entry))
+        if evidence.witness is not None:
+            evidence = replace(evidence, detail=evidence.detail + _dilation_hint(problem, entry, evidence.witness))
         found.append((place, evidence))
     return _worst(found, "smoothness", "twice continuously differentiable" + _where(problem))
 
 
-def _dilation_hint(problem: DitherProblem, entry: sp.Expr) -> str:
-    """What helps where a gain grows without bound at a finite time."""
-    time_ = problem.system.time
+def _dilation_hint(problem: DitherProblem, entry: sp.Expr, witness: Witness) -> str:
+    """What helps where a gain grows without bound at a finite time: one whose base is 0 at the witness."""
+    time_, at = problem.system.time, {}
+    for symbol in entry.free_symbols:
+        with contextlib.suppress(InputError):  # a value that is more than arithmetic
+            at[symbol] = parse(witness.values.get(str(symbol), str(symbol)), list(entry.free_symbols))
     for power in entry.atoms(sp.Pow):
-        if (
-            power.exp.is_negative
-            and power.base.free_symbols
-            and power.base.free_symbols
-            <= {
-                time_,
-                *(symbol for symbol in power.base.free_symbols if symbol.is_positive),
-            }
-        ):
+        free = power.base.free_symbols
+        of_time = time_ in free and all(symbol.is_positive for symbol in free - {time_})
+        if power.exp.is_negative and of_time and vanishes(power.base.subs(at, simultaneous=True)):
             return f"; a gain that grows without bound in {time_}: dilate time first, then average"
     return ""
 

@@ -13,8 +13,7 @@ from typing import Any
 import sympy as sp
 
 from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided
-from ptproof.balls.ball import Undefined, separated
-from ptproof.proof.algebra import NotAlgebraic, is_zero
+from ptproof.proof.signs import sign_of
 
 _HIGHEST_POWER = 64
 Key = tuple[int, sp.Expr]
@@ -156,14 +155,7 @@ def _signed(n: int, rate: sp.Expr, a: sp.Expr, b: sp.Expr) -> tuple[Key, Pair]:
 
 def exact_sign(number: sp.Expr) -> int:
     """−1, 0 or 1 for an exact real number; raises :class:`AveragingUndecided` where it can't be told."""
-    if number.is_Rational:
-        return int(sp.sign(number))
-    try:
-        sign = separated(number, sp.S.Zero)
-        if sign is None and is_zero(number):
-            return 0
-    except (Undefined, NotAlgebraic):
-        sign = None
+    sign = sign_of(number)
     if sign is None:
         raise AveragingUndecided(f"the sign of {number} can't be told")
     return sign

@@ -16,5 +16,12 @@ class AveragingRefused(ValueError):
         self.assumption, self.place, self.reason = assumption, place, reason
 
 
+class NotAPeriod(AveragingRefused):
+    """A dither does not have the period that the system declares; what would be one depends on all dithers."""
+
+    def __init__(self, place: str, reason: str) -> None:
+        super().__init__("D", place, reason)
+
+
 class AveragingUndecided(ValueError):
     """No exact route that is trusted here leads to a value; ``str`` says what was met and where."""

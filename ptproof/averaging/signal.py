@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import sympy as sp
 
 from ptproof.averaging.quasipolynomial import QuasiPolynomial, exact_sign, read
-from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided
+from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided, NotAPeriod
 from ptproof.averaging.switching import pieces
 from ptproof.proof.kinks import innermost
 
@@ -121,8 +121,7 @@ def _check_period(terms: QuasiPolynomial, dither: sp.Expr, phase: sp.Symbol, per
     for _, rate in terms.terms:
         number = turns(rate, period)
         if not number.is_integer:
-            raise AveragingRefused(
-                "D",
+            raise NotAPeriod(
                 where,
                 f"{period} is not a period of {dither}: its part of frequency {rate} makes {number} turns in it, "
                 "not a whole number",
@@ -172,4 +171,4 @@ def _check_period_of_switches(dither: sp.Expr, phase: sp.Symbol, period: sp.Expr
         for left, right in zip(first, later, strict=True)
     )
     if not same:
-        raise AveragingRefused("D", where, f"{period} is not a period of {dither}")
+        raise NotAPeriod(where, f"{period} is not a period of {dither}")

@@ -14,8 +14,9 @@ from ptproof.balls.ball import ball_from, separated
 from ptproof.balls.tape import Undefined
 from ptproof.certify.certificate import FieldWitness
 from ptproof.certify.quotients import Quotients
-from ptproof.certify.witness import Prosecutor, Vector, certainly_zero, directions
+from ptproof.certify.witness import Prosecutor, Vector, directions
 from ptproof.problem.field import Field
+from ptproof.proof.signs import vanishes
 
 
 def source_order(field: Field, quotients: Quotients, prosecutor: Prosecutor) -> FieldWitness | None:
@@ -44,7 +45,7 @@ def _vanishes(quotients: Quotients, key: Sequence[int]) -> bool:
     for y, times in zip(quotients.offsets, key, strict=True):
         expression = sp.diff(expression, y, times) if times else expression
     value = expression.subs(dict.fromkeys(quotients.offsets, 0))
-    if certainly_zero(value):
+    if vanishes(value):
         return True
     if separated(value, 0) is None:
         raise Undefined(f"cannot decide whether the derivative {tuple(key)} vanishes at the source")
@@ -109,7 +110,7 @@ def degenerate_direction(field: Field, quotients: Quotients, prosecutor: Prosecu
     if field.kappa == 1:
         hessian = field.hessian_at_source
         for kernel in hessian.nullspace(simplify=True):
-            if all(map(certainly_zero, hessian * kernel)):
+            if all(map(vanishes, hessian * kernel)):
                 detail = "the Hessian at the source is singular"
                 return prosecutor.limit(tuple(kernel), False, outward=False, limit="0", detail=detail)
     return None

@@ -22,7 +22,7 @@ from ptproof.certify.domain import Domain
 from ptproof.certify.evaluator import Place
 from ptproof.certify.quotients import Quotients
 from ptproof.problem.field import Field
-from ptproof.proof.algebra import NotAlgebraic, is_zero
+from ptproof.proof.signs import vanishes
 
 Vector = Sequence[sp.Rational]
 
@@ -76,7 +76,7 @@ class Prosecutor:
         value, peak = self.field.value(x), self.field.peak
         try:
             sign = separated(value, peak)
-            if sign == -1 or (sign is None and not certainly_zero(value - peak)):
+            if sign == -1 or (sign is None and not vanishes(value - peak)):
                 return None
             left = f"F(x) = {_shown(value)}"
         except (Undefined, TypeError, ValueError):
@@ -224,7 +224,7 @@ class Prosecutor:
         offsets = self.quotients.offsets
         rest = {y: 0 for i, y in enumerate(offsets) if i != index}
         slopes = (sp.diff(self.quotients.drop, y).subs(rest) for y in rest)
-        return all(certainly_zero(slope) for slope in slopes)
+        return all(vanishes(slope) for slope in slopes)
 
     def _newton(self, start: Sequence[float], kept: Sequence[int]) -> FieldWitness | None:
         offsets = self.quotients.offsets
@@ -256,7 +256,7 @@ class Prosecutor:
             if max(abs(float(a) - b) for a, b in zip(y, offset, strict=True)) > 1e-6 or not self.inside(y):
                 continue
             at = dict(zip(self.field.variables, x, strict=True))
-            if all(certainly_zero(entry.subs(at)) for entry in self.field.gradient):
+            if all(vanishes(entry.subs(at)) for entry in self.field.gradient):
                 return self._critical(self._values(x), "∇F(x) = 0 exactly", _length(y))
         return None
 
@@ -315,13 +315,3 @@ def _shown(value: sp.Expr) -> str:
         return text
     ball = enclosure_text(enclose(value))
     return f"{text} = {ball}" if len(text) < 60 else ball
-
-
-def certainly_zero(expression: sp.Expr) -> bool:
-    """Whether exact algebra shows that the expression is 0; False says only that it does not."""
-    if sp.expand(expression) == 0:
-        return True
-    try:
-        return is_zero(expression)
-    except NotAlgebraic:
-        return False
