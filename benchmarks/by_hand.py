@@ -11,9 +11,10 @@ from typing import Any
 import numpy as np
 
 from ptproof.problem import Problem
-from ptproof.simulation.engines.peers import lambdified
 from ptproof.simulation.plan import Array, Batch
+from ptproof.simulation.scipy_methods import lambdified
 from ptproof.simulation.setup import Setup, completed_parameters, from_problem
+from ptproof.simulation.smooth import picker
 
 
 def reduced(problem: Problem, angles: Array | None = None) -> tuple[Setup, Batch]:
@@ -26,22 +27,25 @@ def reduced(problem: Problem, angles: Array | None = None) -> tuple[Setup, Batch
     return setup, Batch(setup.initial(table), completed_parameters(setup, problem, table), setup.edges(table))
 
 
-def scipy_loop(problem: Problem, method: str, rtol: float, angles: Array | None = None) -> Array:
-    """End positions (2 × N) by ``solve_ivp`` on a lambdified right-hand side, restarted at the gain's kink."""
+def scipy_run(setup: Setup, member: Batch, method: str, rtol: float, samples: int = 1) -> Array:
+    """Positions (2 × m) by ``solve_ivp`` on a lambdified right-hand side, restarted at the gain's kink."""
     from scipy.integrate import solve_ivp
 
+    function, values, state = lambdified(setup.system), member.parameters[:, 0].tolist(), member.initial[:, 0]
+    found = []
+    for grid in member.grids(samples):
+        solution = solve_ivp(
+            lambda t, x: function(t, x, values), grid[[0, -1]], state, method, grid[1:], rtol=rtol, atol=rtol / 10
+        )
+        state = solution.y[:, -1]
+        found.append(solution.y[:2])
+    return np.concatenate(found, axis=1)
+
+
+def scipy_loop(problem: Problem, method: str, rtol: float, angles: Array | None = None) -> Array:
+    """End positions (2 × N) by :func:`scipy_run`, one after the other."""
     setup, batch = reduced(problem, angles)
-    function = lambdified(setup.system)
-    ends = []
-    for i in range(batch.size):
-        values, state = batch.parameters[:, i].tolist(), batch.initial[:, i]
-        for a, b in itertools.pairwise(batch.edges[:, i]):
-            solution = solve_ivp(
-                lambda t, x, p=values: function(t, x, p), (a, b), state, method=method, rtol=rtol, atol=rtol / 10
-            )
-            state = solution.y[:, -1]
-        ends.append(state[:2])
-    return np.array(ends).T
+    return np.array([scipy_run(setup, batch.member(i), method, rtol)[:, -1] for i in range(batch.size)]).T
 
 
 def heyoka_loop(problem: Problem, angles: Array, cores: int, tolerance: float) -> Callable[[], Array]:
@@ -49,16 +53,16 @@ def heyoka_loop(problem: Problem, angles: Array, cores: int, tolerance: float) -
 
     N must be a multiple of the batches' width; building is done before.
     """
-    from ptproof.simulation.engines import taylor
+    from ptproof.simulation.engines import heyoka
 
     setup, batch = reduced(problem, angles)
     initial, values, edges = batch.initial, batch.parameters, batch.edges
-    solvers = [
-        taylor.batched(taylor.chosen(setup.system, float((a + b) / 2), tuple(values[:, 0].tolist()), True), tolerance)
-        for a, b in zip(edges[:-1, 0], edges[1:, 0], strict=True)
-    ]
+    pick, first = picker(setup.system, setup.conditions), tuple(values[:, 0].tolist())
+    systems = [pick(float((a + b) / 2), first) for a, b in itertools.pairwise(edges[:, 0])]
+    constants = [heyoka.equations(system).constants(values) for system in systems]
+    solvers = [heyoka.batched(system, tolerance) for system in systems]
     threads = [[copy.deepcopy(solver) for solver in solvers] for _ in range(cores)]
-    width = taylor.WIDTH
+    width = heyoka.WIDTH
     ends = np.empty((2, batch.size))
 
     def work(first: int, own: list[Any]) -> None:
@@ -67,7 +71,7 @@ def heyoka_loop(problem: Problem, angles: Array, cores: int, tolerance: float) -
             state = initial[:, group]
             for piece, solver in enumerate(own):
                 solver.set_time(edges[piece, group])
-                solver.state[:], solver.pars[:] = state, values[: len(solver.pars), group]
+                solver.state[:], solver.pars[:] = state, constants[piece][:, group]
                 solver.propagate_until(edges[piece + 1, group].tolist())
                 state = solver.state
             ends[:, group] = state[:2]

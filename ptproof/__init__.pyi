@@ -15,6 +15,7 @@ from .proof.run import verify as verify
 from .simulation import Ensemble as Ensemble
 from .simulation import Outcome as Outcome
 from .simulation import Trajectory as Trajectory
+from .simulation import ensemble as ensemble
 from .simulation import linearize_at_source as linearize_at_source
 from .simulation import simulate as simulate
 from .simulation import to_control as to_control

@@ -36,7 +36,7 @@ EXAMPLES = {
 def figures() -> Iterator[Figure]:
     """Every figure of the paper's examples, one after the other."""
     from ptproof.problem import example
-    from ptproof.simulation.figures import png
+    from ptproof.simulation.drawing import png
 
     from .experiments import gallery
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -45,6 +46,27 @@ def _picture(context: click.Context, option: click.Parameter, name: str | None) 
     if not file.resolve().parent.is_dir():
         raise InputError(f"--plot: there is no folder {file.resolve().parent}")
     return name
+
+
+cluster = click.option("--cluster", metavar="ADDRESS", help="Use the Dask cluster whose scheduler is at ADDRESS.")
+
+
+@contextmanager
+def connected(address: str | None) -> Iterator[Any]:
+    """A ``distributed.Client`` of the scheduler at ``address``, or None where there is no address."""
+    if address is None:
+        yield None
+        return
+    try:
+        from distributed import Client
+    except ImportError:
+        raise InputError("--cluster: dask is not installed; install the extra 'cluster'") from None
+    try:
+        client = Client(address, timeout=10)
+    except (OSError, ValueError) as error:
+        raise InputError(f"--cluster: no scheduler answers at {address}: {error}") from None
+    with client:
+        yield client
 
 
 def print_json(data: Any) -> None:

@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-import json
-import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
+from ptproof.commands import options
 from ptproof.errors import InputError
+from ptproof.simulation.engines import names
 
 if TYPE_CHECKING:
     from ptproof.problem import Problem
-    from ptproof.simulation.trajectory import Ensemble, Trajectory
+    from ptproof.simulation import Ensemble, Trajectory
 
 
 @click.command()
@@ -23,88 +25,75 @@ if TYPE_CHECKING:
     help="Left out: pt, or saturated for a problem with a [saturation] table named saturated.",
 )  # fmt: skip
 @click.option("--frame", type=click.Choice(["t", "tau"]), default="t", show_default=True)
-@click.option(
-    "--engine", type=click.Choice(["casadi", "lsoda", "radau", "dop853", "heyoka"]), help="Left out: chosen to fit."
-)
+@click.option("--engine", type=click.Choice(names()), help="Left out: chosen to fit.")
 @click.option("--model", type=click.Choice(["closed loop", "reduced model", "average"]), default="closed loop")
-@click.option("--rtol", type=float, default=1e-8, show_default=True, help="The error asked for.")
+@click.option("--rtol", default="1e-8", show_default=True, metavar="NUMBER", help="The error asked for.")
 @click.option("--until", metavar="TIME", help="Another end than the prescribed time.")
 @click.option("--ensemble", type=click.IntRange(1, 10_000_000), metavar="N", help="N members with random headings.")
 @click.option(
-    "--vary",
-    multiple=True,
-    metavar="NAME=LOW:HIGH",
+    "--vary", multiple=True, metavar="NAME=LOW:HIGH",
     help="What differs in an ensemble instead of theta; may be repeated.",
-)
+)  # fmt: skip
 @click.option("--seed", type=click.IntRange(0), default=0, show_default=True)
 @click.option("--workers", type=click.IntRange(1, 1024), default=1, show_default=True, help="Threads for an ensemble.")
+@options.cluster
 @click.option("--time-limit", type=float, default=60.0, show_default=True, help="Seconds for each run.")
-@click.option("--plot", type=click.Path(dir_okay=False), metavar="FILE", help="Draw to a .png, .svg or .pdf file.")
-@click.option("--json", "as_json", is_flag=True, help="Print JSON on standard output, and nothing else there.")
+@options.plot("the run, or the distances of an ensemble,")
+@options.as_json
 def simulate(
-    problem: str, seeker: str | None, frame: str, engine: str | None, model: str, rtol: float, until: str | None,
-    ensemble: int | None, vary: tuple[str, ...], seed: int, workers: int, time_limit: float, plot: str | None,
-    as_json: bool,
-) -> None:  # fmt: skip
+    problem: str, seeker: str | None, ensemble: int | None, vary: tuple[str, ...], seed: int, workers: int,
+    cluster: str | None, plot: str | None, as_json: bool, **how: Any,
+) -> int:  # fmt: skip
     """Integrate a seeker to its prescribed time.
 
     NAME is vanishing, nonvanishing or saturated, the paper's examples; anything else is read as a problem file.
     The status is 0 if T was reached (by all members of an ensemble), 1 if not, 2 for bad input.
     """
-    from ptproof.simulation.ensembles import Progress
-    from ptproof.simulation.run import simulate as run
+    from ptproof.simulation import Ensemble, Outcome, run
 
-    try:
-        target = _target(problem)
-        _check_plot(plot)
-        if seeker is None:
-            seeker = "saturated" if target.name == "saturated" and target.saturation is not None else "pt"
-        options: dict[str, Any] = {
-            "model": model, "rtol": rtol, "engine": engine, "until": until, "seed": seed, "workers": workers,
-            "time_limit": time_limit, "ensemble": ensemble, "vary": _ranges(vary),
-        }  # fmt: skip
-        result: Trajectory | Ensemble
-        if ensemble is None:
-            result = run(target, seeker, frame, **options)
+    target = _target(problem)
+    how["seeker"] = seeker or ("saturated" if target.name == "saturated" and target.saturation is not None else "pt")
+    result: Trajectory | Ensemble
+    with _naming(problem, target):
+        if ensemble is not None:
+            with options.connected(cluster) as client, _progress(ensemble) as progress:
+                result = run.ensemble(
+                    target, ensemble, seed=seed, vary=_ranges(vary), workers=workers, client=client,
+                    progress=progress, **how,
+                )  # fmt: skip
+        elif vary or cluster:
+            raise InputError("--vary, --cluster: need --ensemble N, the number of members")
         else:
-            with _progress(ensemble) as advance:
-                step: Progress = advance
-                result = run(target, seeker, frame, progress=step, **options)
-        if plot is not None:
-            _draw(target, result, seeker, plot)
-    except InputError as error:
-        click.echo(f"ptproof simulate: {error}", err=True)
-        sys.exit(2)
+            result = run.simulate(target, **how)
+    if plot is not None:
+        _draw(target, result, plot)
     data = as_data(result, problem)
-    click.echo(json.dumps(data) if as_json else _text(data, result))
-    sys.exit(0 if _reached(result) else 1)
+    if as_json:
+        options.print_json(data)
+    else:
+        click.echo(_text(data, result))
+    outcomes = result.outcomes if isinstance(result, Ensemble) else (result.outcome,)
+    return 0 if all(outcome is Outcome.REACHED for outcome in outcomes) else 1
 
 
 def as_data(result: Trajectory | Ensemble, name: str) -> dict[str, Any]:
     """The JSON of a result; numbers that are not finite become null."""
-    settings = result.settings
-    data: dict[str, Any] = {"example": name, "seeker": settings["seeker"], "frame": settings["frame"]}
-    data["engine"] = settings["engine"]
-    from ptproof.simulation.trajectory import Ensemble
+    from ptproof.simulation import Ensemble
 
+    settings = result.settings
+    data: dict[str, Any] = {"example": name} | {key: settings[key] for key in ("seeker", "frame", "engine")}
     if isinstance(result, Ensemble):
         distance = {key: _finite(getattr(result, key)) for key in ("median", "q95", "max")}
         return data | {
             "N": result.size, "seed": settings["seed"], "outcomes": dict(result.counts), "distance": distance,
             "seconds": round(result.seconds, 6),
         }  # fmt: skip
-    final = result.final
-    position = [_finite(float(result.x[i, -1])) for i in range(2)]
-    heading = _finite(final["theta"]) if "theta" in final else None
+    final = {key: _finite(value) for key, value in result.final.items()}
+    wanted = {key: final.get(key) for key in ("theta", "z", "field", "distance")}
+    position = [_finite(float(value)) for value in result.x[:2, -1]]
     return data | {
-        "outcome": str(result.outcome),
-        "message": result.message,
-        "final": {
-            "t": _finite(final["t"]), "x": position, "theta": heading,
-            "z": _finite(final["z"]) if "z" in final else None,
-            "field": _finite(final["field"]), "distance": _finite(final["distance"]),
-        },
-        "seconds": round(result.seconds, 6),
+        "outcome": str(result.outcome), "limit": result.limit and str(result.limit), "message": result.message,
+        "final": {"t": final["t"], "x": position, **wanted}, "seconds": round(result.seconds, 6),
     }  # fmt: skip
 
 
@@ -112,19 +101,25 @@ def _finite(value: float) -> float | None:
     return value if abs(value) < float("inf") else None
 
 
-def _reached(result: Any) -> bool:
-    from ptproof.simulation.plan import Outcome
+def _is_file(name: str) -> bool:
+    from ptproof.problem import EXAMPLES
 
-    outcomes = getattr(result, "outcomes", None) or (result.outcome,)
-    return all(outcome is Outcome.REACHED for outcome in outcomes)
+    return name not in EXAMPLES and (name.endswith(".toml") or Path(name).exists())
 
 
 def _target(name: str) -> Problem:
-    from ptproof.problem import EXAMPLES, example, load
+    from ptproof.problem import example, load
 
-    if name in EXAMPLES or not (name.endswith(".toml") or Path(name).exists()):
-        return example(name)
-    return load(name)
+    return load(name) if _is_file(name) else example(name)
+
+
+@contextmanager
+def _naming(name: str, target: Problem) -> Iterator[None]:
+    """Errors of a run that a file asks for name the file."""
+    try:
+        yield
+    except InputError as error:
+        raise InputError(f"{name}: {error}") if _is_file(name) else error from None
 
 
 def _ranges(texts: tuple[str, ...]) -> dict[str, tuple[str, str]] | None:
@@ -138,36 +133,24 @@ def _ranges(texts: tuple[str, ...]) -> dict[str, tuple[str, str]] | None:
     return ranges or None
 
 
-def _check_plot(plot: str | None) -> None:
-    if plot is None:
-        return
-    if Path(plot).suffix.lower() not in (".png", ".svg", ".pdf"):
-        raise InputError(f"--plot: {plot} should end in .png, .svg or .pdf")
-    if not Path(plot).resolve().parent.is_dir():
-        raise InputError(f"--plot: there is no folder {Path(plot).resolve().parent}")
-
-
-def _progress(total: int) -> Any:
-    """A progress bar on standard error; a context that gives the function to call with newly finished members."""
-    from contextlib import contextmanager
-
+@contextmanager
+def _progress(total: int) -> Iterator[Callable[[int], None]]:
+    """A progress bar on standard error, and the function to call with newly finished members."""
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
-    @contextmanager
-    def bar() -> Any:
-        columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-        with Progress(*columns, console=Console(stderr=True), transient=True) as progress:
-            task = progress.add_task("trajectories", total=total)
-            yield lambda done: progress.advance(task, done)
-
-    return bar()
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=Console(stderr=True), transient=True) as progress:
+        task = progress.add_task("trajectories", total=total)
+        yield lambda done: progress.advance(task, done)
 
 
-def _draw(target: Problem, result: Any, seeker: str, plot: str) -> None:
-    from ptproof.simulation.figures import overview, save
+def _draw(target: Problem, result: Trajectory | Ensemble, file: str) -> None:
+    from ptproof.simulation import Trajectory
+    from ptproof.simulation.drawing import save
+    from ptproof.simulation.figures import overview
 
-    save(result.plot().figure if hasattr(result, "outcomes") else overview(target, result), plot)
+    save(overview(target, result) if isinstance(result, Trajectory) else result.plot().figure, file)
 
 
 def _text(data: dict[str, Any], result: Any) -> str:

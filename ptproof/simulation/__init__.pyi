@@ -1,11 +1,14 @@
-from .blocks import compare_figure as compare_figure
-from .blocks import figure_loop as figure_loop
+from .blocks import block_diagram as block_diagram
 from .blocks import linearize_at_source as linearize_at_source
 from .blocks import to_control as to_control
 from .order import GapOrder as GapOrder
 from .order import gap_order as gap_order
 from .order import hover_radius as hover_radius
+from .plan import Limit as Limit
 from .plan import Outcome as Outcome
+from .plan import Settings as Settings
+from .question import Question as Question
+from .run import ensemble as ensemble
 from .run import simulate as simulate
 from .trajectory import Ensemble as Ensemble
 from .trajectory import Trajectory as Trajectory

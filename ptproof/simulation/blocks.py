@@ -1,48 +1,71 @@
-"""Systems as python-control objects, and the paper's block diagram (fig:unicycle_pt_controller) from its parts.
-
-The diagram's washout filter s/(μs + 1) is drawn time-invariant in t, whereas eq:z scales the filter's rate by K(t).
-Built from its parts, the figure as drawn is therefore not eq:closed_loop_system_t: its filter gives dy/dt, so that
-θ̇ = K(ω − k dy/dt), where the equations give K(ω − k dy/dτ) = Kω − k dy/dt. With the filter run in the dilated time
-(its rate multiplied by K) the two are the same. :func:`compare_figure` shows both in numbers.
-"""
+"""Systems, seekers and the block diagram of a closed loop as python-control objects."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import sympy as sp
 
 from ptproof.errors import InputError
-from ptproof.problem import TIME, Problem, parameters
-from ptproof.problem.seekers import unicycle
+from ptproof.problem import TIME, Problem, example
+from ptproof.problem.seekers import Feedback, unicycle
+from ptproof.reading.expressions import parse
+from ptproof.simulation.numbers import as_float, by_name
 from ptproof.simulation.plan import Array
-from ptproof.simulation.run import simulate
-from ptproof.simulation.setup import by_name
-from ptproof.simulation.trajectory import Trajectory
 from ptproof.simulation.translate import to_function
 from ptproof.system import System
 
 
-def to_control(system: System, values: Mapping[Any, Any] | None = None) -> Any:
-    """The system as a ``control.NonlinearIOSystem`` without inputs, whose outputs are its states.
+def to_control(
+    target: System | Problem | str, values: Mapping[Any, Any] | None = None, *, seeker: str = "pt", frame: str = "t",
+    coordinates: str = "full",
+) -> Any:  # fmt: skip
+    """A system, or the closed loop of a problem, as a ``control.NonlinearIOSystem`` without inputs.
 
-    ``values`` gives the parameters by name; they become the object's ``params`` and can be overridden in a call.
+    Parameters
+    ----------
+    target
+        A :class:`System`, a :class:`Problem`, or an example's name.
+    values
+        The parameters by name; they become the object's ``params`` and can be overridden in a call. For a problem
+        they replace its own.
+    seeker, frame, coordinates
+        For a problem: as for :func:`ptproof.problem.closed_loop`.
+
+    Returns
+    -------
+    control.NonlinearIOSystem
+        Its outputs are its states, under the system's names.
 
     Raises
     ------
     InputError
         If a parameter has no value, or the right-hand side can't be evaluated.
+
+    Examples
+    --------
+    >>> import control, ptproof
+    >>> run = ptproof.simulate("vanishing", until=0.02, samples=4)
+    >>> loop = ptproof.to_control("vanishing")
+    >>> response = control.input_output_response(loop, run.t, X0=run.x[:, 0], solve_ivp_method="LSODA")
+    >>> bool(abs(response.states - run.x).max() < 1e-2)
+    True
     """
     import control
 
-    function = to_function(system)
+    given = by_name(values or {})
+    if not isinstance(target, System):
+        problem = _problem(target)
+        system = problem.closed_loop(seeker, frame, coordinates=coordinates, symbolic=True)
+        given = by_name(problem.values) | given
+    else:
+        system = target
     names = [symbol.name for symbol in system.parameters or ()]
-    given = {name: float(value) for name, value in by_name(values or {}).items()}
     if missing := [name for name in names if name not in given]:
         raise InputError(f"{system.name}: no value for {', '.join(missing)}")
+    function = to_function(system)
 
     def update(time: float, x: Any, _: Any, params: Mapping[str, float]) -> Array:
         return np.array(function(time, x, [params[name] for name in names])).ravel()
@@ -50,21 +73,28 @@ def to_control(system: System, values: Mapping[Any, Any] | None = None) -> Any:
     states = [symbol.name for symbol in system.state]
     return control.NonlinearIOSystem(
         update, None, inputs=0, outputs=states, states=states, name=_name(system.name),
-        params={name: given[name] for name in names},
+        params={name: as_float(given[name], name) for name in names},
     )  # fmt: skip
 
 
-def linearize_at_source(problem: Problem, seeker: str = "pt", time: Any = None) -> Any:
+def linearize_at_source(problem: Problem | str, seeker: str = "pt", time: Any = None) -> Any:
     """The average in t, linearized at the source at ``time`` (t₀ if left out), as a ``control.StateSpace``.
 
     Its matrix is the exact Jacobian; for the drift E∇F it is (E + K k/2) ∇²F(x*), which has to be stable for the source
     to be attractive at that gain.
+
+    Examples
+    --------
+    >>> import ptproof
+    >>> print(ptproof.linearize_at_source("vanishing", time="9/10").poles().real.round(2))
+    [-28.74  -9.  ]
     """
     import control
 
+    problem = _problem(problem)
     system = problem.averaged(seeker, "t")
     at = dict(zip(system.state, problem.source, strict=True)) | {
-        system.time: problem.tuning.t0 if time is None else sp.sympify(time)
+        system.time: problem.tuning.t0 if time is None else _instant(time)
     }
     A = np.array(system.linearization(at).evalf(17).tolist(), dtype=float)
     n = system.dimension
@@ -72,20 +102,27 @@ def linearize_at_source(problem: Problem, seeker: str = "pt", time: Any = None) 
     return control.ss(A, np.zeros((n, 0)), np.eye(n), np.zeros((n, 0)), states=names, outputs=names)
 
 
-def figure_loop(problem: Problem, *, dilated_filter: bool) -> Any:
-    """The block diagram from its parts, joined by ``control.interconnect``.
+def block_diagram(problem: Problem | str, *, dilated_filter: bool = True) -> Any:
+    """The prescribed-time seeker as a block diagram, from its parts, joined by ``control.interconnect``.
 
     The parts: the unicycle with its drift, the map F, the washout filter, the gain −k, the sum with ω, and twice
-    the gain K(t). With ``dilated_filter`` the filter's rate is multiplied by K(t), as in eq:z; without, it is the
-    time-invariant s/(μs + 1) that is drawn.
+    the gain K(t). The filter's rate is multiplied by K(t), as in eq:z, so that the diagram is the closed loop; without
+    ``dilated_filter`` it is the time-invariant s/(μs + 1), which it is not.
 
     Returns
     -------
     control.InterconnectedSystem
         With the states of the vehicle (x₁, x₂, θ) and then the filter's, and y, u1 and u2 as outputs.
+
+    Examples
+    --------
+    >>> import ptproof
+    >>> ptproof.simulation.block_diagram("vanishing").output_labels
+    ['y', 'u1', 'u2']
     """
     import control
 
+    problem = _problem(problem)
     letters = problem.states
     values = {symbol.name: float(value) for symbol, value in problem.values.items()}
     gain = _scalar(problem.seeker_clock().rate, problem)
@@ -109,7 +146,7 @@ def figure_loop(problem: Problem, *, dilated_filter: bool) -> Any:
             inputs=["y"], outputs=["innovation"], states=[letters.filter.name], name="washout",
         )  # fmt: skip
     else:
-        # The transfer function that the figure shows, in the realisation whose state is z.
+        # The transfer function s/(mu s + 1), in the realisation whose state is z.
         washout = control.ss(
             [[-1 / mu]], [[1 / mu]], [[-1 / mu]], [[1 / mu]], inputs=["y"], outputs=["innovation"],
             states=[letters.filter.name], name="washout",
@@ -117,21 +154,12 @@ def figure_loop(problem: Problem, *, dilated_filter: bool) -> Any:
     parts = [vehicle, field, washout, minus_k, total, forward, angular, *constants]
     return control.interconnect(
         parts, inputs=[], inplist=[], outputs=["y", "u1", "u2"], outlist=["field.y", "gain_1.u1", "gain_2.u2"],
-        name="figure", warn_duplicate=False, check_unused=False,
+        name="seeker", warn_duplicate=False, check_unused=False,
     )  # fmt: skip
-
-
-def washout_transfer(problem: Problem) -> Any:
-    """The filter as the figure prints it: the transfer function s/(μs + 1)."""
-    import control
-
-    return control.tf([1, 0], [float(problem.tuning.mu), 1])
 
 
 def _vehicle(problem: Problem, u1: sp.Symbol, u2: sp.Symbol) -> Any:
     import control
-
-    from ptproof.problem.seekers import Feedback
 
     letters = problem.states
     # The unicycle of the seekers with its inputs left free; its filter state is not part of the vehicle.
@@ -163,59 +191,11 @@ def _name(text: str) -> str:
     return "".join(character if character.isalnum() else "_" for character in text)
 
 
-@dataclass(frozen=True)
-class FigureComparison:
-    """How far the block diagram is from eq:closed_loop_system_t.
-
-    ``rhs_dilated`` and ``rhs_drawn`` are the largest relative differences of the right-hand sides over the points that
-    were tried, with the filter in dilated time and as drawn; ``final_equations`` and ``final_drawn`` the distances
-    from the source at T, and ``largest_gap`` the largest distance between the two paths.
-    """
-
-    rhs_dilated: float
-    rhs_drawn: float
-    final_equations: float
-    final_drawn: float
-    largest_gap: float
+def _problem(target: Problem | str) -> Problem:
+    if not isinstance(target, Problem | str):
+        raise InputError(f"expected a problem or an example's name, got {type(target).__name__}")
+    return example(target) if isinstance(target, str) else target
 
 
-def compare_figure(problem: Problem, points: int = 50, seed: int = 0) -> FigureComparison:
-    """Both readings of the figure against the closed loop: right-hand sides at random points, and the whole runs."""
-    loop = problem.closed_loop("pt", "t")
-    function = to_function(loop)
-    drawings = [figure_loop(problem, dilated_filter=dilated) for dilated in (True, False)]
-    draw = np.random.default_rng(np.random.SeedSequence(seed))
-    start, T = float(problem.tuning.t0), float(problem.tuning.T)
-    worst = [0.0, 0.0]
-    for _ in range(points):
-        time, state = start + T * draw.random(), draw.normal(size=4)
-        truth = np.array(function(time, state, [])).ravel()
-        for i, drawing in enumerate(drawings):
-            gap = np.abs(drawing.dynamics(time, state, []) - truth) / (1 + np.abs(truth))
-            worst[i] = max(worst[i], float(gap.max()))
-    equations = simulate(problem, samples=2000)
-    assert isinstance(equations, Trajectory)
-    initial = [*(float(v) for v in problem.initial.x), float(problem.initial.theta), float(problem.measured)]
-    drawn = simulate(
-        drawn_loop(problem), initial=initial, span=(start, start + T), parameters=_values_of(problem), samples=2000
-    )
-    assert isinstance(drawn, Trajectory)
-    source = np.array([float(value) for value in problem.source])
-    on_grid = np.array([np.interp(equations.t, drawn.t, row) for row in drawn.x[:2]])
-    return FigureComparison(
-        worst[0], worst[1], equations.final_distance, float(np.linalg.norm(drawn.x[:2, -1] - source)),
-        float(np.max(np.linalg.norm(on_grid - equations.x[:2], axis=0))),
-    )  # fmt: skip
-
-
-def drawn_loop(problem: Problem) -> System:
-    """The figure as drawn, as a system: the closed loop with the filter's rate not multiplied by K(t)."""
-    loop = problem.closed_loop("pt", "t", symbolic=True)
-    rhs = [*loop.rhs]
-    rhs[-1] = sp.cancel(rhs[-1] / problem.seeker_clock().rate)
-    return System(loop.time, loop.state, tuple(rhs), name="block diagram as drawn")
-
-
-def _values_of(problem: Problem) -> dict[str, float]:
-    used = {symbol.name for symbol in drawn_loop(problem).parameters or ()}
-    return {s.name: float(v) for s, v in problem.values.items() if s.name in used and s != parameters.p0}
+def _instant(time: Any) -> sp.Expr:
+    return parse(time, where="time") if isinstance(time, str) else sp.sympify(time)

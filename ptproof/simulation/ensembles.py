@@ -10,12 +10,11 @@ import numpy as np
 
 from ptproof.errors import InputError
 from ptproof.simulation.engines import engine_named
+from ptproof.simulation.numbers import as_float, as_floats
 from ptproof.simulation.plan import Array, Batch, Finals, Plan
-from ptproof.simulation.setup import as_float
 
-BLOCK = 256
-# About as long as a block of another engine; its groups are the same in blocks of either size.
-_FAST_BLOCK = 2048
+# A task of a cluster: a multiple of every engine's own group size, so that the numbers stay the same.
+_TASK = 64
 _LARGEST = 10_000_000
 Progress = Callable[[int], None]
 
@@ -32,7 +31,7 @@ def members(size: Any, seed: Any, vary: Mapping[str, Any], known: Sequence[str])
         For each name of a state or parameter: a pair (low, high), drawn uniformly, or N values.
     """
     if isinstance(size, bool) or not isinstance(size, int) or not 1 <= size <= _LARGEST:
-        raise InputError(f"ensemble: expected a number of members from 1 to {_LARGEST}, got {size!r}")
+        raise InputError(f"size: an ensemble has from 1 to {_LARGEST} members, got {size!r}")
     if isinstance(seed, bool) or not isinstance(seed, int) or seed < 0:
         raise InputError(f"seed: expected an integer, 0 or more, got {seed!r}")
     for name in vary:
@@ -49,14 +48,11 @@ def members(size: Any, seed: Any, vary: Mapping[str, Any], known: Sequence[str])
             if len(value) != 2:
                 raise InputError(f"vary.{name}: expected (low, high) or {size} values")
             low, high = (as_float(bound, f"vary.{name}") for bound in value)
+            if low > high:
+                raise InputError(f"vary.{name}: low must not be above high, got {low:g} to {high:g}")
             result[name] = low + (high - low) * uniform[:, drawn.index(name)]
         else:
-            values = np.asarray(value, dtype=float)
-            if values.shape != (size,):
-                raise InputError(f"vary.{name}: expected (low, high) or {size} values, got shape {values.shape}")
-            if not np.all(np.isfinite(values)):
-                raise InputError(f"vary.{name}: contains NaN or infinity")
-            result[name] = values
+            result[name] = as_floats(value, size, f"vary.{name}")
     return result
 
 
@@ -78,26 +74,19 @@ def run_blocks(
     With ``client``, a ``distributed.Client``, each block is a task of that cluster; the scheduler repeats the
     blocks of a worker that is lost.
     """
-    size = BLOCK if client is not None or engine != "heyoka" else _FAST_BLOCK
+    size = engine_named(engine).block if client is None else _TASK
     blocks = [batch.slice(i, min(i + size, batch.size)) for i in range(0, batch.size, size)]
+    done = progress or (lambda _: None)
     if client is None:
         parts = []
         for block in blocks:
             parts.append(run_block(engine, plan, block, workers))
-            if progress is not None:
-                progress(block.size)
+            done(block.size)
         return Finals.join(parts)
     from distributed import as_completed
 
-    blocks = [part for block in blocks for part in _split(block)]
     futures = [client.submit(run_block, engine, plan, block, 1, pure=False) for block in blocks]
     sizes = {future.key: block.size for future, block in zip(futures, blocks, strict=True)}
     for future in as_completed(futures):
-        if progress is not None:
-            progress(sizes[future.key])
+        done(sizes[future.key])
     return Finals.join(client.gather(futures))
-
-
-def _split(block: Batch) -> list[Batch]:
-    # Smaller tasks for a cluster; a multiple of every engine's own group size, so that the numbers stay the same.
-    return [block.slice(i, min(i + 64, block.size)) for i in range(0, block.size, 64)]

@@ -13,9 +13,10 @@ import sympy as sp
 
 from ptproof.averaging.correction import Correction, first_correction
 from ptproof.errors import InputError
+from ptproof.simulation.drawing import BLUE, RED, new_figure
+from ptproof.simulation.numbers import as_float, by_name
 from ptproof.simulation.plan import Array, Outcome
 from ptproof.simulation.run import simulate
-from ptproof.simulation.setup import as_float, by_name
 from ptproof.simulation.trajectory import Trajectory
 from ptproof.system import DitherSystem, System
 
@@ -63,9 +64,16 @@ class GapOrder:
 
     def plot(self, ax: Any = None) -> Any:
         """The ladder with the fitted and the expected slope; the Matplotlib ``Axes``."""
-        from ptproof.simulation.figures import draw_order
-
-        return draw_order(self, ax)
+        ax = new_figure()[1] if ax is None else ax
+        omega = np.array(self.omegas)
+        ax.loglog(omega, self.gaps, "o", color=BLUE, label="gap")
+        fit = f"fit: slope {self.slope:.3f}; between the last two {self.tail:.3f}"
+        ax.loglog(omega, np.exp(self.intercept) * omega**self.slope, color=BLUE, lw=1, label=fit)
+        anchor = self.gaps[-1] * (omega / omega[-1]) ** self.expected
+        ax.loglog(omega, anchor, color=RED, lw=1, ls="--", label=f"theory: slope {self.expected:g}")
+        ax.set(xlabel="ω", ylabel="largest gap over the interval")
+        ax.legend()
+        return ax
 
 
 def gap_order(
@@ -177,9 +185,7 @@ def _filled(system: System, values: Mapping[Any, Any]) -> System:
 
 def _run(system: System, initial: Mapping[str, Any], omega: sp.Symbol, rung: float, options: Any) -> Trajectory:
     given = {omega.name: rung} if omega in (system.parameters or ()) else {}
-    result = simulate(system, initial=initial, parameters=given, **options)
-    assert isinstance(result, Trajectory)
-    return result
+    return simulate(system, initial=initial, parameters=given, **options)
 
 
 @dataclass(frozen=True)

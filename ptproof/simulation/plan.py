@@ -5,14 +5,16 @@ from __future__ import annotations
 import enum
 import itertools
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Any, Protocol
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from typing import Protocol
 
 import numpy as np
 import numpy.typing as npt
+from sympy.core.relational import Relational
 
 from ptproof.errors import InputError
+from ptproof.simulation.numbers import as_float
 from ptproof.system import System
 
 Array = npt.NDArray[np.float64]
@@ -27,52 +29,138 @@ class Outcome(enum.StrEnum):
     FAILED = "failed"
 
 
+class Limit(enum.StrEnum):
+    """Which limit ended a run, named as the option that moves it."""
+
+    TIME = "time_limit"
+    STEPS = "max_steps"
+    GAIN = "nu_end"
+
+
+@dataclass(frozen=True)
+class Settings:
+    """How a question is answered; nothing here changes what is asked.
+
+    Attributes
+    ----------
+    rtol, atol
+        The error asked for, relative and absolute, of the end result; the local tolerances of an engine are tighter
+        (CVODES: 50 times, the others: 10). ``atol`` is ``rtol``/10 if left out.
+    engine
+        One of :func:`ptproof.simulation.engines.names`; left out, it is chosen to fit.
+    samples
+        About how many intervals a trajectory has.
+    escape_radius
+        The distance at which a run has escaped; 10⁶ times the initial one (or 1) if left out.
+    max_steps, time_limit
+        Bounds on the work of each run, in steps and in seconds; past them its outcome is ``step limit``, and its
+        ``limit`` says which of them it was.
+
+    Raises
+    ------
+    InputError
+        For a number that is none, or that is out of its range.
+    """
+
+    rtol: float = 1e-8
+    atol: float | None = None
+    engine: str | None = None
+    samples: int = 1000
+    escape_radius: float | None = None
+    max_steps: int = 50_000_000
+    time_limit: float = 60.0
+
+    def __post_init__(self) -> None:
+        for name in ("rtol", "atol", "escape_radius", "time_limit"):
+            value = getattr(self, name)
+            if value is not None and type(value) is not float:
+                object.__setattr__(self, name, as_float(value, name))
+        if not 1e-14 <= self.rtol <= 1e-2:
+            raise InputError(f"rtol: expected a number between 1e-14 and 1e-2, got {self.rtol}")
+        if not (self.absolute > 0 and self.time_limit > 0 and self.max_steps >= 1):
+            raise InputError("atol, time_limit and max_steps must be positive")
+        if not 1 <= self.samples <= 1_000_000:
+            raise InputError(f"samples: expected 1 to 1000000, got {self.samples}")
+
+    @property
+    def absolute(self) -> float:
+        """The absolute tolerance."""
+        return self.rtol / 10 if self.atol is None else self.atol
+
+
+@dataclass(frozen=True)
+class Stop:
+    """Why a run went no further, in words; ``limit`` where it was a limit on its work."""
+
+    outcome: Outcome = Outcome.REACHED
+    message: str = ""
+    limit: Limit | None = None
+
+
 @dataclass(frozen=True)
 class Plan:
-    """A system with symbolic parameters, and the settings that all members of an ensemble share.
+    """A system with symbolic parameters, and what all members of an ensemble share.
 
     Attributes
     ----------
     system
         Its ``parameters`` get their values per member.
-    samples
-        About how many intervals the answer of a single run has.
-    rtol, atol
-        The error asked for, relative and absolute, of the end result; engines work with tighter local tolerances.
+    settings
+        Tolerances, samples and limits.
     watched, center, radius
         A run has escaped when the states ``watched`` (indices) are further than ``radius`` from ``center``.
     tightening
         A power of ten by which relative tolerances shrink, since an angle counts absolutely however far it has turned.
-    max_steps, time_limit
-        A run that needs more steps, or more seconds, ends with the outcome ``step limit``.
+    conditions
+        The conditions of choices in the right-hand side that change at the inner edges of a member, and only there.
     """
 
     system: System
-    samples: int
-    rtol: float
-    atol: float
+    settings: Settings
     watched: tuple[int, ...]
     center: tuple[float, ...]
     radius: float
-    max_steps: int = 50_000_000
-    time_limit: float = 60.0
     tightening: float = 1.0
-
-    def __post_init__(self) -> None:
-        if not 1e-14 <= self.rtol <= 1e-2:
-            raise InputError(f"rtol: expected a number between 1e-14 and 1e-2, got {self.rtol}")
-        if not self.atol > 0 or not self.time_limit > 0 or self.max_steps < 1:
-            raise InputError("atol, time_limit and max_steps must be positive")
-        if not 1 <= self.samples <= 1_000_000:
-            raise InputError(f"samples: expected 1 to 1000000, got {self.samples}")
+    conditions: tuple[Relational, ...] = ()
 
     def distance(self, x: Array) -> Array:
         """The distance of the watched states from the center, for x (n × …)."""
         if x.ndim == 1:
             return np.asarray(math.dist([x[i] for i in self.watched], self.center))
-        offset = np.asarray(self.center).reshape((-1,) + (1,) * (x.ndim - 1))
         with np.errstate(all="ignore"):
-            return np.sqrt(np.sum((x[list(self.watched)] - offset) ** 2, axis=0))
+            squares = [(x[i] - center) ** 2 for i, center in zip(self.watched, self.center, strict=True)]
+            return np.asarray(np.sqrt(sum(squares[1:], squares[0])))
+
+    def within(self, x: Array) -> bool:
+        """Whether no state of x (n × …) has escaped, or is not a number."""
+        return bool(np.all(self.distance(x) <= self.radius))
+
+    def at_limit(self, limit: Limit, time: float, end: float) -> Stop:
+        """A limit met at ``time``, on the way to ``end``."""
+        what = {
+            Limit.TIME: f"time limit of {self.settings.time_limit:g} s",
+            Limit.STEPS: f"step limit of {self.settings.max_steps} steps",
+        }[limit]
+        return Stop(
+            Outcome.STEP_LIMIT,
+            f"the {what} was met at {self.system.time} = {time:.6g}, on the way to {end:.6g}; a larger {limit} lets it "
+            f"go further",
+            limit,
+        )
+
+    @property
+    def escaped(self) -> Stop:
+        """Further away than the radius of escape."""
+        return Stop(Outcome.ESCAPED, f"left the ball of radius {self.radius:.3g}")
+
+    def broken(self, start: Array, end: Array, why: str) -> Stop:
+        """A solver that could not go on at ``end``: out of the ball or far away it has met an escape in finite time."""
+        first, last = float(self.distance(start)), float(self.distance(end))
+        if last > self.radius:
+            return self.escaped
+        if not np.all(np.isfinite(end)) or last > 1000 * max(1.0, first):
+            return Stop(Outcome.ESCAPED, f"{why}, at a distance of {last:.3g} after a start at {first:.3g}")
+        return Stop(Outcome.FAILED, why)
 
 
 @dataclass(frozen=True)
@@ -103,20 +191,51 @@ class Batch:
     def slice(self, first: int, last: int) -> Batch:
         return Batch(self.initial[:, first:last], self.parameters[:, first:last], self.edges[:, first:last])
 
-    def pieces(self) -> list[tuple[float, float]]:
-        """The smooth pieces of a single member, without empty ones."""
-        edges = self.edges[:, 0]
-        return [(float(a), float(b)) for a, b in itertools.pairwise(edges) if b > a]
+    def grids(self, samples: int) -> Iterator[Array]:
+        """For each smooth piece of a single member about its part of ``samples`` intervals, with both ends."""
+        edges = self.edges[:, 0].tolist()
+        for a, b in itertools.pairwise(edges):
+            if b > a:
+                count = math.ceil(samples * (b - a) / (edges[-1] - edges[0]) - 1e-9)
+                yield np.linspace(a, b, max(1, count) + 1)
 
 
 @dataclass(frozen=True)
 class Run:
-    """One member's answer: times (m), states (n × m), and how it ended."""
+    """One member's answer: times (m), states (n × m), and why it stopped."""
 
     time: Array
     x: Array
-    outcome: Outcome
-    message: str = ""
+    stop: Stop
+
+
+@dataclass
+class Samples:
+    """The samples of a run as they come, beginning with its start."""
+
+    member: Batch
+    times: list[Array] = field(default_factory=list)
+    states: list[Array] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        self.add(self.member.edges[0], self.member.initial)
+
+    def add(self, times: Array, states: Array) -> None:
+        """More times (m) with their states (n × m)."""
+        self.times.append(times)
+        self.states.append(states)
+
+    @property
+    def time(self) -> float:
+        return float(self.times[-1][-1])
+
+    @property
+    def state(self) -> Array:
+        return self.states[-1][:, -1]
+
+    def run(self, stop: Stop | None = None) -> Run:
+        """The run as far as it came."""
+        return Run(np.concatenate(self.times), np.concatenate(self.states, axis=1), stop or Stop())
 
 
 @dataclass(frozen=True)
@@ -136,35 +255,51 @@ class Finals:
         )
 
 
+@dataclass(frozen=True)
+class Work:
+    """What a question costs, as far as it is known beforehand, for an engine to say whether it wants it.
+
+    Attributes
+    ----------
+    many
+        Whether it is an ensemble.
+    turns
+        How often the dither turns in a run; None where there is none.
+    spans
+        The length of a run in units of the filter's time constant; None where there is none.
+    """
+
+    many: bool
+    turns: float | None = None
+    spans: float | None = None
+
+
 class Engine(Protocol):
     """An integrator behind the door: one trajectory with samples, or many end states."""
 
     @property
-    def name(self) -> str: ...
+    def block(self) -> int:
+        """How many members of an ensemble it is handed at once."""
 
-    def trajectory(self, plan: Plan, member: Batch) -> Run: ...
+    @property
+    def missing(self) -> str:
+        """What would have to be installed for it, or nothing."""
 
-    def finals(self, plan: Plan, batch: Batch, workers: int = 1) -> Finals: ...
+    def wants(self, plan: Plan, batch: Batch, work: Work) -> bool:
+        """Whether this work is done better here than by the default engine: it can, and it is worth it."""
+
+    def trajectory(self, plan: Plan, member: Batch) -> Run:
+        """One run with samples."""
+
+    def finals(self, plan: Plan, batch: Batch, workers: int = 1) -> Finals:
+        """The end states of many, on up to ``workers`` threads, which don't change the numbers."""
 
 
-def one_by_one(engine: Any, plan: Plan, batch: Batch) -> Finals:
+def one_by_one(engine: Engine, plan: Plan, batch: Batch) -> Finals:
     """:meth:`Engine.finals` by single runs, for members that need an outcome of their own."""
     runs = [engine.trajectory(plan, batch.member(i)) for i in range(batch.size)]
     return Finals(
         np.array([run.time[-1] for run in runs]),
         np.stack([run.x[:, -1] for run in runs], axis=1),
-        tuple(run.outcome for run in runs),
+        tuple(run.stop.outcome for run in runs),
     )
-
-
-def stopped(plan: Plan, start: Array, end: Array, reason: str) -> tuple[Outcome, str]:
-    """The outcome of a run that could not go on at state ``end``.
-
-    A limit is a limit wherever it is met; a solver that breaks down far away has met an escape in finite time.
-    """
-    if "limit" in reason:
-        return Outcome.STEP_LIMIT, reason
-    first, last = float(plan.distance(start)), float(plan.distance(end))
-    if not np.all(np.isfinite(end)) or last > 1000 * max(1.0, first):
-        return Outcome.ESCAPED, f"{reason}, at a distance of {last:.3g} after a start at {first:.3g}"
-    return Outcome.FAILED, reason

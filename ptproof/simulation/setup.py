@@ -13,14 +13,13 @@ from sympy.core.relational import Relational
 
 from ptproof.errors import InputError
 from ptproof.problem import TAU, TIME, Problem, parameters
-from ptproof.reading.expressions import parse
+from ptproof.simulation.numbers import as_float, by_name
 from ptproof.simulation.plan import Array
 from ptproof.simulation.quantities import field_function, input_function, time_map
 from ptproof.system import System
 from ptproof.transforms import CappedClock, Clock
 
 MODELS = ("closed loop", "reduced model", "average")
-LARGEST = 1e15
 # How close an unclipped gain, infinite at T, is followed towards it.
 _NU = sp.Symbol("nu", positive=True)
 NU_END = {"closed loop": 0.01, "reduced model": 0.01, "average": 1e-4}
@@ -64,24 +63,6 @@ class Setup:
     inputs_at: Callable[[Array, Array, Mapping[str, float]], dict[str, Array]] | None = None
     free: tuple[str, ...] = ()
     conditions: tuple[Relational, ...] = ()
-
-
-def as_float(value: Any, where: str) -> float:
-    """A finite number from a number, exact expression or text; refused otherwise."""
-    if isinstance(value, str):
-        value = parse(value, where=where)
-    try:
-        number = float(value)
-    except (TypeError, ValueError):
-        raise InputError(f"{where}: expected a number, got {value!r}") from None
-    if not np.isfinite(number) or abs(number) > LARGEST:
-        raise InputError(f"{where}: expected a finite number up to {LARGEST:g}, got {value}")
-    return number
-
-
-def by_name(values: Mapping[Any, Any]) -> dict[str, Any]:
-    """The same mapping with symbols as keys replaced by their names."""
-    return {key.name if isinstance(key, sp.Symbol) else str(key): value for key, value in values.items()}
 
 
 def from_system(system: System, initial: Any, span: tuple[Any, Any] | None, values: Mapping[Any, Any] | None) -> Setup:

@@ -11,7 +11,8 @@ from typing import Any
 import numpy as np
 
 from ptproof.errors import InputError
-from ptproof.simulation.plan import Array, Outcome
+from ptproof.simulation.drawing import BLUE, RED, new_figure, png
+from ptproof.simulation.plan import Array, Limit, Outcome
 
 
 @dataclass(frozen=True)
@@ -28,6 +29,8 @@ class Trajectory:
         The states' names.
     outcome, message
         How it ended, and why if it did not reach T.
+    limit
+        The option that names the limit that was met, if it was one.
     final_distance
         ‖x − x*‖ at the end for a problem; for a system the norm of its last state.
     tau
@@ -53,6 +56,7 @@ class Trajectory:
     inputs: Mapping[str, Array] = dataclasses.field(default_factory=dict)
     settings: Mapping[str, Any] = dataclasses.field(default_factory=dict)
     seconds: float = 0.0
+    limit: Limit | None = None
 
     def __post_init__(self) -> None:
         if self.x.shape != (len(self.states), len(self.t)):
@@ -80,13 +84,22 @@ class Trajectory:
 
     def plot(self, ax: Any = None) -> Any:
         """Draw the path in the plane (two positions), or the states against time; the Matplotlib ``Axes``."""
-        from ptproof.simulation.figures import draw_trajectory
-
-        return draw_trajectory(self, ax)
+        ax = new_figure()[1] if ax is None else ax
+        if self.field is not None:
+            first, second = self.states[:2]
+            ax.plot(self.x[0], self.x[1], color=BLUE, lw=1)
+            ax.plot(self.x[0, 0], self.x[1, 0], "o", color=BLUE, ms=4, label="start")
+            ax.plot(self.x[0, -1], self.x[1, -1], "s", color=RED, ms=4, label=f"end: {self.outcome}")
+            ax.set(xlabel=first, ylabel=second)
+            ax.set_aspect("equal", adjustable="datalim")
+        else:
+            for name, samples in zip(self.states, self.x, strict=True):
+                ax.plot(self.t, samples, lw=1, label=name)
+            ax.set(xlabel="time", ylabel="state")
+        ax.legend()
+        return ax
 
     def _repr_png_(self) -> bytes:
-        from ptproof.simulation.figures import png
-
         return png(self.plot().figure)
 
     def _repr_html_(self) -> str:
@@ -152,13 +165,16 @@ class Ensemble:
 
     def plot(self, ax: Any = None) -> Any:
         """A histogram of the final distances; the Matplotlib ``Axes``."""
-        from ptproof.simulation.figures import draw_ensemble
-
-        return draw_ensemble(self, ax)
+        ax = new_figure()[1] if ax is None else ax
+        finite = self.distances[np.isfinite(self.distances)]
+        ax.hist(finite, bins=min(50, max(5, len(finite) // 10)), color=BLUE, alpha=0.7)
+        for name, value, style in (("median", self.median, "-"), ("95 %", self.q95, "--")):
+            ax.axvline(value, color=RED, ls=style, lw=1, label=f"{name}: {value:.3g}")
+        ax.set(xlabel="final distance from the source", ylabel="members")
+        ax.legend()
+        return ax
 
     def _repr_png_(self) -> bytes:
-        from ptproof.simulation.figures import png
-
         return png(self.plot().figure)
 
     def _repr_html_(self) -> str:

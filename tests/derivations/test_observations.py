@@ -1,12 +1,13 @@
 """Section 7 in numbers: each statement against its criterion, over a few headings, and the figures of the examples."""
 
+import control
 import numpy as np
 import pytest
 
-from derivations.pt_seeker.experiments import observations
-from derivations.pt_seeker.experiments.gallery import block_diagram, figures
+from derivations.pt_seeker.experiments import block_diagram, observations
+from derivations.pt_seeker.experiments.gallery import figures
 from ptproof.problem import example
-from ptproof.simulation.figures import png
+from ptproof.simulation.drawing import png
 
 COUNT = 8
 
@@ -85,4 +86,27 @@ def test_the_figures_of_an_example_are_drawn_and_the_same_bytes_again(name):
 
 
 def test_the_block_diagram_is_drawn():
-    assert len(png(block_diagram())) > 5000
+    assert len(png(block_diagram.draw())) > 5000
+
+
+@pytest.fixture(scope="module", params=["vanishing", "nonvanishing"])
+def comparison(request):
+    return block_diagram.compare_figure(example(request.param), points=20)
+
+
+def test_with_the_filter_in_dilated_time_the_figure_is_the_closed_loop(comparison):
+    assert comparison.rhs_dilated < 1e-12
+
+
+def test_as_drawn_the_figure_is_not_the_closed_loop(comparison):
+    assert comparison.rhs_drawn > 0.1
+    assert comparison.largest_gap > 0.05
+
+
+def test_the_filter_as_drawn_is_the_printed_transfer_function():
+    problem = example("vanishing")
+    printed = block_diagram.washout_transfer(problem)
+    mu = float(problem.tuning.mu)
+    built = control.ss([[-1 / mu]], [[1 / mu]], [[-1 / mu]], [[1 / mu]])
+    for s in (1j, 300j, 2 + 1000j):
+        assert built(s) == pytest.approx(printed(s), rel=1e-12)

@@ -1,4 +1,4 @@
-"""python-control objects: any system, the block diagram in both readings, the linearization at the source."""
+"""python-control objects: any system, a seeker, its block diagram, the linearization at the source."""
 
 import control
 import numpy as np
@@ -7,8 +7,7 @@ import sympy as sp
 
 from ptproof.errors import InputError
 from ptproof.problem import example
-from ptproof.simulation.blocks import compare_figure, figure_loop, linearize_at_source, to_control, washout_transfer
-from ptproof.simulation.run import simulate
+from ptproof.simulation import block_diagram, linearize_at_source, simulate, to_control
 from ptproof.system import System
 
 
@@ -33,23 +32,9 @@ def test_parameters_are_the_object_s_parameters():
         to_control(System(t, (x,), (-k * x,)))
 
 
-@pytest.fixture(scope="module", params=["vanishing", "nonvanishing"])
-def comparison(request):
-    return compare_figure(example(request.param), points=20)
-
-
-def test_with_the_filter_in_dilated_time_the_figure_is_the_closed_loop(comparison):
-    assert comparison.rhs_dilated < 1e-12
-
-
-def test_as_drawn_the_figure_is_not_the_closed_loop(comparison):
-    assert comparison.rhs_drawn > 0.1
-    assert comparison.largest_gap > 0.05
-
-
 def test_the_responses_agree_with_the_filter_in_dilated_time():
     problem = example("vanishing")
-    loop = figure_loop(problem, dilated_filter=True)
+    loop = block_diagram(problem)
     start = [-2, -2, 0, float(problem.measured)]
     response = control.input_output_response(
         loop, np.linspace(0, 0.02, 3), X0=start, solve_ivp_method="LSODA", solve_ivp_kwargs={"rtol": 1e-9, "atol": 1e-9}
@@ -59,13 +44,17 @@ def test_the_responses_agree_with_the_filter_in_dilated_time():
     assert response.outputs[1] == pytest.approx(ours["u1"], rel=1e-9)
 
 
-def test_the_filter_as_drawn_is_the_printed_transfer_function():
-    problem = example("vanishing")
-    printed = washout_transfer(problem)
-    mu = float(problem.tuning.mu)
-    built = control.ss([[-1 / mu]], [[1 / mu]], [[-1 / mu]], [[1 / mu]])
-    for s in (1j, 300j, 2 + 1000j):
-        assert built(s) == pytest.approx(printed(s), rel=1e-12)
+def test_an_example_s_closed_loop_has_its_own_numbers():
+    loop, reduced = to_control("vanishing"), to_control("vanishing", {"k": "3"}, frame="tau", coordinates="reduced")
+    assert loop.state_labels == ["x1", "x2", "theta", "z"]
+    assert loop.params["k"] == 1.8
+    assert (reduced.nstates, reduced.params["k"]) == (3, 3.0)
+    system = example("vanishing").closed_loop("pt", "t")
+    truth = [
+        float(entry.subs(dict(zip(system.state, (1, 2, 3, 4), strict=True)) | {system.time: 0.5}))
+        for entry in system.rhs
+    ]
+    assert loop.dynamics(0.5, [1, 2, 3, 4], []) == pytest.approx(truth)
 
 
 def test_the_linearization_is_the_paper_s_matrix():
@@ -74,3 +63,14 @@ def test_the_linearization_is_the_paper_s_matrix():
     assert np.allclose(A, 0.1 * np.diag([2 * np.pi**2 / 9 + 1, 1]), rtol=1e-12)
     late = linearize_at_source(example("vanishing"), time=sp.Rational(9, 10)).A
     assert np.all(np.linalg.eigvals(late) < 0)
+
+
+def test_an_instant_given_as_text_is_exact():
+    assert np.array_equal(
+        linearize_at_source("vanishing", time="9/10").A, linearize_at_source("vanishing", time=sp.Rational(9, 10)).A
+    )
+
+
+def test_what_is_no_problem_is_named():
+    with pytest.raises(InputError, match="expected a problem or an example's name, got int"):
+        to_control(3)

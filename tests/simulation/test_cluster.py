@@ -6,7 +6,7 @@ import signal
 import numpy as np
 import pytest
 
-from ptproof.simulation.run import simulate
+from ptproof.simulation import ensemble
 
 distributed = pytest.importorskip("distributed")
 
@@ -34,9 +34,9 @@ def test_nothing_is_lost_with_a_worker(client):
             killed.append(processes[0])
             os.kill(processes[0], signal.SIGKILL)
 
-    result = simulate("saturated", "pt", ensemble=size, client=client, progress=progress, **question)
+    result = ensemble("saturated", size, "pt", client=client, progress=progress, **question)
     assert killed
     assert result.counts == {"reached T": size}
-    local = simulate("saturated", "pt", ensemble=size, **question)
+    local = ensemble("saturated", size, "pt", **question)
     assert np.array_equal(result.x, local.x)
     assert not set(processes) <= set(client.run(os.getpid).values())

@@ -1,18 +1,32 @@
 """``ptproof simulate``: the JSON contract, exit status, one sentence for bad input."""
 
 import json
+from dataclasses import dataclass
 
 import pytest
-from click.testing import CliRunner
 
-from ptproof.commands.simulate import simulate
-
-
-def call(*arguments):
-    return CliRunner().invoke(simulate, list(arguments))
+from ptproof.commands.cli import main
 
 
-def test_one_trajectory_as_json():
+@dataclass(frozen=True)
+class Done:
+    exit_code: int
+    stdout: str
+    stderr: str
+
+
+@pytest.fixture
+def call(capsys):
+    def run(*arguments):
+        with pytest.raises(SystemExit) as ended:
+            main(["simulate", *arguments])
+        shown = capsys.readouterr()
+        return Done(int(ended.value.code or 0), shown.out, shown.err)
+
+    return run
+
+
+def test_one_trajectory_as_json(call):
     result = call("vanishing", "--json")
     assert result.exit_code == 0
     data = json.loads(result.stdout)
@@ -23,7 +37,7 @@ def test_one_trajectory_as_json():
     assert data["seconds"] > 0
 
 
-def test_an_ensemble_as_json_repeats_from_its_seed():
+def test_an_ensemble_as_json_repeats_from_its_seed(call):
     results = [json.loads(call("vanishing", "--ensemble", "20", "--seed", "4", "--json").stdout) for _ in range(2)]
     assert results[0]["N"] == 20
     assert results[0]["outcomes"] == {"reached T": 20}
@@ -31,15 +45,16 @@ def test_an_ensemble_as_json_repeats_from_its_seed():
     assert set(results[0]["distance"]) == {"median", "q95", "max"}
 
 
-def test_members_may_differ_in_what_one_says():
+def test_members_may_differ_in_what_one_says(call):
     data = json.loads(call("vanishing", "--ensemble", "6", "--vary", "k=1:9/5", "--vary", "x1=-1:1", "--json").stdout)
     assert data["outcomes"] == {"reached T": 6}
     assert call("vanishing", "--ensemble", "6", "--vary", "k=1").exit_code == 2
     assert call("vanishing", "--ensemble", "6", "--vary", "q=1:2").exit_code == 2
+    assert "low must not be above high" in call("vanishing", "--ensemble", "6", "--vary", "k=2:1").stderr
     assert call("vanishing", "--vary", "k=1:2").exit_code == 2
 
 
-def test_the_example_named_saturated_runs_the_saturated_seeker():
+def test_the_example_named_saturated_runs_the_saturated_seeker(call):
     assert json.loads(call("saturated", "--json").stdout)["seeker"] == "saturated"
 
 
@@ -62,7 +77,7 @@ x = [2, 2]
 """
 
 
-def test_a_run_that_escapes_has_status_one(tmp_path):
+def test_a_run_that_escapes_has_status_one(call, tmp_path):
     (tmp_path / "p.toml").write_text(ESCAPES)
     result = call(str(tmp_path / "p.toml"), "--seeker", "asymptotic", "--model", "average", "--json")
     assert result.exit_code == 1
@@ -79,9 +94,11 @@ def test_a_run_that_escapes_has_status_one(tmp_path):
         (("vanishing", "--plot", "x.gif"), "--plot"),
         (("vanishing", "--until", "inf"), "until"),
         (("vanishing", "--seeker", "best"), "best"),
+        (("vanishing", "--engine", "euler"), "casadi"),
+        (("vanishing", "--cluster", "tcp://127.0.0.1:1"), "--ensemble"),
     ],
 )
-def test_bad_input_is_one_sentence_and_status_two(arguments, message):
+def test_bad_input_is_one_sentence_and_status_two(call, arguments, message):
     result = call(*arguments)
     assert result.exit_code == 2
     assert message in result.stderr
@@ -89,8 +106,22 @@ def test_bad_input_is_one_sentence_and_status_two(arguments, message):
     assert "Traceback" not in result.stderr
 
 
+def test_an_error_names_the_file_that_asks_for_it(call, tmp_path):
+    (tmp_path / "p.toml").write_text(ESCAPES.replace('mu = "0.001"', 'mu = "0.001"\nnu_min = "1/2"'))
+    message = call(str(tmp_path / "p.toml"), "--until", "0").stderr
+    assert f"{tmp_path / 'p.toml'}: until: must be after the start" in message
+
+
+def test_a_limit_says_which_it_was_and_how_to_move_it(call, tmp_path):
+    (tmp_path / "p.toml").write_text(ESCAPES.replace("omega = 30", "omega = 100000000").replace("-10", "0"))
+    done = call(str(tmp_path / "p.toml"), "--time-limit", "0.5", "--engine", "casadi", "--json")
+    data = json.loads(done.stdout)
+    assert (done.exit_code, data["outcome"], data["limit"]) == (1, "step limit", "time_limit")
+    assert "time limit of 0.5 s was met at t = " in data["message"]
+
+
 @pytest.mark.parametrize("suffix", ["png", "svg"])
-def test_plots_are_the_same_bytes_each_time(tmp_path, suffix):
+def test_plots_are_the_same_bytes_each_time(call, tmp_path, suffix):
     files = [tmp_path / f"{i}.{suffix}" for i in range(2)]
     for file in files:
         assert call("vanishing", "--plot", str(file)).exit_code == 0
@@ -98,7 +129,7 @@ def test_plots_are_the_same_bytes_each_time(tmp_path, suffix):
     assert len(files[0].read_bytes()) > 5000
 
 
-def test_people_get_sentences():
+def test_people_get_sentences(call):
     text = call("vanishing").stdout
     assert "reached T at t = 1" in text
     assert "distance from the source 0.17875" in text

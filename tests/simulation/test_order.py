@@ -9,8 +9,8 @@ from ptproof.averaging.correction import first_correction
 from ptproof.errors import InputError
 from ptproof.problem import SEEKERS, TAU, example, parameters
 from ptproof.problem.models import generic_dithers
-from ptproof.simulation.order import fit_order, gap_order, hover_radius
-from ptproof.simulation.run import simulate
+from ptproof.simulation import gap_order, hover_radius, simulate
+from ptproof.simulation.order import fit_order
 from ptproof.system import DitherSystem, System, gradient
 
 DITHERS, AVERAGE = generic_dithers(SEEKERS["pt"].law)

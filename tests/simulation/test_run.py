@@ -2,6 +2,7 @@
 
 import itertools
 import math
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -12,16 +13,15 @@ from scipy.integrate import solve_ivp
 import ptproof
 from ptproof.errors import InputError
 from ptproof.problem import example
-from ptproof.simulation.engines import ENGINES
-from ptproof.simulation.plan import Outcome
-from ptproof.simulation.run import simulate
+from ptproof.simulation import Limit, Outcome, Question, Settings, ensemble, simulate
+from ptproof.simulation.engines import names
 from ptproof.system import System
 
 t, x, y = sp.symbols("t x y", real=True)
 k = sp.Symbol("k", positive=True)
 
 
-@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("engine", names())
 def test_the_papers_scalar_example_has_its_closed_form(engine):
     # eq:pt_example with T = 2, stopped before T: x0 exp(-k (t - t0)/nu).
     system = System(t, (x,), (-k * x / (1 - t / 2) ** 2,))
@@ -30,7 +30,7 @@ def test_the_papers_scalar_example_has_its_closed_form(engine):
     assert np.max(np.abs(run.x[0] - 3 * np.exp(-0.5 * run.t / (1 - run.t / 2)))) < 3e-9
 
 
-@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("engine", names())
 def test_a_rotation_keeps_its_radius(engine):
     run = simulate(System(t, (x, y), (-y, x)), initial={"x": 1, "y": 0}, span=(0, 20), engine=engine, rtol=1e-9)
     assert np.max(np.abs(run["x"] - np.cos(run.t))) < 1e-7
@@ -167,8 +167,17 @@ def test_too_much_work_is_a_limit():
     hard = replace(problem, tuning=replace(problem.tuning, omega=10**7))
     run = simulate(hard, engine="casadi", time_limit=1.0)
     assert run.outcome is Outcome.STEP_LIMIT
-    assert "time limit" in run.message
+    assert run.limit is Limit.TIME
+    assert re.search(r"time limit of 1 s was met at t = .*; a larger time_limit", run.message)
     assert run.seconds < 20
+
+
+@pytest.mark.parametrize("engine", names())
+def test_a_limit_on_steps_is_kept_and_named(engine):
+    run = simulate("vanishing", engine=engine, max_steps=100, samples=20)
+    assert (run.outcome, run.limit) == (Outcome.STEP_LIMIT, Limit.STEPS)
+    assert "step limit of 100 steps was met at t = " in run.message
+    assert run.t[-1] < 1
 
 
 def test_an_unclipped_gain_stops_before_T_and_says_so():
@@ -177,6 +186,7 @@ def test_an_unclipped_gain_stops_before_T_and_says_so():
     for frame in ("t", "tau"):
         run = simulate(ideal, frame=frame, nu_end=0.1)
         assert run.outcome is Outcome.STEP_LIMIT
+        assert run.limit is Limit.GAIN
         assert "infinite at T" in run.message
         assert run.t[-1] == pytest.approx(0.9, abs=1e-9)
 
@@ -214,17 +224,17 @@ def test_many_turns_do_not_cost_accuracy():
 
 
 def test_a_second_run_with_other_values_builds_nothing():
-    from ptproof.simulation.engines import cvodes
+    from ptproof.simulation.engines import casadi
 
     problem = example("nonvanishing")
     simulate(problem, samples=123)
-    built = cvodes.integrator.cache_info().misses
+    built = casadi.integrator.cache_info().misses
     other = replace(
         problem, tuning=replace(problem.tuning, k=3, T=1, omega=77), initial=replace(problem.initial, theta=1)
     )
     second = simulate(other, samples=123)
     simulate(problem, samples=123, parameters={"mu": 0.002}, initial={"x1": 0.5})
-    assert cvodes.integrator.cache_info().misses == built
+    assert casadi.integrator.cache_info().misses == built
     assert second.final_distance != simulate(problem, samples=123).final_distance
 
 
@@ -243,10 +253,11 @@ BAD = {
     "unknown name": ({"target": "vanishing", "parameters": {"kk": 1}}, "'kk' is not one of"),
     "rtol": ({"target": "vanishing", "rtol": 0}, "rtol: expected a number between"),
     "until": ({"target": "vanishing", "until": 0}, "until: must be after"),
-    "ensemble": ({"target": "vanishing", "ensemble": 0}, "ensemble: expected a number"),
-    "seed": ({"target": "vanishing", "ensemble": 2, "seed": -1}, "seed: expected"),
-    "vary": ({"target": "vanishing", "ensemble": 2, "vary": {"w": (0, 1)}}, "vary: 'w'"),
-    "vary alone": ({"target": "vanishing", "vary": {"k": (1, 2)}}, "vary: needs ensemble"),
+    "ensemble": ({"target": "vanishing", "size": 0}, "size: an ensemble has from 1 to"),
+    "seed": ({"target": "vanishing", "size": 2, "seed": -1}, "seed: expected"),
+    "vary": ({"target": "vanishing", "size": 2, "vary": {"w": (0, 1)}}, "vary: 'w'"),
+    "vary upside down": ({"target": "vanishing", "size": 2, "vary": {"k": (2, 1)}}, "vary.k: low must not be above"),
+    "vary by text": ({"target": "vanishing", "size": 2, "vary": {"k": "12"}}, r"vary.k: expected \(low, high\) or 2"),
     "heyoka and a kink": ({"target": "saturated", "seeker": "saturated", "engine": "heyoka"}, "kink"),
 }  # fmt: skip
 
@@ -255,7 +266,21 @@ BAD = {
 def test_bad_input_is_named(case):
     arguments, message = BAD[case]
     with pytest.raises(InputError, match=message):
-        simulate(**arguments)
+        (ensemble if "size" in arguments else simulate)(**arguments)
+
+
+def test_a_question_is_a_value_that_options_can_change():
+    question = Question("vanishing", model="average", parameters={"k": "9/5"})
+    run = simulate(question, settings=Settings(samples=10), rtol="1e-9")
+    assert run.settings["rtol"] == 1e-9
+    assert np.array_equal(run.x, simulate("vanishing", model="average", samples=10, rtol=1e-9).x)
+    assert simulate(question, frame="tau").settings["frame"] == "tau"
+    assert ensemble(question, 3, seed=1).settings["model"] == "average"
+
+
+def test_an_option_that_there_is_none_of_is_named():
+    with pytest.raises(TypeError, match="'rtoll' is not an option of a simulation"):
+        simulate("vanishing", rtoll=1e-9)
 
 
 @pytest.mark.parametrize(

@@ -4,7 +4,8 @@ import pytest
 import sympy as sp
 
 from ptproof.errors import InputError
-from ptproof.simulation.translate import casadi_rules, heyoka_rules, to_function, translate
+from ptproof.simulation.engines.heyoka import converted
+from ptproof.simulation.translate import to_function, translate
 from ptproof.system import System
 
 t, x, y = sp.symbols("t x y", real=True)
@@ -43,7 +44,7 @@ def test_heyoka_takes_the_smooth_ones():
     assert len(smooth) > 15
     names = hy.make_vars("x", "y")
     table = {x: names[0], y: names[1], t: hy.expression(0.3), k: hy.expression(2.5)}
-    compiled = hy.cfunc(translate(smooth, table, heyoka_rules()), names)
+    compiled = hy.cfunc(converted(smooth, table), names)
     for value, expression in zip(compiled([-0.7, 1.9]), smooth, strict=True):
         assert value == pytest.approx(float(expression.subs({t: 0.3, x: -0.7, y: 1.9, k: 2.5}).evalf(20)), rel=1e-13)
 
@@ -54,8 +55,8 @@ def test_heyoka_takes_the_smooth_ones():
 def test_heyoka_refuses_kinks(expression):
     import heyoka as hy
 
-    with pytest.raises(InputError, match="smooth systems only"):
-        translate([expression], {x: hy.make_vars("x")}, heyoka_rules())
+    with pytest.raises(InputError, match="smooth systems of elementary functions only"):
+        converted([expression], {x: hy.make_vars("x")})
 
 
 @pytest.mark.parametrize(
@@ -71,4 +72,4 @@ def test_what_has_no_rule_is_named(expression, message):
     import casadi as ca
 
     with pytest.raises(InputError, match=message):
-        translate([expression], {x: ca.SX.sym("x")}, casadi_rules())
+        translate([expression], {x: ca.SX.sym("x")})

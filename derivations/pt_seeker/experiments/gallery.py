@@ -9,22 +9,11 @@ import numpy as np
 import sympy as sp
 
 from ptproof.problem import Problem, parameters
-from ptproof.simulation.figures import (
-    BLUE,
-    GREEN,
-    ORANGE,
-    RED,
-    against_time,
-    draw_field,
-    draw_order,
-    mark_time,
-    new_figure,
-    paths,
-)
-from ptproof.simulation.order import LADDER, GapOrder, gap_order, hover_radius
+from ptproof.simulation import GapOrder, Trajectory, gap_order, hover_radius, simulate
+from ptproof.simulation.drawing import BLUE, GREEN, ORANGE, RED, new_figure
+from ptproof.simulation.figures import against_time, draw_field, mark_time, paths
+from ptproof.simulation.order import LADDER
 from ptproof.simulation.plan import Array
-from ptproof.simulation.run import simulate
-from ptproof.simulation.trajectory import Trajectory
 
 _SATURATED_UNTIL = 4.0
 
@@ -49,14 +38,12 @@ def figures(problem: Problem, bounds: Mapping[str, tuple[Array, Array]] | None =
     """
     made = _saturated(problem) if problem.saturation is not None else _seekers(problem, bounds or {})
     made["phase-portrait"] = phase_portrait(problem)
-    made["order"] = draw_order(problem_order(problem)).figure
+    made["order"] = problem_order(problem).plot().figure
     return made
 
 
 def _run(problem: Problem, seeker: str = "pt", **options: Any) -> Trajectory:
-    result = simulate(problem, seeker, samples=3000, **options)
-    assert isinstance(result, Trajectory)
-    return result
+    return simulate(problem, seeker, samples=3000, **options)
 
 
 def _seekers(problem: Problem, bounds: Mapping[str, tuple[Array, Array]]) -> dict[str, Any]:
@@ -149,41 +136,3 @@ def problem_order(problem: Problem, omegas: tuple[float, ...] = LADDER) -> GapOr
         system, problem.averaged("pt", "tau", symbolic=True), initial=initial, start=start,
         end=start + 2 * float(problem.tuning.T), values=values, omega=parameters.omega, omegas=omegas, rtol=1e-8,
     )  # fmt: skip
-
-
-def block_diagram() -> Any:
-    """The closed loop as blocks (fig:unicycle_pt_controller), with the filter that makes it eq:closed_loop_system_t.
-
-    The paper draws s/(μs + 1) in t; the loop of the equations has that filter run in the dilated time.
-    """
-    figure, ax = new_figure(size=(7.2, 3.4))
-    ax.set(xlim=(0, 12), ylim=(0, 5.6))
-    ax.axis("off")
-    boxes = {
-        "K(t)": (1.7, 4.4, 1.0), "ẋ = f(t, x) + u₁ (cos θ, sin θ)\nθ̇ = u₂": (5.0, 3.9, 3.4), "F(x)": (8.2, 3.9, 1.1),
-        "s/(μs + 1)\nin τ": (10.6, 3.9, 1.6), "−k": (8.2, 1.0, 1.0), "+": (5.2, 1.0, 0.6), "K(t) ": (2.6, 1.0, 1.0),
-    }  # fmt: skip
-    for label, (x, y, width) in boxes.items():
-        style = {"boxstyle": "round,pad=0.02", "facecolor": "white", "edgecolor": BLUE}
-        height = 1.5 if "ẋ" in label else 1.0 if "\n" in label else 0.8
-        ax.add_patch(_box(x, y, width, height, style))
-        ax.text(x, y, label.strip(), ha="center", va="center", fontsize=9)
-    arrows = [
-        ([(0.3, 4.4), (1.2, 4.4)], "√ω", (0.5, 4.6)), ([(2.2, 4.4), (3.3, 4.4)], "u₁", (2.7, 4.6)),
-        ([(6.7, 3.9), (7.65, 3.9)], "x", (7.1, 4.1)), ([(8.75, 3.9), (9.8, 3.9)], "y", (9.2, 4.1)),
-        ([(10.6, 3.4), (10.6, 1.0), (8.7, 1.0)], "(y − z)/μ", (9.1, 1.2)), ([(7.7, 1.0), (5.5, 1.0)], "", (0, 0)),
-        ([(5.2, 0.1), (5.2, 0.6)], "ω", (5.35, 0.15)), ([(4.9, 1.0), (3.1, 1.0)], "", (0, 0)),
-        ([(2.1, 1.0), (1.5, 1.0), (1.5, 3.5), (3.3, 3.5)], "u₂", (2.4, 3.65)),
-    ]  # fmt: skip
-    for points, label, place in arrows:
-        xs, ys = zip(*points, strict=True)
-        ax.plot(xs[:-1], ys[:-1], color="black", lw=0.9)
-        ax.annotate("", points[-1], points[-2], arrowprops={"arrowstyle": "-|>", "color": "black", "lw": 0.9})
-        ax.text(*place, label, fontsize=9)
-    return figure
-
-
-def _box(x: float, y: float, width: float, height: float, style: dict[str, Any]) -> Any:
-    from matplotlib.patches import FancyBboxPatch
-
-    return FancyBboxPatch((x - width / 2, y - height / 2), width, height, **style)

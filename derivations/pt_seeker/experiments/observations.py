@@ -15,11 +15,10 @@ from typing import Any
 import numpy as np
 
 from ptproof.problem import Problem, example
+from ptproof.simulation import Ensemble, Outcome, Trajectory, ensemble, hover_radius, simulate
 from ptproof.simulation.ensembles import headings
-from ptproof.simulation.order import hover_radius
 from ptproof.simulation.plan import Array
-from ptproof.simulation.run import simulate
-from ptproof.simulation.trajectory import Ensemble, Trajectory
+from ptproof.simulation.quantities import field_function
 
 HEADINGS = 72
 _RTOL = 1e-8
@@ -63,21 +62,6 @@ class Statement:
         }  # fmt: skip
 
 
-def statements(count: int = HEADINGS) -> tuple[Statement, ...]:
-    """All of them, over ``count`` headings; the saturated seekers, which need whole trajectories, over a third."""
-    return (
-        reaches_source("vanishing", count),
-        reaches_source("nonvanishing", count),
-        moves_away(count),
-        oscillates(max(4, count // 3)),
-        bounded_inputs("vanishing", max(4, count // 3)),
-        bounded_inputs("nonvanishing", max(4, count // 3)),
-        saturated_reaches(max(4, count // 3)),
-        three_times_longer(max(4, count // 3)),
-        acceleration_saturates(max(4, count // 3)),
-    )
-
-
 def reaches_source(name: str, count: int = HEADINGS) -> Statement:
     """The prescribed-time seeker is near the source, and the field near its peak, at T (fig:trajectories)."""
     problem, ends = example(name), _ensemble(name, "pt", count)
@@ -85,7 +69,7 @@ def reaches_source(name: str, count: int = HEADINGS) -> Statement:
     return Statement(
         f"{name}-reaches", "the seeker reaches a small neighbourhood of the source, and the peak, in time T",
         f"the distance at T is at most two hover radii, 2/sqrt(omega) = {near:.4g}, for every heading",
-        bool(np.all(ends.distances <= near)) and set(ends.counts) == {"reached T"},
+        bool(np.all(ends.distances <= near)) and set(ends.outcomes) == {Outcome.REACHED},
         _spread("distance", ends.distances) | _spread("field below peak", below) | {
             "hover radius": float(hover_radius(float(problem.tuning.omega))), "initial distance": _start(problem),
         },
@@ -212,19 +196,13 @@ def arrivals(seeker: str, count: int) -> Array:
 
 @lru_cache(maxsize=8)
 def _ensemble(name: str, seeker: str, count: int) -> Ensemble:
-    result = simulate(name, seeker, ensemble=count, vary={"theta": headings(count)}, rtol=_RTOL, engine="casadi")
-    assert isinstance(result, Ensemble)
-    return result
+    return ensemble(name, count, seeker, vary={"theta": headings(count)}, rtol=_RTOL, engine="casadi")
 
 
 @lru_cache(maxsize=16)
 def _runs(name: str, seeker: str, count: int, until: float | None) -> tuple[Trajectory, ...]:
-    runs = []
-    for heading in headings(count):
-        run = simulate(name, seeker, until=until, initial={"theta": heading}, samples=3000, rtol=1e-7)
-        assert isinstance(run, Trajectory)
-        runs.append(run)
-    return tuple(runs)
+    options: Any = {"until": until, "samples": 3000, "rtol": 1e-7}
+    return tuple(simulate(name, seeker, initial={"theta": heading}, **options) for heading in headings(count))
 
 
 def _near(problem: Problem) -> float:
@@ -237,8 +215,6 @@ def _start(problem: Problem) -> float:
 
 
 def _fields(problem: Problem, ends: Ensemble) -> Array:
-    from ptproof.simulation.quantities import field_function
-
     return field_function(problem.field)(ends.x[:2])
 
 

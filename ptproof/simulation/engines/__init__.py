@@ -1,41 +1,53 @@
-"""The engines, by name; each is imported when it is asked for."""
+"""The engines: one file each, whose name is the engine's, holding an ``ENGINE``; imported when it is asked for.
+
+A file added to this folder is an engine of ``simulate`` and of its command line; nothing else lists them.
+"""
 
 from __future__ import annotations
 
 import importlib
-import importlib.util
+import pkgutil
+from functools import cache
+from typing import TYPE_CHECKING
 
 from ptproof.errors import InputError
-from ptproof.simulation.plan import Engine
 
-ENGINES = ("casadi", "lsoda", "radau", "dop853", "heyoka")
+if TYPE_CHECKING:
+    from ptproof.simulation.plan import Batch, Engine, Plan, Work
+
+DEFAULT = "casadi"
 
 
+@cache
+def names() -> tuple[str, ...]:
+    """The engines there are, the default first; found without importing any."""
+    found = sorted(module.name for module in pkgutil.iter_modules(__path__))
+    return (DEFAULT, *(name for name in found if name != DEFAULT))
+
+
+@cache
 def engine_named(name: str) -> Engine:
-    """``casadi`` (CVODES, the default), ``lsoda``, ``radau`` and ``dop853`` (SciPy), or ``heyoka`` (an extra).
+    """The engine of that name.
 
     Raises
     ------
     InputError
-        For an unknown name, or for heyoka where it is not installed.
+        For an unknown name, or for an engine that is not installed.
     """
-    if name not in ENGINES:
-        raise InputError(f"engine: {name!r} is not one of {', '.join(ENGINES)}")
-    if name == "heyoka" and not has_heyoka():
-        raise InputError("engine: heyoka is not installed; install the extra 'fast', or use casadi")
-    if name == "casadi":
-        from ptproof.simulation.engines.cvodes import CVODES
-
-        return CVODES
-    if name == "heyoka":
-        from ptproof.simulation.engines.taylor import TAYLOR
-
-        return TAYLOR
-    from ptproof.simulation.engines.peers import SciPy
-
-    return SciPy(name)
+    if name not in names():
+        raise InputError(f"engine: {name!r} is not one of {', '.join(names())}")
+    engine: Engine = importlib.import_module(f"{__name__}.{name}").ENGINE
+    if engine.missing:
+        raise InputError(f"engine: {name} is not installed; install {engine.missing}, or use {DEFAULT}")
+    return engine
 
 
-def has_heyoka() -> bool:
-    """Whether the fast engine is installed."""
-    return importlib.util.find_spec("heyoka") is not None
+@cache
+def installed() -> tuple[str, ...]:
+    """The engines that can be used here."""
+    return tuple(name for name in names() if not importlib.import_module(f"{__name__}.{name}").ENGINE.missing)
+
+
+def fitting(plan: Plan, batch: Batch, work: Work) -> str:
+    """The first engine that wants the work, or the default."""
+    return next((name for name in installed() if engine_named(name).wants(plan, batch, work)), DEFAULT)

@@ -1,0 +1,323 @@
+"""heyoka's Taylor integrator: the fast engine, an extra, for systems whose kinks are known instants.
+
+On each smooth piece the choices in the right-hand side (Max, Min, Piecewise in the time alone) are made once, so
+that heyoka sees smooth expressions. What depends on the parameters alone is computed once a run: as part of the
+expressions, heyoka would carry its Taylor series, which is a number and zeros, through every product. Members run in
+SIMD batches of a fixed order; whatever a batch can't finish is run again on its own and gets its own outcome.
+"""
+
+from __future__ import annotations
+
+import copy
+import importlib.util
+import itertools
+import operator
+import time as clock
+from collections.abc import Callable, Iterable
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from functools import lru_cache, reduce
+from typing import Any
+
+import numpy as np
+import sympy as sp
+from sympy.core.relational import Relational
+
+from ptproof.errors import InputError
+from ptproof.simulation.plan import Array, Batch, Finals, Limit, Outcome, Plan, Run, Samples, Stop, Work
+from ptproof.simulation.smooth import constants_apart, picker
+from ptproof.simulation.translate import number
+from ptproof.system import System
+
+_STEPS_A_CALL = 20_000
+_BATCH_STEPS = 200_000
+# Measured: vectors of eight cost less a member than the width that heyoka recommends for the processor. Divides the
+# blocks of an ensemble, so that groups are the same however the members are shared out.
+WIDTH = 8
+# Sums may be reordered and fused; measured, errors stay the same and heyoka's checks for finite states stay in place.
+_BUILD = {"fast_math": True}
+# A turn takes the default engine a thousandth of a second or so; from here on compiling is worth it.
+_MANY_TURNS = 3000
+
+
+@dataclass(frozen=True)
+class Equations:
+    """A smooth system in heyoka's form.
+
+    Attributes
+    ----------
+    rates
+        Pairs (variable, rate).
+    constants
+        From the system's parameters (m × …) to heyoka's, which are those and what was computed from them.
+    count
+        How many heyoka has.
+    """
+
+    rates: list[tuple[Any, Any]]
+    constants: Callable[[Array], Array]
+    count: int
+
+
+@lru_cache(maxsize=64)
+def equations(system: System) -> Equations:
+    """The system for heyoka.
+
+    Raises
+    ------
+    InputError
+        For what heyoka's own converter from SymPy does not take.
+    """
+    import heyoka as hy
+
+    made = hy.make_vars(*(f"x{i}" for i in range(system.dimension)))
+    variables = made if isinstance(made, list) else [made]
+    parameters = system.parameters or ()
+    rhs, constants = constants_apart(system)
+    table: dict[Any, Any] = {system.time: hy.time, **dict(zip(system.state, variables, strict=True))}
+    table |= {symbol: hy.par[i] for i, symbol in enumerate((*parameters, *constants.values()))}
+    function = sp.lambdify([parameters], list(constants), "numpy", cse=True)
+
+    def evaluate(values: Array) -> Array:
+        with np.errstate(all="ignore"):
+            more = function(values)
+        rest = values.shape[1:]
+        return np.array([*values, *(np.broadcast_to(entry, rest) for entry in more)]).reshape(count, *rest)
+
+    rates, count = list(zip(variables, converted(rhs, table), strict=True)), len(parameters) + len(constants)
+    return Equations(rates, evaluate, count)
+
+
+def converted(expressions: Iterable[sp.Expr], table: dict[Any, Any]) -> list[Any]:
+    """The expressions by heyoka's own converter, which is told beforehand what it would refuse or get wrong.
+
+    It refuses numbers such as 1/3 and E. Its power rule divides by the base, so that x**3 would be NaN at 0: integer
+    powers become products.
+    """
+    import heyoka as hy
+
+    known, made = dict(table), []
+    for expression in expressions:
+        for node in sp.postorder_traversal(expression):
+            if node in known:
+                continue
+            if node.is_number:
+                known[node] = hy.expression(number(node))
+            elif node.is_Symbol:
+                raise InputError(f"the symbol {node} has no value; give it one in parameters")
+            elif node.is_Pow and node.exp.is_Integer:
+                power = _product(_by_heyoka(node.base, known), abs(int(node.exp)))
+                known[node] = power if node.exp > 0 else hy.expression(1.0) / power
+        made.append(_by_heyoka(expression, known))
+    return made
+
+
+def _by_heyoka(expression: sp.Expr, known: dict[Any, Any]) -> Any:
+    import heyoka as hy
+
+    try:
+        return hy.from_sympy(expression, known)
+    except TypeError as error:
+        raise InputError(
+            f"{error}: heyoka integrates smooth systems of elementary functions only; use the engine casadi"
+        ) from None
+
+
+def _product(base: Any, count: int) -> Any:
+    """``base`` to the power ``count``, by squaring."""
+    if count == 1:
+        return base
+    root = _product(base, count // 2)
+    return reduce(operator.mul, [root, root, *([base] if count % 2 else [])])
+
+
+@lru_cache(maxsize=64)
+def scalar(system: System, tolerance: float) -> Any:
+    """A compiled integrator for one trajectory."""
+    import heyoka as hy
+
+    made = equations(system)
+    return hy.taylor_adaptive(made.rates, [0.0] * system.dimension, pars=[0.0] * made.count, tol=tolerance, **_BUILD)
+
+
+@lru_cache(maxsize=256)
+def batched(system: System, tolerance: float, thread: int = 0) -> Any:
+    """A compiled integrator for as many trajectories as the processor's vectors hold; one for each thread."""
+    import heyoka as hy
+
+    if thread:
+        return copy.deepcopy(batched(system, tolerance))
+    made = equations(system)
+    return hy.taylor_adaptive_batch(
+        made.rates, np.zeros((system.dimension, WIDTH)), pars=np.zeros((made.count, WIDTH)), tol=tolerance,
+        force_avx512=True, **_BUILD,
+    )  # fmt: skip
+
+
+def _tolerance(plan: Plan) -> float:
+    # Relative to the largest state. From a short ladder, so that few integrators are compiled; tight ones cost little.
+    wanted = plan.settings.rtol / 10 * plan.tightening / 100
+    return next((rung for rung in (1e-5, 1e-7, 1e-9, 1e-11, 1e-13) if rung <= wanted), 2.2e-16)
+
+
+@dataclass
+class _Way:
+    """One run under way: what it has brought so far, and what is left of the limits on its work."""
+
+    plan: Plan
+    samples: Samples
+
+    def __post_init__(self) -> None:
+        self.deadline = clock.monotonic() + self.plan.settings.time_limit
+        self.steps = self.plan.settings.max_steps
+
+    def along(self, solver: Any, grid: Array) -> Stop | None:
+        """Integrate through ``grid``, whose first time is the solver's; why it stopped before, if it did."""
+        import heyoka as hy
+
+        while len(grid) > 1:
+            outcome, _, _, steps, _, states = solver.propagate_grid(grid, max_steps=min(_STEPS_A_CALL, self.steps))
+            self.steps -= steps
+            rows = states[1:].T
+            inside = self.plan.distance(rows) <= self.plan.radius
+            if not inside.all():
+                first = int(np.argmin(inside))
+                if not np.isfinite(rows[:, first]).all():
+                    return self._to_the_border(solver, grid, states, first)
+                self.samples.add(grid[1 : first + 2], rows[:, : first + 1])
+                return self.plan.escaped
+            if rows.size:
+                self.samples.add(grid[1 : 1 + rows.shape[1]], rows)
+            if outcome == hy.taylor_outcome.err_nf_state:
+                return self._to_the_border(solver, grid, states, rows.shape[1])
+            grid = np.concatenate([[solver.time], grid[len(states) :]])
+            if len(grid) > 1 and (limit := self._spent()):
+                self.samples.add(grid[:1], solver.state.reshape(-1, 1).copy())
+                end = float(self.samples.member.edges[-1, 0])
+                return self.plan.at_limit(limit, float(solver.time), end)
+        return None
+
+    def _spent(self) -> Limit | None:
+        if self.steps <= 0:
+            return Limit.STEPS
+        return Limit.TIME if clock.monotonic() > self.deadline else None
+
+    def _to_the_border(self, solver: Any, grid: Array, states: Array, last: int) -> Stop:
+        """Step from sample ``last`` on to where the state leaves the ball, or is a number for the last time."""
+        import heyoka as hy
+
+        if last and self.samples.time < grid[last]:
+            self.samples.add(grid[1 : last + 1], states[1 : last + 1].T)
+        solver.time, solver.state[:] = grid[last], states[last]
+        time, x, going = grid[last], states[last], hy.taylor_outcome.step_limit
+        while self.plan.within(x[:, None]) and going == hy.taylor_outcome.step_limit:
+            going = solver.propagate_until(float(grid[last + 1]), max_steps=1)[0]
+            if not np.isfinite(solver.state).all():
+                break
+            time, x = solver.time, solver.state.copy()
+        if time > self.samples.time:
+            self.samples.add(np.array([time]), x[:, None])
+        return self.plan.broken(self.samples.member.initial[:, 0], x, "the state is not finite any more")
+
+
+class _Taylor:
+    # About as long as a block of another engine; its groups are the same in blocks of either size.
+    block = 2048
+
+    @property
+    def missing(self) -> str:
+        return "" if importlib.util.find_spec("heyoka") else "the extra 'fast'"
+
+    def wants(self, plan: Plan, batch: Batch, work: Work) -> bool:
+        """Many members, or thousands of turns, of a system that it can follow with steps of some length."""
+        turns = work.turns or 0.0
+        if not work.many and turns < _MANY_TURNS:
+            return False
+        # An explicit method can't step over more than a few μ; an implicit one takes some hundred steps a turn.
+        if work.spans is not None and work.spans / 6 > 300 * max(turns, 10.0):
+            return False
+        lengths = np.diff(batch.edges, axis=0) > 0
+        return bool(np.all(lengths == lengths[:, :1])) and follows(plan.system, plan.conditions)
+
+    def trajectory(self, plan: Plan, member: Batch) -> Run:
+        """One run; its samples come from the Taylor series of the steps, in one call for each piece."""
+        values = member.parameters[:, 0]
+        way, pick, numbers = _Way(plan, Samples(member)), picker(plan.system, plan.conditions), tuple(values.tolist())
+        for grid in member.grids(plan.settings.samples):
+            system = pick(float(grid[0] + grid[-1]) / 2, numbers)
+            solver = scalar(system, _tolerance(plan))
+            solver.time, solver.state[:] = grid[0], way.samples.state
+            solver.pars[:] = equations(system).constants(values)
+            if stop := way.along(solver, grid):
+                return way.samples.run(stop)
+        return way.samples.run()
+
+    def finals(self, plan: Plan, batch: Batch, workers: int = 1) -> Finals:
+        """End states of many, in SIMD groups of a fixed order, spread over ``workers`` threads."""
+        groups = [np.arange(first, first + WIDTH) for first in range(0, batch.size, WIDTH)]
+        time, x = batch.edges[-1].copy(), np.full_like(batch.initial, np.nan)
+        pieces = [(row, system, equations(system).constants(batch.parameters)) for row, system in _pieces(plan, batch)]
+
+        def work(share: Iterable[Any], thread: int) -> list[int]:
+            solvers = [(row, values, batched(system, _tolerance(plan), thread)) for row, system, values in pieces]
+            return [i for group in share for i in _group(batch, solvers, group, x)]
+
+        if workers == 1 or len(groups) < 2 * workers:
+            unfinished = work(groups, 0)
+        else:
+            # Each thread has integrators of its own; heyoka lets other threads run while it integrates.
+            with ThreadPoolExecutor(workers) as pool:
+                # They take the next group from one list, so that none waits for another whose core is busy.
+                queue = iter(groups)
+                shares = [pool.submit(work, queue, thread) for thread in range(workers)]
+            unfinished = [i for share in shares for i in share.result()]
+        unfinished += np.flatnonzero(~(plan.distance(x) <= plan.radius)).tolist()
+        outcomes = [Outcome.REACHED] * batch.size
+        for i in sorted(set(unfinished)):
+            run = self.trajectory(plan, batch.member(i))
+            time[i], x[:, i], outcomes[i] = run.time[-1], run.x[:, -1], run.stop.outcome
+        return Finals(time, x, tuple(outcomes))
+
+
+def _group(batch: Batch, solvers: list[tuple[int, Array, Any]], group: Any, x: Array) -> list[int]:
+    """Integrate one group into ``x``; the members of a group that didn't get through are returned."""
+    import heyoka as hy
+
+    # The last group is filled up with copies of its last member.
+    index = np.minimum(group, batch.size - 1)
+    kept = index[: max(0, min(len(group), batch.size - int(group[0])))]
+    state = batch.initial[:, index]
+    for piece, values, solver in solvers:
+        solver.set_time(batch.edges[piece, index])
+        solver.state[:], solver.pars[:] = state, values[:, index]
+        solver.propagate_until(batch.edges[piece + 1, index].tolist(), max_steps=_BATCH_STEPS)
+        state = solver.state
+        if any(result[0] != hy.taylor_outcome.time_limit for result in solver.propagate_res):
+            return [int(i) for i in kept]
+    x[:, kept] = state[:, : len(kept)]
+    return []
+
+
+def _pieces(plan: Plan, batch: Batch) -> list[tuple[int, System]]:
+    """The smooth system of each piece that is not empty, with the piece's place among the edges."""
+    systems, pick, values = [], picker(plan.system, plan.conditions), tuple(batch.parameters[:, 0].tolist())
+    for row, (a, b) in enumerate(itertools.pairwise(batch.edges)):
+        if np.all(b == a):
+            continue
+        if not np.all(b > a):
+            raise InputError("heyoka: some members have a kink in time where others have none; use the engine casadi")
+        systems.append((row, pick(float((a[0] + b[0]) / 2), values)))
+    return systems
+
+
+@lru_cache(maxsize=64)
+def follows(system: System, conditions: tuple[Relational, ...]) -> bool:
+    """Whether heyoka can take ``system``: no kinks but at the instants at which ``conditions`` change."""
+    try:
+        equations(picker(system, conditions)(0.25, (0.5,) * len(system.parameters or ())))
+    except InputError:
+        return False
+    return True
+
+
+ENGINE = _Taylor()

@@ -1,0 +1,129 @@
+"""What is asked of a simulation, as a value, and the options by which it is asked."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, fields, replace
+from typing import Any, TypedDict
+
+from ptproof.errors import InputError
+from ptproof.problem import Problem, example
+from ptproof.simulation.numbers import as_float, by_name
+from ptproof.simulation.plan import Settings
+from ptproof.simulation.setup import Setup, from_problem, from_system
+from ptproof.system import System
+
+
+@dataclass(frozen=True)
+class Question:
+    """What is to be simulated.
+
+    Attributes
+    ----------
+    target
+        A :class:`Problem` (its closed loop to T), an example's name, or a :class:`System` (which needs ``initial``
+        and ``span``).
+    seeker, frame, coordinates
+        For a problem: as for :func:`ptproof.problem.closed_loop`.
+    model
+        For a problem: ``closed loop``, ``reduced model`` or ``average``.
+    initial, parameters
+        Values by name; for a problem they replace its own. A number given as text is exact.
+    span
+        (start, end) for a system.
+    until
+        For a problem: another end than t₀ + T, in t.
+    nu_end
+        For a gain that is never clipped: the ν at which the run stops, since no run reaches T.
+    """
+
+    target: Problem | System | str
+    seeker: str = "pt"
+    frame: str = "t"
+    coordinates: str = "full"
+    model: str = "closed loop"
+    initial: Any = None
+    parameters: Mapping[Any, Any] | None = None
+    span: tuple[Any, Any] | None = None
+    until: Any = None
+    nu_end: float | None = None
+
+    @property
+    def problem(self) -> Problem | None:
+        """The problem that is meant, if it is one."""
+        if isinstance(self.target, str):
+            return example(self.target)
+        return self.target if isinstance(self.target, Problem) else None
+
+    def setup(self) -> Setup:
+        """The system with its parameters, initial states and times by name.
+
+        Raises :class:`InputError` for what does not fit together.
+        """
+        if isinstance(self.target, System):
+            return from_system(self.target, self.initial, self.span, self.parameters)
+        problem = self.problem
+        if problem is None:
+            kind = type(self.target).__name__
+            raise InputError(f"simulate: expected a problem, a system or an example's name, got {kind}")
+        if self.span is not None:
+            raise InputError("span: a problem has its own; use until= for another end")
+        setup = from_problem(problem, self.seeker, self.frame, self.coordinates, self.model, self.until, self.nu_end)
+        return self._with_values(setup)
+
+    def _with_values(self, setup: Setup) -> Setup:
+        if self.initial is not None and not isinstance(self.initial, Mapping):
+            raise InputError("initial: give a problem's initial states by name, such as {'theta': 1}")
+        changes = by_name(self.initial or {}) | by_name(self.parameters or {})
+        if not changes:
+            return setup
+        for name in changes:
+            if name not in setup.free:
+                raise InputError(f"initial, parameters: {name!r} is not one of {', '.join(setup.free)}")
+        numbers = {name: as_float(value, name) for name, value in changes.items()}
+        return replace(setup, defaults=dict(setup.defaults) | numbers)
+
+
+class Options(TypedDict, total=False):
+    """What ``simulate`` and ``ensemble`` take by keyword: the fields of :class:`Question` and :class:`Settings`."""
+
+    coordinates: str
+    model: str
+    initial: Mapping[Any, Any] | Sequence[Any] | None
+    parameters: Mapping[Any, Any] | None
+    span: tuple[Any, Any] | None
+    until: Any
+    nu_end: float | None
+    settings: Settings
+    rtol: float | str
+    atol: float | str | None
+    engine: str | None
+    samples: int
+    escape_radius: float | None
+    max_steps: int
+    time_limit: float
+
+
+_ASKED = frozenset(entry.name for entry in fields(Question))
+_HOW = frozenset(entry.name for entry in fields(Settings))
+
+
+def asked(target: Question | Problem | System | str, options: Mapping[str, Any]) -> tuple[Question, Settings]:
+    """The question and the settings that a target and options make; options replace what is in values that are given.
+
+    Raises
+    ------
+    TypeError
+        For an option that there is none of.
+    """
+    for name in options:
+        if name not in _ASKED and name not in _HOW and name != "settings":
+            known = ", ".join(sorted((_ASKED | _HOW | {"settings"}) - {"target"}))
+            raise TypeError(f"{name!r} is not an option of a simulation (those are {known})")
+    what = {name: value for name, value in options.items() if name in _ASKED}
+    how = {name: value for name, value in options.items() if name in _HOW}
+    question = replace(target, **what) if isinstance(target, Question) else Question(target, **what)
+    settings = options.get("settings")
+    if settings is None:
+        return question, Settings(**how)
+    return question, replace(settings, **how) if how else settings

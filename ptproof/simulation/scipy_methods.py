@@ -1,0 +1,96 @@
+"""SciPy's integrators as peers: independent codes from the same expressions, on one thread."""
+
+from __future__ import annotations
+
+import math
+import time as clock
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+import sympy as sp
+
+from ptproof.errors import InputError
+from ptproof.simulation.plan import Batch, Finals, Limit, Plan, Run, Samples, Work, one_by_one
+from ptproof.system import System
+
+_EXTRA = {"sign": lambda value: math.copysign(1.0, value) if value else 0.0}
+
+
+@lru_cache(maxsize=64)
+def lambdified(system: System) -> Callable[..., Any]:
+    """The right-hand side as a Python function f(time, x, p) of floats."""
+    if system.undefined_functions:
+        raise InputError(f"{system.name}: has undefined functions; put expressions in for them before simulating")
+    parameters = system.parameters or ()
+    return sp.lambdify([system.time, system.state, parameters], list(system.rhs), modules=[_EXTRA, "math"], cse=True)
+
+
+class _Stopped(Exception):
+    def __init__(self, limit: Limit, time: float) -> None:
+        self.limit, self.time = limit, time
+
+
+@dataclass(frozen=True)
+class SciPy:
+    """``solve_ivp`` with one of its methods."""
+
+    method: str
+    block: int = 256
+    missing: str = ""
+
+    def wants(self, plan: Plan, batch: Batch, work: Work) -> bool:
+        return False
+
+    def trajectory(self, plan: Plan, member: Batch) -> Run:
+        """One run with samples; the right-hand side is called at most four times a step that the limit allows."""
+        from scipy.integrate import solve_ivp
+
+        settings = plan.settings
+        function, values = lambdified(plan.system), member.parameters[:, 0].tolist()
+        deadline, calls = clock.monotonic() + settings.time_limit, 0
+
+        def rhs(time: float, x: Any) -> Any:
+            nonlocal calls
+            calls += 1
+            if calls > 4 * settings.max_steps:
+                raise _Stopped(Limit.STEPS, time)
+            if calls % 256 == 0 and clock.monotonic() > deadline:
+                raise _Stopped(Limit.TIME, time)
+            try:
+                return function(time, x.tolist(), values)
+            except (OverflowError, ZeroDivisionError, ValueError):
+                return [math.nan] * len(x)
+
+        def border(_: float, x: Any) -> float:
+            return float(plan.radius - plan.distance(x))
+
+        border.terminal = True  # type: ignore[attr-defined]
+        samples, start = Samples(member), member.initial[:, 0]
+        tolerances = {
+            "rtol": max(settings.rtol / 10 * plan.tightening, 3e-14), "atol": max(settings.absolute / 10, 1e-18),
+        }  # fmt: skip
+        for grid in member.grids(plan.settings.samples):
+            span = (grid[0], grid[-1])
+            try:
+                solution = solve_ivp(
+                    rhs, span, samples.state, method=self.method, t_eval=grid[1:], events=border, **tolerances
+                )
+            except _Stopped as stopped:
+                return samples.run(plan.at_limit(stopped.limit, stopped.time, float(member.edges[-1, 0])))
+            except (ValueError, FloatingPointError) as error:
+                return samples.run(plan.broken(start, samples.state, str(error)))
+            if len(solution.t):
+                samples.add(solution.t, solution.y)
+            if solution.status == 1:
+                samples.add(solution.t_events[0][:1], solution.y_events[0][:1].T)
+                return samples.run(plan.escaped)
+            if solution.status != 0 or not np.all(np.isfinite(solution.y)):
+                return samples.run(plan.broken(start, samples.state, solution.message))
+        return samples.run()
+
+    def finals(self, plan: Plan, batch: Batch, workers: int = 1) -> Finals:
+        """End states of many, in a loop on one thread."""
+        return one_by_one(self, plan, batch)

@@ -1,0 +1,70 @@
+"""A system made ready for a method that needs smooth right-hand sides: choices in time made, constants apart."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import lru_cache
+from typing import Any
+
+import sympy as sp
+from sympy.core.relational import Relational
+
+from ptproof.errors import InputError
+from ptproof.proof.kinks import is_kink
+from ptproof.system import System
+
+
+@lru_cache(maxsize=64)
+def picker(system: System, conditions: tuple[Relational, ...]) -> Callable[[float, tuple[float, ...]], System]:
+    """From an instant and the parameters to the system with its choices made as they are then.
+
+    Parameters
+    ----------
+    conditions
+        Those that change at known instants only.
+
+    Raises
+    ------
+    InputError
+        For other kinks, in a state or at an unknown instant: a method with long steps would not notice them.
+    """
+    moving, occurring = {system.time, *system.state}, set().union(*(entry.atoms(Relational) for entry in system.rhs))
+    known = [condition for condition in conditions if condition in occurring]
+    truth = sp.lambdify([system.time, system.parameters or ()], known, modules="math")
+    made: dict[tuple[bool, ...], System] = {}
+
+    def pick(time: float, values: tuple[float, ...]) -> System:
+        key = tuple(truth(time, values))
+        if key not in made:
+            choices = dict(zip(known, map(sp.sympify, key), strict=True))
+            rhs = tuple(entry.xreplace(choices) for entry in system.rhs)
+            for node in (node for entry in rhs for node in sp.preorder_traversal(entry)):
+                if is_kink(node, moving):
+                    where = "in the state" if node.free_symbols & set(system.state) else "in time at an unknown instant"
+                    raise InputError(f"this method can't follow a kink {where}, {node.func}; use the engine casadi")
+            made[key] = System(system.time, system.state, rhs, system.parameters, name=system.name) if key else system
+        return made[key]
+
+    return pick
+
+
+def constants_apart(system: System) -> tuple[list[sp.Expr], dict[sp.Expr, sp.Symbol]]:
+    """The right-hand side with a symbol for each part that depends on the parameters alone, and what they stand for."""
+    constants: dict[sp.Expr, sp.Symbol] = {}
+    moving = {system.time, *system.state}
+    return [_without_constants(entry, moving, constants) for entry in system.rhs], constants
+
+
+def _without_constants(node: Any, moving: set[sp.Symbol], constants: dict[sp.Expr, sp.Symbol]) -> Any:
+    """``node`` with a symbol for each part without ``moving`` symbols that is not a number; fills ``constants``."""
+    if not node.free_symbols & moving:
+        if node.is_Symbol or node.is_number:
+            return node
+        return constants.setdefault(node, sp.Symbol(f"constant {len(constants)}", real=True))
+    if not node.args:
+        return node
+    args = list(node.args)
+    if isinstance(node, sp.Add | sp.Mul):
+        fixed = [entry for entry in args if not entry.free_symbols & moving]
+        args = [*([node.func(*fixed)] if fixed else []), *(entry for entry in args if entry.free_symbols & moving)]
+    return node.func(*(_without_constants(entry, moving, constants) for entry in args))
