@@ -13,7 +13,7 @@ import ptproof
 
 ROOMS = [
     "ptproof",
-    *(f"ptproof.{room}" for room in ("averaging", "certify", "gains", "problem", "simulation", "testing")),
+    *(f"ptproof.{room}" for room in ("averaging", "certify", "gains", "problem", "proof", "simulation", "testing")),
 ]
 
 
@@ -38,7 +38,7 @@ def test_a_function_and_the_room_that_it_stands_in_may_share_a_name() -> None:
 
 def test_import_costs_nothing() -> None:
     code = (
-        "import sys, ptproof, ptproof.simulation, ptproof.testing, ptproof.gains, ptproof.averaging\n"
+        "import sys, ptproof, ptproof.proof, ptproof.simulation, ptproof.testing, ptproof.gains, ptproof.averaging\n"
         "print(sorted({'sympy', 'casadi', 'z3', 'flint', 'matplotlib', 'numpy', 'pytest'} & set(sys.modules)))"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=60)

@@ -57,7 +57,7 @@ def _certified(problem: Problem) -> dict[str, tuple[np.ndarray, np.ndarray]]:
     import numpy as np
 
     from ptproof.gains.tight import tight_bound
-    from ptproof.proof.verdict import Verdict
+    from ptproof.proof import Verdict
 
     curve = tight_bound(problem)
     if curve.evidence.verdict is not Verdict.PROVED:

@@ -5,14 +5,25 @@ from __future__ import annotations
 import sympy as sp
 
 from ptproof.averaging import average
-from ptproof.proof.claim import Goal, cited, claim, definition
-from ptproof.proof.engines.exact import exact
-from ptproof.proof.engines.integrals import integrals
-from ptproof.proof.engines.limits import limits
-from ptproof.proof.engines.reals import reals
-from ptproof.proof.engines.witnesses import refute
-from ptproof.proof.statement import Prose, eq, every, ge, gt, le, lt
-from ptproof.proof.verdict import Evidence
+from ptproof.proof import (
+    Evidence,
+    Goal,
+    Prose,
+    cited,
+    claim,
+    definition,
+    eq,
+    every,
+    exact,
+    ge,
+    gt,
+    integrals,
+    le,
+    limits,
+    lt,
+    reals,
+    refute,
+)
 from ptproof.system import DitherSystem, System, lie_bracket
 from ptproof.transforms.time import contract, dilate
 

@@ -5,13 +5,7 @@ from __future__ import annotations
 import sympy as sp
 
 from ptproof.averaging import average
-from ptproof.proof.claim import Goal, claim
-from ptproof.proof.engines.exact import exact
-from ptproof.proof.engines.integrals import integrals
-from ptproof.proof.engines.reals import reals
-from ptproof.proof.engines.witnesses import refute
-from ptproof.proof.statement import eq, every, ge, gt, le, lt
-from ptproof.proof.verdict import Evidence
+from ptproof.proof import Evidence, Goal, claim, eq, every, exact, ge, gt, integrals, le, lt, reals, refute
 from ptproof.system import DitherSystem, lie_bracket
 
 from .notation import T, nu, omega, t, t0, tau, x1, x2

@@ -4,12 +4,7 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ptproof.proof.claim import Goal, claim, definition
-from ptproof.proof.engines.quantified import specialise
-from ptproof.proof.engines.reals import reals
-from ptproof.proof.lemmas import power_positive
-from ptproof.proof.statement import eq, every, gt, le, lt
-from ptproof.proof.verdict import Evidence
+from ptproof.proof import Evidence, Goal, claim, definition, eq, every, gt, le, lt, power_positive, reals, specialise
 
 from .notation import E11, E12, E21, E22, E, F, F_source, R, a1, a2, b1, b2, f, kappa, rate_of, t, theta
 

@@ -5,10 +5,7 @@ from __future__ import annotations
 import sympy as sp
 
 from ptproof.problem.drift import gradient_drift
-from ptproof.proof.claim import Goal, claim
-from ptproof.proof.engines.reals import reals
-from ptproof.proof.statement import eq, le, lt
-from ptproof.proof.verdict import Evidence
+from ptproof.proof import Evidence, Goal, claim, eq, le, lt, reals
 
 from .chain import gradient_F
 from .notation import E, F, F_source, R, a2, kappa, position

@@ -4,10 +4,7 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ptproof.proof.claim import Goal, claim, definition
-from ptproof.proof.engines.exact import exact
-from ptproof.proof.statement import eq, every
-from ptproof.proof.verdict import Evidence
+from ptproof.proof import Evidence, Goal, claim, definition, eq, every, exact
 from ptproof.system import System
 from ptproof.transforms.time import contract, dilate
 

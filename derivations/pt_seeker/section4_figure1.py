@@ -4,12 +4,7 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ptproof.proof.claim import Goal, claim
-from ptproof.proof.engines.exact import exact
-from ptproof.proof.engines.limits import limits
-from ptproof.proof.engines.witnesses import refute
-from ptproof.proof.statement import Relation, eq
-from ptproof.proof.verdict import Evidence
+from ptproof.proof import Evidence, Goal, Relation, claim, eq, exact, limits, refute
 from ptproof.system import System
 
 from .chain import closed_loop_t

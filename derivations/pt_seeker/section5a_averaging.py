@@ -5,16 +5,27 @@ from __future__ import annotations
 import sympy as sp
 
 from ptproof.averaging import average
-from ptproof.proof.claim import Goal, cited, claim, definition
-from ptproof.proof.engines.exact import exact
-from ptproof.proof.engines.existence import defeats_every_choice
-from ptproof.proof.engines.integrals import integrals
-from ptproof.proof.engines.limits import limits
-from ptproof.proof.engines.reals import reals
-from ptproof.proof.engines.smoothness import smooth
-from ptproof.proof.engines.witnesses import refute
-from ptproof.proof.statement import Exists, Prose, Smooth, eq, every, ge, le
-from ptproof.proof.verdict import Evidence
+from ptproof.proof import (
+    Evidence,
+    Exists,
+    Goal,
+    Prose,
+    Smooth,
+    cited,
+    claim,
+    defeats_every_choice,
+    definition,
+    eq,
+    every,
+    exact,
+    ge,
+    integrals,
+    le,
+    limits,
+    reals,
+    refute,
+    smooth,
+)
 from ptproof.system import lie_bracket
 from ptproof.transforms.states import solve_state
 

@@ -5,11 +5,7 @@ from __future__ import annotations
 import sympy as sp
 
 from ptproof.problem.drift import gradient_drift
-from ptproof.proof.claim import Goal, claim
-from ptproof.proof.engines.reals import reals
-from ptproof.proof.engines.smoothness import smooth
-from ptproof.proof.statement import Smooth, every, ge, le
-from ptproof.proof.verdict import Evidence
+from ptproof.proof import Evidence, Goal, Smooth, claim, every, ge, le, reals, smooth
 
 from .notation import E, F, T, f, position, t0, tau
 from .section5a_averaging import drift_brace, f_tau, stretch

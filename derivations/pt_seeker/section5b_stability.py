@@ -4,16 +4,30 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ptproof.proof.claim import Goal, cited, claim, definition
-from ptproof.proof.engines.comparison import comparison
-from ptproof.proof.engines.exact import exact
-from ptproof.proof.engines.integrals import integrals
-from ptproof.proof.engines.limits import limits
-from ptproof.proof.engines.quantified import specialise
-from ptproof.proof.engines.reals import reals
-from ptproof.proof.lemmas import exp_monotone, power_monotone, power_positive
-from ptproof.proof.statement import ForAll, Prose, eq, every, ge, gt, le, lt
-from ptproof.proof.verdict import Evidence
+from ptproof.proof import (
+    Evidence,
+    ForAll,
+    Goal,
+    Prose,
+    cited,
+    claim,
+    comparison,
+    definition,
+    eq,
+    every,
+    exact,
+    exp_monotone,
+    ge,
+    gt,
+    integrals,
+    le,
+    limits,
+    lt,
+    power_monotone,
+    power_positive,
+    reals,
+    specialise,
+)
 
 from . import chain
 from .notation import (

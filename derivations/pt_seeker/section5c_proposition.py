@@ -4,13 +4,24 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ptproof.proof.claim import Goal, cited, claim
-from ptproof.proof.engines.exact import exact
-from ptproof.proof.engines.reals import reals
-from ptproof.proof.engines.witnesses import refute
-from ptproof.proof.lemmas import power_monotone
-from ptproof.proof.statement import ForAll, Prose, eq, every, ge, gt, le, lt
-from ptproof.proof.verdict import Evidence
+from ptproof.proof import (
+    Evidence,
+    ForAll,
+    Goal,
+    Prose,
+    cited,
+    claim,
+    eq,
+    every,
+    exact,
+    ge,
+    gt,
+    le,
+    lt,
+    power_monotone,
+    reals,
+    refute,
+)
 
 from . import chain
 from .notation import (

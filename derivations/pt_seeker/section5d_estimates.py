@@ -8,15 +8,32 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ptproof.proof.claim import Claim, Goal, claim
-from ptproof.proof.engines.comparison import comparison
-from ptproof.proof.engines.limits import limits
-from ptproof.proof.engines.quantified import instances, specialise
-from ptproof.proof.engines.reals import reals
-from ptproof.proof.engines.squeeze import squeezed
-from ptproof.proof.lemmas import power_monotone, power_positive, power_strict, superadditive
-from ptproof.proof.statement import Assumption, ForAll, Implication, Relation, eq, every, ge, gt, le, lt
-from ptproof.proof.verdict import Evidence
+from ptproof.proof import (
+    Assumption,
+    Claim,
+    Evidence,
+    ForAll,
+    Goal,
+    Implication,
+    Relation,
+    claim,
+    comparison,
+    eq,
+    every,
+    ge,
+    gt,
+    instances,
+    le,
+    limits,
+    lt,
+    power_monotone,
+    power_positive,
+    power_strict,
+    reals,
+    specialise,
+    squeezed,
+    superadditive,
+)
 
 from . import chain
 from .notation import T, a1, a2, c, d, h2, k, kappa, nu, t, t0, tau

@@ -5,15 +5,24 @@ from __future__ import annotations
 import sympy as sp
 
 from ptproof.averaging import average, split_dithers
-from ptproof.proof.claim import Goal, claim
-from ptproof.proof.engines.comparison import comparison
-from ptproof.proof.engines.exact import exact
-from ptproof.proof.engines.limits import limits
-from ptproof.proof.engines.quantified import specialise
-from ptproof.proof.engines.reals import reals
-from ptproof.proof.lemmas import exp_monotone
-from ptproof.proof.statement import ForAll, eq, every, ge, gt, le, lt
-from ptproof.proof.verdict import Evidence
+from ptproof.proof import (
+    Evidence,
+    ForAll,
+    Goal,
+    claim,
+    comparison,
+    eq,
+    every,
+    exact,
+    exp_monotone,
+    ge,
+    gt,
+    le,
+    limits,
+    lt,
+    reals,
+    specialise,
+)
 from ptproof.transforms.reduction import split
 from ptproof.transforms.states import change_variable, solve_state
 

@@ -7,16 +7,29 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ptproof.proof.claim import Goal, claim
-from ptproof.proof.engines.comparison import comparison
-from ptproof.proof.engines.exact import exact
-from ptproof.proof.engines.existence import exists_by
-from ptproof.proof.engines.limits import limits
-from ptproof.proof.engines.quantified import specialise
-from ptproof.proof.engines.reals import reals
-from ptproof.proof.lemmas import power_monotone, power_of_root, power_positive
-from ptproof.proof.statement import Exists, ForAll, Relation, eq, every, ge, gt, le, lt
-from ptproof.proof.verdict import Evidence
+from ptproof.proof import (
+    Evidence,
+    Exists,
+    ForAll,
+    Goal,
+    Relation,
+    claim,
+    comparison,
+    eq,
+    every,
+    exact,
+    exists_by,
+    ge,
+    gt,
+    le,
+    limits,
+    lt,
+    power_monotone,
+    power_of_root,
+    power_positive,
+    reals,
+    specialise,
+)
 
 from .notation import V0, E_norm, G, T, V, c, f_norm, k, kappa, q, t0, tau
 from .section5a_averaging import stretch

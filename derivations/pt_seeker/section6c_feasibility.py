@@ -4,13 +4,7 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ptproof.proof.claim import Claim, Goal, claim
-from ptproof.proof.engines.limits import limits
-from ptproof.proof.engines.quantified import specialise
-from ptproof.proof.engines.reals import reals
-from ptproof.proof.lemmas import power_positive
-from ptproof.proof.statement import eq, every, ge, le, lt
-from ptproof.proof.verdict import Evidence
+from ptproof.proof import Claim, Evidence, Goal, claim, eq, every, ge, le, limits, lt, power_positive, reals, specialise
 
 from .notation import G, T, V, a1, a2, c, d, f_norm, h1, h2, k, kappa, nu, omega, q, t, t0, tau
 from .section5d_estimates import Z, beta, bounds_at, distance, falls, gamma, input_gain, kappa_1, kappa_2, m, s, start

@@ -5,12 +5,7 @@ from __future__ import annotations
 import sympy as sp
 
 from ptproof.problem.seekers import feedback, prescribed_time_gain
-from ptproof.proof.claim import Goal, claim
-from ptproof.proof.engines.enclosures import enclosures
-from ptproof.proof.engines.limits import limits
-from ptproof.proof.engines.reals import reals
-from ptproof.proof.statement import eq, every, ge, gt, le, lt
-from ptproof.proof.verdict import Evidence
+from ptproof.proof import Evidence, Goal, claim, enclosures, eq, every, ge, gt, le, limits, lt, reals
 
 from .chain import clock
 from .notation import T, k, mu, nu, omega, t, t0, z

@@ -5,17 +5,29 @@ from __future__ import annotations
 import sympy as sp
 
 from ptproof.problem.drift import gradient_drift
-from ptproof.proof.claim import Goal, claim
-from ptproof.proof.engines.enclosures import enclosures
-from ptproof.proof.engines.exact import exact
-from ptproof.proof.engines.existence import exists_by
-from ptproof.proof.engines.quantified import specialise
-from ptproof.proof.engines.reals import reals
-from ptproof.proof.engines.smoothness import smooth
-from ptproof.proof.engines.witnesses import refute
-from ptproof.proof.lemmas import cosine_parabola, sine_square
-from ptproof.proof.statement import Exists, Relation, Smooth, eq, every, ge, gt, le, lt
-from ptproof.proof.verdict import Evidence
+from ptproof.proof import (
+    Evidence,
+    Exists,
+    Goal,
+    Relation,
+    Smooth,
+    claim,
+    cosine_parabola,
+    enclosures,
+    eq,
+    every,
+    exact,
+    exists_by,
+    ge,
+    gt,
+    le,
+    lt,
+    reals,
+    refute,
+    sine_square,
+    smooth,
+    specialise,
+)
 from ptproof.system import gradient, jacobian
 
 from .notation import E_norm, G, R, V, a1, a2, b1, b2, c, position, x1, x2

@@ -5,16 +5,32 @@ from __future__ import annotations
 import sympy as sp
 
 from ptproof.problem.drift import bounded_drift
-from ptproof.proof.claim import Goal, claim
-from ptproof.proof.engines.enclosures import enclosures
-from ptproof.proof.engines.exact import exact
-from ptproof.proof.engines.existence import defeats_every_choice
-from ptproof.proof.engines.quantified import specialise
-from ptproof.proof.engines.reals import reals
-from ptproof.proof.engines.smoothness import smooth
-from ptproof.proof.lemmas import cosine_parabola, cosine_quartic, norm_below, power_monotone, sine_cubic, sine_square
-from ptproof.proof.statement import Exists, Relation, Smooth, eq, every, ge, gt, le, lt
-from ptproof.proof.verdict import Evidence
+from ptproof.proof import (
+    Evidence,
+    Exists,
+    Goal,
+    Relation,
+    Smooth,
+    claim,
+    cosine_parabola,
+    cosine_quartic,
+    defeats_every_choice,
+    enclosures,
+    eq,
+    every,
+    exact,
+    ge,
+    gt,
+    le,
+    lt,
+    norm_below,
+    power_monotone,
+    reals,
+    sine_cubic,
+    sine_square,
+    smooth,
+    specialise,
+)
 from ptproof.system import gradient
 
 from .notation import a1, kappa, position, t, x1, x2

@@ -5,14 +5,24 @@ from __future__ import annotations
 import sympy as sp
 
 from ptproof.problem.seekers import feedback, prescribed_time_gain, saturated_seeker
-from ptproof.proof.claim import Goal, claim
-from ptproof.proof.engines.exact import exact
-from ptproof.proof.engines.existence import exists_by
-from ptproof.proof.engines.reals import reals
-from ptproof.proof.engines.smoothness import smooth
-from ptproof.proof.engines.witnesses import refute
-from ptproof.proof.statement import Exists, Smooth, eq, every, ge, gt, le, lt
-from ptproof.proof.verdict import Evidence
+from ptproof.proof import (
+    Evidence,
+    Exists,
+    Goal,
+    Smooth,
+    claim,
+    eq,
+    every,
+    exact,
+    exists_by,
+    ge,
+    gt,
+    le,
+    lt,
+    reals,
+    refute,
+    smooth,
+)
 from ptproof.system import gradient
 
 from .chain import clock, letters

@@ -4,10 +4,7 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ptproof.proof.claim import Goal, claim
-from ptproof.proof.engines.exact import exact
-from ptproof.proof.statement import eq
-from ptproof.proof.verdict import Evidence
+from ptproof.proof import Evidence, Goal, claim, eq, exact
 
 from .notation import epsilon
 from .section7c_saturated import chosen

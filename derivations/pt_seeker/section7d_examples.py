@@ -5,10 +5,7 @@ from __future__ import annotations
 import sympy as sp
 
 from ptproof.problem import Problem, example
-from ptproof.proof.claim import Goal, claim
-from ptproof.proof.engines.exact import exact
-from ptproof.proof.statement import Relation, eq, every
-from ptproof.proof.verdict import Evidence
+from ptproof.proof import Evidence, Goal, Relation, claim, eq, every, exact
 
 from . import section7a_vanishing, section7b_nonvanishing, section7c_saturated
 from .notation import t, x1, x2

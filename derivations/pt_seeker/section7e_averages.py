@@ -6,10 +6,7 @@ from typing import Any
 
 import sympy as sp
 
-from ptproof.proof.claim import Goal, claim
-from ptproof.proof.engines.reals import reals
-from ptproof.proof.statement import ge, gt, lt
-from ptproof.proof.verdict import Evidence
+from ptproof.proof import Evidence, Goal, claim, ge, gt, lt, reals
 from ptproof.system import System
 
 from .chain import averaged_t

@@ -10,9 +10,7 @@ from __future__ import annotations
 import time
 from typing import TYPE_CHECKING
 
-from ptproof.proof.claim import Claim, Goal, claim, engine
-from ptproof.proof.statement import Prose
-from ptproof.proof.verdict import Evidence, Verdict
+from ptproof.proof import Claim, Evidence, Goal, Prose, Verdict, claim, engine
 
 if TYPE_CHECKING:
     from .experiments.observations import Statement

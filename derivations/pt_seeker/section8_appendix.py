@@ -4,13 +4,23 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ptproof.proof.claim import Goal, claim, definition
-from ptproof.proof.engines.exact import exact
-from ptproof.proof.engines.existence import exists_by
-from ptproof.proof.engines.limits import limits
-from ptproof.proof.engines.reals import reals
-from ptproof.proof.statement import Exists, Prose, eq, every, ge, le, lt
-from ptproof.proof.verdict import Evidence
+from ptproof.proof import (
+    Evidence,
+    Exists,
+    Goal,
+    Prose,
+    claim,
+    definition,
+    eq,
+    every,
+    exact,
+    exists_by,
+    ge,
+    le,
+    limits,
+    lt,
+    reals,
+)
 
 from .chain import clock
 from .notation import T, mu, t, t0, tau

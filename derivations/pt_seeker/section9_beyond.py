@@ -9,15 +9,25 @@ from __future__ import annotations
 import sympy as sp
 
 from ptproof.problem.drift import gradient_drift
-from ptproof.proof.claim import Goal, cited, claim
-from ptproof.proof.engines.exact import exact
-from ptproof.proof.engines.existence import exists_by
-from ptproof.proof.engines.quantified import specialise
-from ptproof.proof.engines.reals import reals
-from ptproof.proof.engines.witnesses import refute
-from ptproof.proof.lemmas import power_positive
-from ptproof.proof.statement import Exists, Prose, eq, ge, gt, le, lt
-from ptproof.proof.verdict import Evidence
+from ptproof.proof import (
+    Evidence,
+    Exists,
+    Goal,
+    Prose,
+    cited,
+    claim,
+    eq,
+    exact,
+    exists_by,
+    ge,
+    gt,
+    le,
+    lt,
+    power_positive,
+    reals,
+    refute,
+    specialise,
+)
 from ptproof.system import System, gradient
 
 from .notation import E11, E12, E21, E22, E, E_norm, F, F_source, G, T, V, b1, c, d, k, position, q, t

@@ -38,7 +38,7 @@ def report(paths: tuple[str, ...], out: str, jobs: int | None, timeout: float, n
     place = check_place(out)
     derivation = load(paths)
     with claim_progress(len(derivation.claims)) as progress:
-        verification = run(derivation, jobs=jobs, timeout=timeout, progress=progress)
+        verification = run(derivation, workers=jobs, timeout=timeout, progress=progress)
     figures, tables, notes = ((), (), ()) if no_figures else _drawn(derivation)
     content = compose(
         verification, derivation, title=title_of(derivation), notation=notation_of(derivation),

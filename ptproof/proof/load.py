@@ -6,8 +6,8 @@ import hashlib
 import importlib.machinery
 import importlib.util
 import sys
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 from types import ModuleType
 
@@ -15,9 +15,15 @@ from ptproof.errors import InputError
 from ptproof.proof.claim import Claim, Definition
 
 
+class NoClaims(InputError):
+    """The files hold no claim."""
+
+
 @dataclass(frozen=True)
 class Derivation:
     """The claims and definitions of one or more folders, sections in the order of their files.
+
+    ``homes`` says for each claim in which file it stands.
 
     Raises
     ------
@@ -29,6 +35,7 @@ class Derivation:
     definitions: tuple[Definition, ...]
     paths: tuple[str, ...]
     packages: tuple[ModuleType, ...] = ()
+    homes: Mapping[str, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         seen: dict[str, str] = {}
@@ -42,18 +49,28 @@ class Derivation:
         """The claims whose id, title, section or labels contain ``text``, and all that they use."""
         if not text:
             return self.claims
-        wanted: set[str] = set()
-
-        def take(item: Claim) -> None:
-            if item.id not in wanted:
-                wanted.add(item.id)
-                for used in item.uses:
-                    take(used)
-
-        for item in self.claims:
-            if any(text.lower() in word.lower() for word in (item.id, item.title, item.section, *item.labels)):
-                take(item)
+        chosen = [
+            item for item in self.claims
+            if any(text.lower() in word.lower() for word in (item.id, item.title, item.section, *item.labels))
+        ]  # fmt: skip
+        wanted = {item.id for item in with_ancestors(chosen)}
         return tuple(item for item in self.claims if item.id in wanted)
+
+
+def with_ancestors(claims: Iterable[Claim]) -> tuple[Claim, ...]:
+    """The claims and all that they use, what is used first, each once; two with one id are an error."""
+    found: dict[str, Claim] = {}
+
+    def take(item: Claim) -> None:
+        if item.id not in found:
+            for used in item.uses:
+                take(used)
+        if found.setdefault(item.id, item) is not item:
+            raise InputError(f"the id {item.id!r} stands twice: {found[item.id].title!r} and {item.title!r}")
+
+    for item in claims:
+        take(item)
+    return tuple(found.values())
 
 
 def shipped() -> Path:
@@ -74,7 +91,8 @@ def load(paths: Sequence[str | Path] = ()) -> Derivation:
     Raises
     ------
     InputError
-        If a path does not exist, holds no claim, or a module cannot be imported: with file, line and reason.
+        If a path does not exist, holds no claim (:class:`NoClaims`), or a module cannot be imported: with file,
+        line and reason.
     """
     chosen = [Path(path) for path in paths] or [shipped()]
     modules: list[ModuleType] = []
@@ -83,17 +101,18 @@ def load(paths: Sequence[str | Path] = ()) -> Derivation:
             raise InputError(f"{path}: no such file or folder")
         modules += list(_modules(path.resolve()))
     found: dict[str, Claim | Definition] = {}
+    homes: dict[str, str] = {}
     # A module's own items first: what it imports from another section keeps the place that it has there.
     for own in (True, False):
         for module in modules:
-            for value in vars(module).values():
-                for item in value if isinstance(value, list | tuple) else (value,):
-                    if isinstance(item, Claim | Definition) and (item.section == _section(module)) is own:
-                        _add(found, item, module)
+            for item in _items(module):
+                if (item.section == getattr(module, "SECTION", "")) is own:
+                    _add(found, item, module)
+                    homes.setdefault(item.id, str(module.__file__))
     claims = [item for item in found.values() if isinstance(item, Claim)]
     if not claims:
-        raise InputError(f"{', '.join(map(str, chosen))}: no claims found")
-    missing = {used.id: used for item in claims for used in _ancestors(item) if used.id not in found}
+        raise NoClaims(f"{', '.join(map(str, chosen))}: no claims found")
+    missing = {used.id: used for used in with_ancestors(claims) if used.id not in found}
     definitions = (item for item in found.values() if isinstance(item, Definition))
     packages = dict.fromkeys(module.__name__.partition(".")[0] for module in modules)
     return Derivation(
@@ -101,23 +120,36 @@ def load(paths: Sequence[str | Path] = ()) -> Derivation:
         tuple(definitions),
         tuple(map(str, chosen)),
         tuple(sys.modules[p] for p in packages),
+        homes,
     )
 
 
-def _section(module: ModuleType) -> str:
-    return str(getattr(module, "SECTION", ""))
+def homes_of(claims: Iterable[Claim]) -> dict[str, str]:
+    """For each claim that stands in a module with a file, that file."""
+    wanted = {id(item) for item in claims}
+    modules = [module for module in list(sys.modules.values()) if isinstance(module, ModuleType)]
+    files = {module: getattr(module, "__file__", None) for module in modules if module.__name__ != "__main__"}
+    return {item.id: file for module, file in files.items() if file for item in _items(module) if id(item) in wanted}
+
+
+def claims_in(files: Iterable[str]) -> dict[str, Claim]:
+    """The claims that stand in these files, or are used there, by their ids; other files of their folders are left."""
+    modules = [_import(f"{_package(file.parent)}.{file.stem}", file) for file in map(Path, files)]
+    own = (item for module in modules for item in _items(module) if isinstance(item, Claim))
+    return {item.id: item for item in with_ancestors(own)}
+
+
+def _items(module: ModuleType) -> Iterator[Claim | Definition]:
+    for value in list(vars(module).values()):
+        for item in value if isinstance(value, list | tuple) else (value,):
+            if isinstance(item, Claim | Definition):
+                yield item
 
 
 def _add(found: dict[str, Claim | Definition], item: Claim | Definition, module: ModuleType) -> None:
     """Keep an item once, however many modules import it; another one under the same id is an error."""
     if (first := found.setdefault(item.id, item)) is not item:
         raise InputError(f"{module.__file__}: the id {item.id!r} stands twice: {first.title!r} and {item.title!r}")
-
-
-def _ancestors(item: Claim) -> Iterable[Claim]:
-    for used in item.uses:
-        yield used
-        yield from _ancestors(used)
 
 
 def _modules(path: Path) -> Iterable[ModuleType]:

@@ -3,20 +3,21 @@
 from __future__ import annotations
 
 import os
+import threading
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 from ptproof.errors import InputError
 from ptproof.proof.claim import Claim, Goal, Result
-from ptproof.proof.load import Derivation, load
+from ptproof.proof.load import Derivation, claims_in, homes_of, with_ancestors
 from ptproof.proof.settling import with_witness
 from ptproof.proof.verdict import Evidence, Verdict
-from ptproof.reading.limits import Answered, Unanswered, Why, Workers
+from ptproof.reading.limits import Answered, OutOfTime, Unanswered, Why, Workers, within
 
 SECONDS_PER_CLAIM = 60.0
+Progress: TypeAlias = Callable[[Claim, Evidence], None]
 
 
 @dataclass(frozen=True)
@@ -113,29 +114,20 @@ def conclude(claims: Sequence[Claim], evidence: dict[str, Evidence]) -> tuple[Re
     return tuple(result_of(claim) for claim in claims)
 
 
-_loaded: dict[str, Claim] = {}
-
-
-def _start_worker(paths: tuple[str, ...]) -> None:
-    _loaded.update({claim.id: claim for claim in load(paths).claims})
-
-
-def _run_by_id(id: str) -> Evidence:
-    return run_one(_loaded[id])
-
-
 def verify(
-    derivation: Derivation, *, jobs: int | None = None, timeout: float = SECONDS_PER_CLAIM, select: str = "",
-    progress: Callable[[Claim, Evidence], None] | None = None,
+    derivation: Derivation, *, workers: int | None = None, client: Any = None, timeout: float = SECONDS_PER_CLAIM,
+    select: str = "", progress: Progress | None = None,
 ) -> Verification:  # fmt: skip
-    """Run every proof in worker processes and draw the conclusions.
+    """Run every proof in worker processes, or on a cluster, and draw the conclusions.
 
     Parameters
     ----------
     derivation
         From :func:`ptproof.proof.load.load`.
-    jobs
+    workers
         How many processes (the number of processors where left out).
+    client
+        A ``distributed.Client``: the claims are decided by its workers, which have to see the same files.
     timeout
         The time limit of one claim. [s]
     select
@@ -146,37 +138,106 @@ def verify(
     Raises
     ------
     InputError
-        For a number of jobs below 1, a time limit that is not positive, or a selection that is empty.
+        For a number of workers below 1, a time limit that is not positive, or a selection that is empty.
     """
-    if jobs is not None and jobs < 1:
-        raise InputError(f"--jobs takes a number of at least 1, got {jobs}")
-    if not 0 < timeout < 1e6:
-        raise InputError(f"--timeout takes a positive number of seconds, got {timeout}")
     claims = derivation.select(select)
     if not claims:
         raise InputError(f"no claim contains {select!r} in its id, title, section or labels")
+    return _decided(
+        claims, derivation.homes, (os.cpu_count() or 1) if workers is None else workers, client, timeout, progress
+    )
+
+
+def decide(
+    claims: Iterable[Claim], *, workers: int | None = None, client: Any = None, timeout: float = SECONDS_PER_CLAIM,
+    progress: Progress | None = None,
+) -> Verification:  # fmt: skip
+    """Decide the claims and all that they use, in this process where neither workers nor a cluster are named.
+
+    The parameters are those of :func:`verify`.
+
+    Raises
+    ------
+    InputError
+        As for :func:`verify`; and with ``workers`` or ``client`` for a claim that stands in no file, since another
+        process could not read it.
+
+    Examples
+    --------
+    >>> import sympy as sp
+    >>> from ptproof.proof import claim, eq, exact
+    >>> x = sp.Symbol("x", real=True)
+    >>> false = claim("doubled", "A slip", eq((x + 1) ** 2, x**2 + 1), expected="refuted")(exact)
+    >>> decide([false]).results[0].evidence[0].witness.values
+    {'x': '1'}
+    """
+    chosen = with_ancestors(claims)
+    ids = [item.id for item in chosen]
+    if workers is None and client is None:
+        return _decided(chosen, {}, None, None, timeout, progress)
+    homes = homes_of(chosen)
+    if homeless := next((id for id in ids if id not in homes), None):
+        raise InputError(f"{homeless}: other processes read claims from files, and this one stands in none; "
+                         "leave out workers and client")  # fmt: skip
+    return _decided(chosen, homes, workers, client, timeout, progress)
+
+
+def _decided(
+    claims: Sequence[Claim], homes: Mapping[str, str], workers: int | None, client: Any, timeout: float,
+    progress: Progress | None,
+) -> Verification:  # fmt: skip
+    if workers is not None and workers < 1:
+        raise InputError(f"workers takes a number of at least 1, got {workers}")
+    if not 0 < timeout < 1e6:
+        raise InputError(f"timeout takes a positive number of seconds, got {timeout}")
     start = time.perf_counter()
+    # Only the files in which the claims stand are read again elsewhere.
+    files = tuple(sorted({homes[claim.id] for claim in claims if claim.id in homes}))
+    if client is not None:
+        answers = _on_cluster(claims, files, client, timeout)
+    elif workers is not None:
+        answers = _in_workers(claims, files, workers, timeout)
+    else:
+        answers = ((claim, _here(claim, timeout)) for claim in claims)
     evidence: dict[str, Evidence] = {}
-    for claim, found in _in_workers(claims, derivation.paths, jobs or os.cpu_count() or 1, timeout):
+    for claim, found in answers:
         evidence[claim.id] = found
         if progress is not None:
             progress(claim, found)
     return Verification(conclude(claims, evidence), time.perf_counter() - start)
 
 
+def _here(claim: Claim, timeout: float) -> Evidence:
+    try:
+        return within(timeout, lambda: run_one(claim))
+    except OutOfTime:
+        return evidence_of(Unanswered(Why.TIME, f"no answer in {timeout:g} s"), timeout)
+
+
 def _in_workers(
-    claims: Sequence[Claim], paths: tuple[str, ...], jobs: int, timeout: float
+    claims: Sequence[Claim], files: tuple[str, ...], workers: int, timeout: float
 ) -> Iterator[tuple[Claim, Evidence]]:
     """Each claim with its evidence, as they finish; a worker over its time is killed, and only its claim is lost."""
     by_id = {claim.id: claim for claim in claims}
-    absolute = tuple(str(Path(path).resolve()) for path in paths)
-    with Workers(min(jobs, len(claims)), start=_start_worker, arguments=(absolute,)) as workers:
-        for id, outcome in workers.each(timeout, _run_by_id, {id: (id,) for id in by_id}):
-            yield by_id[id], outcome_of(outcome, timeout)
+    with Workers(min(workers, len(claims)), start=read, arguments=(files,)) as processes:
+        for id, outcome in processes.each(timeout, run_by_id, {id: (id,) for id in by_id}):
+            yield by_id[id], evidence_of(outcome, timeout)
 
 
-def outcome_of(outcome: Answered[Evidence] | Unanswered, timeout: float) -> Evidence:
-    """The evidence of a claim that ran in a worker; a claim without an answer is undecided."""
+def _on_cluster(
+    claims: Sequence[Claim], files: tuple[str, ...], client: Any, timeout: float
+) -> Iterator[tuple[Claim, Evidence]]:
+    from distributed import as_completed
+
+    running = {client.submit(_on_worker, files, claim.id, timeout, pure=False): claim for claim in claims}
+    for future in as_completed(running):
+        error = future.exception()
+        lost = Unanswered(Why.DIED, f"the worker was lost: {type(error).__name__}: {error}")
+        yield running[future], future.result() if error is None else evidence_of(lost, timeout)
+
+
+def evidence_of(outcome: Answered[Evidence] | Unanswered, timeout: float) -> Evidence:
+    """The evidence of a claim that ran elsewhere; a claim without an answer is undecided."""
     match outcome:
         case Answered(evidence):
             return evidence
@@ -184,3 +245,24 @@ def outcome_of(outcome: Answered[Evidence] | Unanswered, timeout: float) -> Evid
             return Evidence("time limit", Verdict.UNDECIDED, reason, timeout)
         case Unanswered(_, reason):
             return Evidence("crash", Verdict.UNDECIDED, reason)
+
+
+_read: dict[str, Claim] = {}
+_one_at_a_time = threading.Lock()
+
+
+def read(files: Sequence[str]) -> None:
+    """In a worker: the claims of these files, so that they can be asked for by their ids."""
+    _read.update(claims_in(files))
+
+
+def run_by_id(id: str) -> Evidence:
+    """In a worker: what the proof of a claim that was read says."""
+    return run_one(_read[id])
+
+
+def _on_worker(files: Sequence[str], id: str, timeout: float) -> Evidence:
+    with _one_at_a_time:  # a worker of a cluster may have threads, and z3 works with one
+        if id not in _read:
+            read(files)
+        return _here(_read[id], timeout)

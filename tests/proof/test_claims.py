@@ -160,7 +160,7 @@ def test_a_hang_and_a_dying_process_cost_one_claim_each(tmp_path: Path) -> None:
         last = claim('last', 'last', eq(2 * x, x + x))(exact)
         """,
     )
-    verification = verify(load([folder]), jobs=2, timeout=6)
+    verification = verify(load([folder]), workers=2, timeout=6)
     found = {result.claim.id: result.verdict for result in verification.results}
     assert found == {
         "good": Verdict.PROVED, "hang": Verdict.UNDECIDED, "dies": Verdict.UNDECIDED, "last": Verdict.PROVED,
@@ -168,7 +168,9 @@ def test_a_hang_and_a_dying_process_cost_one_claim_each(tmp_path: Path) -> None:
     assert not verification.as_expected
 
 
-@pytest.mark.parametrize("options", [{"jobs": 0}, {"timeout": 0.0}, {"timeout": float("nan")}, {"select": "no such"}])
+@pytest.mark.parametrize(
+    "options", [{"workers": 0}, {"timeout": 0.0}, {"timeout": float("nan")}, {"select": "no such"}]
+)
 def test_bad_options(tmp_path: Path, options: dict[str, object]) -> None:
     folder = write(tmp_path / "d", "a = claim('one', 'one', eq(x, x))(exact)\n")
     with pytest.raises(InputError):
