@@ -11,6 +11,7 @@ import click
 
 from ptproof.commands import options
 from ptproof.errors import InputError
+from ptproof.problem.seekers import seekers_of
 from ptproof.simulation.engines import names
 
 if TYPE_CHECKING:
@@ -21,8 +22,8 @@ if TYPE_CHECKING:
 @click.command()
 @click.argument("problem", metavar="NAME|PROBLEM.toml")
 @click.option(
-    "--seeker", type=click.Choice(["pt", "asymptotic", "saturated", "saturated-constant"]),
-    help="Left out: pt, or saturated for a problem with a [saturation] table named saturated.",
+    "--seeker", type=click.Choice(seekers_of("simulate")),
+    help="Left out: the one whose tables the problem has, such as saturated for [saturation]; pt where it has none.",
 )  # fmt: skip
 @click.option("--frame", type=click.Choice(["t", "tau"]), default="t", show_default=True)
 @click.option("--engine", type=click.Choice(names()), help="Left out: chosen to fit.")
@@ -47,14 +48,19 @@ def simulate(
     """Integrate a seeker to its prescribed time.
 
     NAME is vanishing, nonvanishing or saturated, the paper's examples; anything else is read as a problem file.
-    The status is 0 if T was reached (by all members of an ensemble), 1 if not, 2 for bad input.
+    The status is 0 if T was reached (by all members of an ensemble), 1 if not or if the field was larger on the way
+    than at the stated source, 2 for bad input, such as a stated source that certainly is no maximum of the field.
     """
+    from ptproof.problem.doubts import run_doubt, source_doubt
     from ptproof.simulation import Ensemble, Outcome, run
+    from ptproof.simulation.quantities import field_function
 
     target = _target(problem)
-    how["seeker"] = seeker or ("saturated" if target.name == "saturated" and target.saturation is not None else "pt")
+    how["seeker"] = seeker or target.default_seeker
     result: Trajectory | Ensemble
     with _naming(problem, target):
+        if (certain := source_doubt(target)) is not None:
+            raise InputError(certain)
         if ensemble is not None:
             with options.connected(cluster) as client, _progress(ensemble) as progress:
                 result = run.ensemble(
@@ -67,13 +73,14 @@ def simulate(
             result = run.simulate(target, **how)
     if plot is not None:
         _draw(target, result, plot)
-    data = as_data(result, problem)
+    doubt = run_doubt(target, field_function(target.field)(result.x[:2]).tolist())
+    data = as_data(result, problem) | {"doubt": doubt}
     if as_json:
         options.print_json(data)
     else:
         click.echo(_text(data, result))
     outcomes = result.outcomes if isinstance(result, Ensemble) else (result.outcome,)
-    return 0 if all(outcome is Outcome.REACHED for outcome in outcomes) else 1
+    return 0 if doubt is None and all(outcome is Outcome.REACHED for outcome in outcomes) else 1
 
 
 def as_data(result: Trajectory | Ensemble, name: str) -> dict[str, Any]:
@@ -155,6 +162,8 @@ def _draw(target: Problem, result: Trajectory | Ensemble, file: str) -> None:
 
 def _text(data: dict[str, Any], result: Any) -> str:
     head = f"{data['example']}, {data['seeker']} seeker, in {data['frame']}, by {data['engine']}"
+    if data["doubt"]:
+        head += f"\n{data['doubt']}"
     if "N" in data:
         counts = ", ".join(f"{count} {word}" for word, count in data["outcomes"].items())
         spread = ", ".join(f"{name} {value:.6g}" for name, value in data["distance"].items() if value is not None)

@@ -133,3 +133,48 @@ def test_people_get_sentences(call):
     text = call("vanishing").stdout
     assert "reached T at t = 1" in text
     assert "distance from the source 0.17875" in text
+
+
+OTHER_PEAK = """
+[field]
+variables = ["x1", "x2"]
+expression = "{field}"
+source = [0, 0]
+kappa = 1
+[drift]
+kind = "none"
+[seeker]
+k = 1
+omega = 100
+mu = "0.001"
+T = 2
+nu_min = "0.2"
+[initial]
+x = [3, 0]
+"""
+
+
+@pytest.mark.parametrize(
+    ("field", "status", "words"),
+    [
+        ("-x1**2 - x2**2", 0, "reached T"),
+        ("-x1**2 - x2**2 + x1", 2, "field.source: (0, 0) is no maximum of the field, whose gradient there is (1, 0)"),
+        ("x1**2 - x1**4 - x2**2", 2, "which rises from there in a direction of (x1)"),
+        ("-x1**2 + x1**4 - x1**6/15 - x2**2", 1, "above the 0 at the stated source"),
+    ],
+)
+@pytest.mark.parametrize("more", [[], ["--ensemble", "3"]])
+def test_a_source_that_is_not_the_maximum_is_not_a_success(call, field, status, words, more, tmp_path):
+    path = tmp_path / "mine.toml"
+    path.write_text(OTHER_PEAK.format(field=field))
+    result = call(str(path), *more)
+    assert result.exit_code == status
+    assert words in result.stdout + result.stderr
+    assert status != 2 or "mine.toml" in result.stderr
+
+
+def test_a_file_with_a_saturation_table_gets_the_saturated_seeker(call, tmp_path):
+    path = tmp_path / "mine.toml"
+    table = '[saturation]\nepsilon = "0.01"\nlevel = 4\ngain = 3\n'
+    path.write_text(OTHER_PEAK.format(field="-x1**2 - x2**2") + table)
+    assert "mine.toml, saturated seeker" in call(str(path)).stdout
