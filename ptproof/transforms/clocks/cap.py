@@ -12,7 +12,7 @@ from ptproof.errors import InputError
 from ptproof.proof.signs import vanishes
 from ptproof.proof.statement import Relation, le
 from ptproof.transforms.clocks.algebra import factored, is_nonnegative, is_positive, settle
-from ptproof.transforms.clocks.clock import Clock, Piece
+from ptproof.transforms.clocks.clock import Clock, Piece, displayed
 
 
 @dataclass(frozen=True)
@@ -108,41 +108,32 @@ class CappedClock:
         )  # fmt: skip
         return *self.clock.pieces, late
 
+    def _choice(self, part: str, in_tau: bool) -> sp.Expr:
+        early, late = (getattr(piece, part) for piece in self.pieces)
+        return sp.Piecewise((early, self.conditions[in_tau]), (late, True))
+
     @cached_property
     def to_tau(self) -> sp.Expr:
         """a(t)."""
-        early, late = self.pieces
-        return sp.Piecewise((early.to_tau, self.conditions[0]), (late.to_tau, True))
+        return self._choice("to_tau", False)
 
     @cached_property
     def to_t(self) -> sp.Expr:
         """a⁻¹(τ)."""
-        early, late = self.pieces
-        return sp.Piecewise((early.to_t, self.conditions[1]), (late.to_t, True))
+        return self._choice("to_t", True)
 
     @cached_property
     def rate(self) -> sp.Expr:
         """dτ/dt, the clipped gain."""
-        early, late = self.pieces
-        return sp.Piecewise((early.rate, self.conditions[0]), (late.rate, True))
+        return self._choice("rate", False)
 
     @cached_property
     def rate_back(self) -> sp.Expr:
         """dt/dτ as an expression in τ."""
-        early, late = self.pieces
-        return sp.Piecewise((early.rate_back, self.conditions[1]), (late.rate_back, True))
-
-    def latex(self) -> str:
-        """The map and its rate as a LaTeX ``aligned`` block, without delimiters."""
-        t, tau = sp.latex(self.t), sp.latex(self.tau)
-        rows = [
-            rf"{tau} &= {sp.latex(self.to_tau)}",
-            rf"\frac{{\mathrm{{d}} {tau}}}{{\mathrm{{d}} {t}}} &= {sp.latex(self.rate)}",
-        ]
-        return r"\begin{aligned}" + r" \\ ".join(rows) + r"\end{aligned}"
+        return self._choice("rate_back", True)
 
     def _repr_latex_(self) -> str:
-        return f"$\\displaystyle {self.latex()}$"
+        return displayed(self.t, self.tau, Piece(self.to_tau, self.to_t, self.rate, self.rate_back))
 
 
 def capped(clock: Clock, nu_min: sp.Expr) -> CappedClock:

@@ -24,6 +24,14 @@ class Piece:
     rate_back: sp.Expr
 
 
+def displayed(t: sp.Symbol, tau: sp.Symbol, piece: Piece) -> str:
+    """The map, its rate and its inverse as a displayed formula of LaTeX."""
+    left = (sp.latex(tau), rf"\frac{{\mathrm{{d}} {sp.latex(tau)}}}{{\mathrm{{d}} {sp.latex(t)}}}", sp.latex(t))
+    rows = zip(left, (piece.to_tau, piece.rate, piece.to_t), strict=True)
+    lines = r" \\ ".join(f"{name} &= {sp.latex(value)}" for name, value in rows)
+    return rf"$\displaystyle \begin{{aligned}}{lines}\end{{aligned}}$"
+
+
 @dataclass(frozen=True)
 class Clock:
     """A change of time τ = a(t) on [t₀, t₀ + horizon).
@@ -147,18 +155,8 @@ class Clock:
     def _increases(self) -> bool:
         return is_positive(self.on_interval(self.rate)) or self._rises_to_the_end()
 
-    def latex(self) -> str:
-        """The map, its rate and its inverse as a LaTeX ``aligned`` block, without delimiters."""
-        t, tau = sp.latex(self.t), sp.latex(self.tau)
-        rows = [
-            rf"{tau} &= {sp.latex(self.to_tau)}",
-            rf"\frac{{\mathrm{{d}} {tau}}}{{\mathrm{{d}} {t}}} &= {sp.latex(self.rate)}",
-            rf"{t} &= {sp.latex(self.to_t)}",
-        ]
-        return r"\begin{aligned}" + r" \\ ".join(rows) + r"\end{aligned}"
-
     def _repr_latex_(self) -> str:
-        return f"$\\displaystyle {self.latex()}$"
+        return displayed(self.t, self.tau, self.pieces[0])
 
     @cached_property
     def rate(self) -> sp.Expr:
