@@ -72,9 +72,9 @@ class FieldCertificate:
     """What is certain about the constants of eq:assumption2 and eq:assumption3 on a domain.
 
     Proved: the enclosures are rigorous, have the wanted relative width, and are positive. Refuted: ``witness`` says
-    where or in which limit the assumption fails; ``largest_radius`` is the largest radius around the source for
-    which the search has certified that positive constants exist, None if it found none. Undecided: ``detail`` says
-    what was tried; the ends that are given are rigorous all the same.
+    where or in which limit the assumption fails; ``smaller`` is the certificate up to the largest radius for which
+    the search has shown that positive constants exist, None if it found none. Undecided: ``detail`` says what was
+    tried; the ends that are given are rigorous all the same.
     """
 
     field: Field
@@ -85,10 +85,15 @@ class FieldCertificate:
     b1: Range = Range()
     b2: Range = Range()
     witness: FieldWitness | None = None
-    largest_radius: sp.Expr | None = None
+    smaller: FieldCertificate | None = None
     detail: str = ""
     rtol: float = 1e-3
     seconds: float = member(default=0.0, compare=False)
+
+    @property
+    def largest_radius(self) -> sp.Expr | None:
+        """The largest radius for which positive constants are certified where they are not on the whole domain."""
+        return None if self.smaller is None else self.smaller.domain.outer
 
     def field_bounds(self, digits: int = 9) -> FieldBounds:
         """Exact constants that certainly hold: the outer ends, rounded outwards to ``digits`` digits.
@@ -111,14 +116,20 @@ class FieldCertificate:
 
     def to_json(self) -> dict[str, Any]:
         """The contract of ``ptproof bounds --json``."""
-        witness = None if self.witness is None else self.witness.to_json()
-        if witness is not None:
-            witness["largest_radius"] = None if self.largest_radius is None else str(self.largest_radius)
-        constants = {name: getattr(self, name).to_json() for name in NAMES}
-        return {"verdict": str(self.verdict), "domain": str(self.domain), **constants, "witness": witness}
+        witness = None
+        if self.witness is not None:
+            smaller = self.smaller and self.smaller._constants()
+            radius = None if self.largest_radius is None else str(self.largest_radius)
+            witness = {**self.witness.to_json(), "largest_radius": radius, "constants": smaller}
+        return {"verdict": str(self.verdict), "domain": str(self.domain), **self._constants(), "witness": witness}
+
+    def _constants(self) -> dict[str, Any]:
+        return {name: getattr(self, name).to_json() for name in NAMES}
 
     def rows(self) -> list[tuple[str, str, str]]:
-        """(name, what it is, enclosure) for each constant."""
+        """(name, what it is, enclosure) for each constant: on the smaller domain where they fail on this one."""
+        if self.verdict is Verdict.REFUTED:
+            return [] if self.smaller is None else self.smaller.rows()
         power, lower = 2 * self.field.kappa, 2 * self.field.kappa - 1
         drop, slope = f"(F(x*) − F(x)) / ‖x − x*‖^{power}", f"‖∇F(x)‖ / ‖x − x*‖^{lower}".replace("^1", "")
         meanings = {"a1": f"sup {drop}", "a2": f"inf {drop}", "b1": f"inf {slope}", "b2": f"sup {slope}"}
@@ -127,31 +138,25 @@ class FieldCertificate:
     @property
     def summary(self) -> str:
         """The verdict in a sentence."""
+        text = f"{self.verdict} on {self.domain.readable}"
         if self.verdict is Verdict.PROVED:
-            return f"proved on {self.domain}, each constant to a relative width of {self.rtol:g}"
-        if self.verdict is Verdict.UNDECIDED:
-            return f"undecided on {self.domain}: {self.detail}"
-        assert self.witness is not None
-        text = f"refuted on {self.domain}: {self.witness.statement}"
-        if self.largest_radius is not None:
-            smaller = Domain(self.domain.inner, self.largest_radius)
-            text += f". Positive constants are certified on {smaller}, {self.detail}"
-        elif self.detail:
-            text += f". {self.detail}"
-        return text
+            return f"{text}, each constant to a relative width of {self.rtol:g}"
+        if self.witness is None:
+            return f"{text}: {self.detail}"
+        text += f": {self.witness.statement}"
+        if self.smaller is not None:
+            text += f". Positive constants are certified on {self.smaller.domain.readable}"
+        return f"{text}{', ' if self.smaller else '. '}{self.detail}" if self.detail else text
 
     def __str__(self) -> str:
-        lines = [
-            f"F = {self.field.expression}, source ({', '.join(map(str, self.field.source))}), κ = {self.field.kappa}",
-            self.summary,
-        ]
-        if self.verdict is not Verdict.REFUTED:
-            width = max(len(meaning) for _, meaning, _ in self.rows())
-            lines += [f"  {name} = {meaning:<{width}}  ∈ {text}" for name, meaning, text in self.rows()]
-        elif self.witness is not None:
+        source = ", ".join(map(str, self.field.source))
+        lines = [f"F = {self.field.expression}, source ({source}), κ = {self.field.kappa}", self.summary]
+        if self.witness is not None:
             lines += [f"  {name} = {value}" for name, value in self.witness.values.items()]
             lines.append(f"  {self.witness.left}, but the assumption wants {self.witness.right}")
-        return "\n".join(lines)
+        rows = self.rows()
+        width = max((len(meaning) for _, meaning, _ in rows), default=0)
+        return "\n".join(lines + [f"  {name} = {meaning:<{width}}  ∈ {text}" for name, meaning, text in rows])
 
     def _repr_html_(self) -> str:
         cells = "".join(
@@ -172,6 +177,7 @@ class FieldCertificate:
 
         The lines are sampled and show, they do not prove.
         """
-        from ptproof.certify.plot import plot_certificate
+        from ptproof.certify.plot import plot_quotients
 
-        return plot_certificate(self, path)
+        bands = {name: getattr(self.smaller or self, name) for name in NAMES}
+        return plot_quotients(self.field, self.domain, bands, f"{self.verdict} on {self.domain.readable}", path)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -61,8 +62,23 @@ class Domain:
         return bool(self.inner == 0)
 
     def __str__(self) -> str:
+        return self._text(str)
+
+    @property
+    def readable(self) -> str:
+        """As ``str``, with decimals beside radii that are no integers."""
+        return self._text(_with_decimals)
+
+    def _text(self, shown: Callable[[sp.Expr], str]) -> str:
         if self.outer is None:
-            return "the whole space" if self.has_source else f"‖x − x*‖ ≥ {self.inner}"
+            return "the whole space" if self.has_source else f"‖x − x*‖ ≥ {shown(self.inner)}"
         if self.has_source:
-            return f"the ball ‖x − x*‖ ≤ {self.outer}"
-        return f"the annulus {self.inner} ≤ ‖x − x*‖ ≤ {self.outer}"
+            return f"the ball ‖x − x*‖ ≤ {shown(self.outer)}"
+        return f"the annulus {shown(self.inner)} ≤ ‖x − x*‖ ≤ {shown(self.outer)}"
+
+
+def _with_decimals(value: sp.Expr) -> str:
+    if value.is_Integer:
+        return str(value)
+    near = f"{float(value):.6g}"
+    return f"{value} ({'' if value == sp.Rational(near) else 'about '}{near})"

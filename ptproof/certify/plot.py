@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping
+from typing import Any
 
 import sympy as sp
 
-if TYPE_CHECKING:
-    from ptproof.certify.certificate import FieldCertificate
+from ptproof.certify.domain import Domain
+from ptproof.problem.field import Field
 
 
-def plot_certificate(certificate: FieldCertificate, path: str | None = None) -> Any:
-    """Draw both quotients against ‖x − x*‖ along rays, with the certified enclosures as bands.
+def plot_quotients(field: Field, domain: Domain, bands: Mapping[str, Any], title: str, path: str | None = None) -> Any:
+    """Draw both quotients against ‖x − x*‖ along rays, with the enclosures of the constants as bands.
 
     Returns the matplotlib figure; writes it to ``path`` if that is given. Without an outer radius the picture ends
     at 10, or at ten times the inner radius.
@@ -20,7 +21,6 @@ def plot_certificate(certificate: FieldCertificate, path: str | None = None) -> 
     import numpy as np
     from matplotlib.figure import Figure
 
-    field, domain = certificate.field, certificate.domain
     inner = float(domain.inner)
     outer = float(domain.outer) if domain.outer is not None else max(10.0, 10 * inner)
     radii = np.linspace(max(inner, outer / 400), outer, 400)
@@ -39,7 +39,7 @@ def plot_certificate(certificate: FieldCertificate, path: str | None = None) -> 
             right.plot(radii, np.sqrt(sum(p**2 for p in parts)) / radii ** (power - 1), color="0.6", linewidth=0.6)
     for axis, names in ((left, ("a1", "a2")), (right, ("b2", "b1"))):
         for name, colour in zip(names, ("tab:red", "tab:blue"), strict=True):
-            ends = getattr(certificate, name)
+            ends = bands[name]
             if ends.lower is not None and ends.upper is not None:
                 axis.axhspan(ends.lower, ends.upper, color=colour, alpha=0.4)
                 axis.axhline(ends.upper, color=colour, linewidth=1.2, label=f"{name} ∈ {ends}")
@@ -48,7 +48,7 @@ def plot_certificate(certificate: FieldCertificate, path: str | None = None) -> 
             axis.legend(fontsize=8)
     left.set_title(f"(F(x*) − F(x)) / ‖x − x*‖^{power}", fontsize=9)
     right.set_title(f"‖∇F(x)‖ / ‖x − x*‖^{power - 1}", fontsize=9)
-    figure.suptitle(f"{certificate.verdict} on {domain}", fontsize=10)
+    figure.suptitle(title, fontsize=10)
     if path is not None:
         figure.savefig(path, dpi=150)
     return figure

@@ -22,6 +22,7 @@ from ptproof.certify.witness import Prosecutor
 from ptproof.errors import InputError
 from ptproof.problem.field import Field
 from ptproof.proof.verdict import Verdict
+from ptproof.reading.expressions import parse
 
 GOALS = {
     "a2": Goal(slope=False, largest=False),
@@ -33,15 +34,17 @@ BITS = 96
 """The precision of all balls."""
 RADIUS_SHARE = 0.25
 """What part of the time limit may go into looking for a radius that works."""
+SMALLER_SHARE = 0.25
+"""What part of it may then go into the constants up to that radius."""
 
 Progress = Callable[[str], None]
 
 
 def certify_field(
-    expression: sp.Expr,
-    variables: Sequence[sp.Symbol],
-    source: Sequence[Any],
-    kappa: int,
+    field: Field | sp.Expr | str,
+    variables: Sequence[sp.Symbol | str] = (),
+    source: Sequence[Any] = (),
+    kappa: Any = None,
     *,
     radius: Any = None,
     annulus: tuple[Any, Any] | None = None,
@@ -53,16 +56,17 @@ def certify_field(
 
     Parameters
     ----------
-    expression
-        F: a smooth expression in ``variables``, with exact numbers.
+    field
+        A :class:`~ptproof.problem.field.Field` (then the next three are left out), or F: a smooth expression in
+        ``variables`` with exact numbers, SymPy or text.
     variables
-        n ≥ 1 symbols.
+        n ≥ 1 symbols, or their names.
     source
-        The n exact coordinates of x*.
+        The n exact coordinates of x*; numbers or text.
     kappa
         κ, a positive integer.
     radius, annulus
-        The ball ‖x − x*‖ ≤ radius, or the annulus (r, R); the whole space if both are left out. Exact.
+        The ball ‖x − x*‖ ≤ radius, or the annulus (r, R), exact; the whole space if both are left out.
     rtol
         The wanted relative width of each enclosure, between 1e-9 and 1.
     seconds
@@ -82,6 +86,12 @@ def certify_field(
     InputError
         For data that make no sense.
 
+    Examples
+    --------
+    >>> certificate = certify_field("5 - x1^2/2 - x2^2", ["x1", "x2"], [0, 0], 1)
+    >>> print(certificate.verdict, certificate.a2)
+    proved [0.4996275, 0.5000306]
+
     Notes
     -----
     Near the source, the Taylor polynomial is divided by the power of ‖x − x*‖, and the remainder is enclosed by
@@ -89,8 +99,9 @@ def certify_field(
     not a polynomial is bounded by how it grows. In between, boxes are halved until the mean value form decides.
     """
     began = time.perf_counter()
-    field = Field(tuple(variables), expression, tuple(source), kappa)
-    domain = Domain.of(radius, annulus)
+    field = _field(field, variables, source, kappa)
+    ends = None if annulus is None else (_exact(annulus[0], "annulus"), _exact(annulus[1], "annulus"))
+    domain = Domain.of(_exact(radius, "radius"), ends)
     if isinstance(rtol, bool) or not (1e-9 <= rtol <= 1):
         raise InputError(f"the relative width must be between 1e-9 and 1, but is {rtol}")
     if isinstance(seconds, bool) or not (0 < seconds < 1e6):
@@ -105,6 +116,23 @@ def certify_field(
             detail = f"the field cannot be enclosed: {error}"
             return FieldCertificate(field, domain, Verdict.UNDECIDED, detail=detail, rtol=rtol)
         return search.run()
+
+
+def _field(
+    field: Field | sp.Expr | str, variables: Sequence[sp.Symbol | str], source: Sequence[Any], kappa: Any
+) -> Field:
+    if isinstance(field, Field):
+        if variables or source or kappa is not None:
+            raise InputError("field: a Field has its variables, source and kappa; leave them out")
+        return field
+    symbols = tuple(sp.Symbol(entry, real=True) if isinstance(entry, str) else entry for entry in variables)
+
+    at = tuple(_exact(entry, f"field.source[{i}]") for i, entry in enumerate(source))
+    return Field(symbols, _exact(field, "field.expression", symbols), at, _exact(kappa, "field.kappa"))
+
+
+def _exact(value: Any, where: str, symbols: Sequence[sp.Symbol] = ()) -> Any:
+    return parse(value, symbols, where=where) if isinstance(value, str) else value
 
 
 def _drop(field: Field) -> tuple[sp.Expr, tuple[sp.Symbol, ...]]:
@@ -232,4 +260,10 @@ class _Search:
         deadline = time.perf_counter() + RADIUS_SHARE * self.seconds
         search = RadiusSearch(self.field, self.quotients, self.domain.inner, deadline)
         radius, how = search.run(witness.distance)
-        return self.certificate(Verdict.REFUTED, witness=witness, largest_radius=radius, detail=how)
+        smaller = None
+        if radius is not None:
+            domain = Domain(self.domain.inner, radius)
+            prosecutor, began = replace(self.prosecutor, domain=domain), time.perf_counter()
+            seconds = SMALLER_SHARE * self.seconds
+            smaller = replace(self, domain=domain, prosecutor=prosecutor, began=began, seconds=seconds).constants()
+        return self.certificate(Verdict.REFUTED, witness=witness, smaller=smaller, detail=how)

@@ -3,14 +3,28 @@
 from __future__ import annotations
 
 import json
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import click
 
 if TYPE_CHECKING:
-    from ptproof.averaging.limited import Outcome
+    from ptproof.averaging import Average
 
 _STYLES = {"proved": "green", "refuted": "bold red", "undecided": "yellow"}
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What people and programs are told about one dither system."""
+
+    data: dict[str, Any]
+    as_expected: bool
+    latex: str = ""
+    state: tuple[str, ...] = ()
+    gradient: str = ""
+    caveats: tuple[str, ...] = ()
+    reason: str = ""
 
 
 @click.command()
@@ -23,9 +37,7 @@ def average(file: str, as_json: bool, timeout: float) -> int:
     Exit status 1 if the theorem does not cover the system, the average is not known, or the average that FILE
     claims is not proved.
     """
-    from ptproof.averaging.limited import study_file
-
-    outcome = study_file(file, timeout)
+    outcome = _studied(file, timeout)
     if outcome.reason:
         click.echo(f"ptproof: {outcome.reason}", err=True)
     if as_json:
@@ -33,6 +45,51 @@ def average(file: str, as_json: bool, timeout: float) -> int:
     else:
         _show(outcome)
     return 0 if outcome.as_expected else 1
+
+
+def _studied(path: str, seconds: float) -> Outcome:
+    """The outcome for a TOML file from a process of its own; out of time it says so, and nothing in it is claimed."""
+    from ptproof.errors import InputError
+    from ptproof.reading.limits import Answered, Unanswered, Why, apart, check_seconds
+
+    check_seconds(seconds, "--timeout")
+    match apart(seconds, _study, path):
+        case Answered(outcome):
+            return outcome
+        case Unanswered(error=InputError() as error):
+            raise error
+        case Unanswered(Why.TIME):
+            reason = f"{path}: no answer within {seconds:g} s; a longer --timeout may help"
+        case Unanswered(_, reason):
+            reason = f"{path}: nothing is claimed: {reason}"
+    data: dict[str, Any] = {"average": None, "v": {}, "assumptions": {}, "expected": None}
+    return Outcome(data, as_expected=False, reason=reason)
+
+
+def _study(path: str) -> Outcome:
+    from ptproof.averaging import load_dither_system, study
+
+    problem = load_dither_system(path)
+    found = study(problem)
+    gradient = found.gradient
+    return Outcome(
+        found.to_json(),
+        found.as_expected,
+        found.latex(),
+        tuple(str(symbol) for symbol in problem.system.state),
+        f"drift + ({gradient[0]}) * grad {gradient[1]}" if gradient else "",
+        found.caveats if found.system is not None else (),
+        _reason(found),
+    )
+
+
+def _reason(found: Average) -> str:
+    """Why there is no average, in one line."""
+    if found.system is not None:
+        return ""
+    if found.refusals:
+        return "; ".join(f"refused, {text}" for text in found.refusals)
+    return "; ".join(f"undecided, {text}" for text in found.caveats)
 
 
 def _show(outcome: Outcome) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -66,9 +66,7 @@ def bounds(
     \b
     Example:  ptproof bounds "5/2 + cos(2*pi/3*x1)/2 - (x1**2 + x2**2)/2" --vars x1,x2 --kappa 1
     """
-    from ptproof.certify.limited import certify_text
-
-    certificate = certify_text(expression, names, source, kappa, radius, annulus, rtol, timeout)
+    certificate = _certificate(timeout, expression, names, source, kappa, radius, annulus, rtol)
     if plot is not None:
         _draw(certificate, plot)
     if as_json:
@@ -78,6 +76,63 @@ def bounds(
     else:
         _show(certificate)
     return 0 if str(certificate.verdict) == "proved" else 1
+
+
+def _certificate(seconds: float, *data: Any) -> FieldCertificate:
+    """The certificate of a field given as text, from a process that is ended when it takes much longer."""
+    from ptproof.errors import InputError
+    from ptproof.reading.limits import Answered, Unanswered, Why, apart, check_seconds
+
+    check_seconds(seconds, "--timeout")
+    match apart(2 * seconds + 5, _certify, seconds, *data):
+        case Answered(certificate):
+            return certificate
+        case Unanswered(Why.TIME):
+            raise InputError(f"no answer within {seconds:g} s: the expression is too large for exact algebra")
+        case Unanswered(Why.FAILED, _, Exception() as error):
+            raise error
+        case Unanswered(_, reason):
+            raise InputError(f"the computation ended without an answer ({reason})")
+
+
+def _certify(
+    seconds: float, expression: str, names: str, source: str | None, kappa: str, radius: str | None,
+    annulus: str | None, rtol: float,
+) -> FieldCertificate:  # fmt: skip
+    import sympy as sp
+
+    from ptproof.certify import certify_field
+    from ptproof.errors import InputError
+    from ptproof.reading.expressions import parse
+    from ptproof.reading.tables import RESERVED, declared
+
+    variables = [sp.Symbol(name, real=True) for name in declared(split_list(names), "--vars", RESERVED)]
+    at = ["0"] * len(variables) if source is None else split_list(source)
+    ends = None if annulus is None else [parse(end, where="--annulus") for end in split_list(annulus)]
+    if ends is not None and len(ends) != 2:
+        raise InputError(f"--annulus: expected two radii r,R, got {annulus!r}")
+    return certify_field(
+        parse(expression, variables, where="EXPR"),
+        variables,
+        [parse(entry, where="--source") for entry in at],
+        parse(kappa, where="--kappa"),
+        radius=None if radius is None else parse(radius, where="--radius"),
+        annulus=None if ends is None else (ends[0], ends[1]),
+        rtol=rtol,
+        seconds=seconds,
+    )
+
+
+def split_list(text: str) -> list[str]:
+    """The entries of a list, separated by the commas outside of parentheses."""
+    entries, depth = [""], 0
+    for character in text:
+        depth += (character == "(") - (character == ")")
+        if character == "," and depth == 0:
+            entries.append("")
+        else:
+            entries[-1] += character
+    return [entry.strip() for entry in entries]
 
 
 def _draw(certificate: FieldCertificate, path: str) -> None:
@@ -96,20 +151,24 @@ def _show(certificate: FieldCertificate) -> None:
 
     console = Console()
     verdict = str(certificate.verdict)
-    head, *lines = str(certificate).splitlines()
+    head, _, *lines = str(certificate).splitlines()
     console.print(Text(head))
     console.print(Text(certificate.summary, style=_STYLES[verdict]))
-    if certificate.witness is not None:
-        for line in lines[1:]:
-            console.print(Text(line))
+    rows = certificate.rows()
+    for line in lines[: len(lines) - len(rows)]:
+        console.print(Text(line))
+    if not rows:
         return
     table = Table(box=None, pad_edge=False)
     for column in ("constant", "meaning", "enclosure"):
         table.add_column(column, overflow="fold")
-    for row in certificate.rows():
+    for row in rows:
         table.add_row(*(Text(cell) for cell in row))
     console.print(table)
-    if verdict == "proved":
-        found = certificate.field_bounds()
+    shown = certificate.smaller or certificate
+    if str(shown.verdict) == "undecided" and shown is not certificate:
+        console.print(Text(shown.summary, style=_STYLES["undecided"]))
+    if str(shown.verdict) == "proved":
+        found, where = shown.field_bounds(), "" if shown is certificate else f" on {shown.domain.readable}"
         text = ", ".join(f"{name} = {float(getattr(found, name)):.9g}" for name in ("a1", "a2", "b1", "b2"))
-        console.print(Text(f"constants that certainly hold: {text}", style="bold"))
+        console.print(Text(f"constants that certainly hold{where}: {text}", style="bold"))

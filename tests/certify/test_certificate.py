@@ -5,10 +5,12 @@ import json
 import pytest
 import sympy as sp
 
-from ptproof.certify import Range, certify_field
+from ptproof.certify import Domain, Range, certify_field
 from ptproof.errors import InputError
+from ptproof.problem.field import Field
 
 x, y = sp.symbols("x1 x2", real=True)
+R = sp.Rational
 
 
 @pytest.fixture(scope="module")
@@ -40,6 +42,43 @@ def test_text_names_verdict_and_witness(proved, refuted):
     assert "a2 = inf (F(x*) − F(x)) / ‖x − x*‖^2" in str(proved)
     assert "x1 = 3.14159" in str(refuted) or "x1 = -3.14159" in str(refuted)
     assert "Positive constants are certified on the ball" in str(refuted)
+    assert "b2 = sup ‖∇F(x)‖ / ‖x − x*‖" in str(refuted)
+
+
+def test_refuted_field_has_constants_up_to_the_largest_radius(refuted):
+    bounds = refuted.smaller.field_bounds()
+    radius = refuted.largest_radius
+    assert bounds.a2 <= (1 - sp.cos(radius)) / radius**2 <= bounds.a2 * R(1001, 1000)
+    assert bounds.b1 <= sp.sin(radius) / radius <= bounds.b1 * R(1001, 1000)
+    assert bounds.a1 >= R(1, 2)
+    assert bounds.b2 >= 1
+    assert refuted.to_json()["witness"]["constants"]["b1"]["lower"] == refuted.smaller.b1.lower
+
+
+def test_a_field_as_text_and_as_a_value_is_the_same(proved):
+    text = certify_field("cos(x1) - x2^2", ["x1", "x2"], ["0", 0], "1", radius="1")
+    assert certify_field(proved.field, radius=1) == text == proved
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ((Field((x,), -(x**2), (0,), 1), (x,), (0,), 1), "leave them out"),
+        (("-x1^2 - z", ["x1"], [0], 1), "unknown name 'z'"),
+        (("-x1^2", ["x1"], [0]), "kappa"),
+        ((-0.5 * x**2, [x], [0], 1), "must be exact"),
+    ],
+)
+def test_what_is_no_field_is_refused(arguments, message):
+    with pytest.raises(InputError, match=message):
+        certify_field(*arguments)
+
+
+def test_radii_have_decimals_beside_them_for_people():
+    third, root, whole = (Domain(outer=radius) for radius in (R(3139, 1000), sp.sqrt(2), sp.Integer(2)))
+    assert third.readable == "the ball ‖x − x*‖ ≤ 3139/1000 (3.139)"
+    assert root.readable == "the ball ‖x − x*‖ ≤ sqrt(2) (about 1.41421)"
+    assert whole.readable == str(whole)
 
 
 def test_data_are_plain_json(proved, refuted):
@@ -52,10 +91,15 @@ def test_notebook_forms(proved):
     assert proved._repr_latex_().startswith("$")
 
 
-def test_picture_shows_both_quotients(proved, tmp_path):
+def test_picture_shows_both_quotients_inside_their_bands(proved, tmp_path):
     figure = proved.plot(str(tmp_path / "band.png"))
-    assert len(figure.axes) == 2
-    assert (tmp_path / "band.png").exists()
+    left, right = figure.axes
+    for axis, low, high in ((left, proved.a2, proved.a1), (right, proved.b1, proved.b2)):
+        lines = [line.get_ydata() for line in axis.lines if len(line.get_xdata()) > 2]
+        assert len(lines) == 48
+        assert all(low.lower * (1 - 1e-9) <= y.min() and y.max() <= high.upper * (1 + 1e-9) for y in lines)
+        assert {patch.get_y() for patch in axis.patches} == {low.lower, high.lower}
+    assert (tmp_path / "band.png").read_bytes().startswith(b"\x89PNG")
 
 
 @pytest.mark.parametrize(

@@ -5,8 +5,7 @@ import json
 import pytest
 from click.testing import CliRunner
 
-from ptproof.certify.limited import split_list
-from ptproof.commands.bounds import bounds
+from ptproof.commands.bounds import bounds, split_list
 from ptproof.errors import InputError
 
 KEYS = {"verdict", "domain", "a1", "a2", "b1", "b2", "witness"}
@@ -65,7 +64,7 @@ def test_picture_is_written(tmp_path):
         (["-x**2 - z", "--vars", "x", "--kappa", "1"], "unknown name 'z'"),
         (["-x**2", "--vars", "x", "--kappa", "0"], "kappa"),
         (["-x**2", "--vars", "x", "--kappa", "1/2"], "kappa"),
-        (["-x**2", "--vars", "x,sin", "--kappa", "1"], "'sin' cannot be"),
+        (["-x**2", "--vars", "x,sin", "--kappa", "1"], "'sin' has a meaning"),
         (["-x**2", "--vars", "x", "--kappa", "1", "--source", "0,0"], "2 coordinates"),
         (["-x**2", "--vars", "x", "--kappa", "1", "--annulus", "1"], "two radii"),
         (["-x**2", "--vars", "x", "--kappa", "1", "--radius", "-1"], "larger than 0"),
