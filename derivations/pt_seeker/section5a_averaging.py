@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ptproof.averaging import average
+from ptproof.averaging import average, split_dithers
 from ptproof.proof import (
     Evidence,
     Exists,
@@ -27,6 +27,7 @@ from ptproof.proof import (
     smooth,
 )
 from ptproof.system import lie_bracket
+from ptproof.transforms.reduction import split
 from ptproof.transforms.states import solve_state
 
 from . import chain
@@ -142,9 +143,7 @@ def reduced_coordinates(goal: Goal) -> Evidence:
     return exact(goal)
 
 
-_with_phase = chain.split_dithers(
-    chain.split(solve_state(chain.with_p, p, omega * tau + p0), [z], mu).reduced_model(), omega
-)
+_with_phase = split_dithers(split(solve_state(chain.with_p, p, omega * tau + p0), [z], mu).reduced_model(), omega)
 
 
 @claim(

@@ -160,8 +160,8 @@ def estimates(order: sp.Expr, tag: str, words: str) -> tuple[Claim, ...]:
         if linear:
             return []
         power = 2 * order - 2
-        rows = [value**power / denominator(value, after, order) for value in (low, high)]
-        return [power_monotone(low, high, power), power_monotone(*rows, 1 / power)]
+        smaller, larger = (value**power / denominator(value, after, order) for value in (low, high))
+        return [power_monotone(low, high, power), power_monotone(smaller, larger, 1 / power)]
 
     def regular(value: sp.Expr, after: sp.Expr) -> list[Implication]:
         """The denominator of the decay, and its root, are positive."""
@@ -197,12 +197,12 @@ def estimates(order: sp.Expr, tag: str, words: str) -> tuple[Claim, ...]:
     )  # fmt: skip
     def beta_class_kl(goal: Goal) -> Evidence:
         """Strictly, and continuously: with the limit, this is what class KL asks for."""
-        ends = [a1**root * value for value in (low, second)]
         if linear:
             return reals(goal)
         power = 2 * order - 2
-        rows = [value**power / denominator(value, elapsed, order) for value in ends]
-        return reals(goal, power_strict(*ends, power), power_strict(*rows, 1 / power))
+        near, far = (a1**root * value for value in (low, second))
+        before, after = (value**power / denominator(value, elapsed, order) for value in (near, far))
+        return reals(goal, power_strict(near, far, power), power_strict(before, after, 1 / power))
 
     @claim(
         f"prop/u-estimate-{tag}", f"U stays below its decay plus the level where ζ balances it ({words})",

@@ -98,12 +98,12 @@ def asymptotic_limit(goal: Goal) -> Evidence:
 
 
 _reduced = solve_state(change_variable(chain.asymptotic, theta, p, theta + k * z, p - k * z), p, omega * t)
-_averaged = average(split_dithers(split(_reduced, [z], mu).reduced_model(), omega))
+asymptotic_average = average(split_dithers(split(_reduced, [z], mu).reduced_model(), omega))
 
 
 @claim(
     "6.2/averaged-asymptotic", "The asymptotic seeker on the average",
-    eq(sp.Matrix([f[i] + k / 2 * chain.gradient_F[i] for i in (0, 1)]), _averaged.vector),
+    eq(sp.Matrix([f[i] + k / 2 * chain.gradient_F[i] for i in (0, 1)]), asymptotic_average.vector),
     place="Section 6.2", uses=[asymptotic_seeker],
 )  # fmt: skip
 def averaged_asymptotic(goal: Goal) -> Evidence:
@@ -118,7 +118,7 @@ drift_norm = sp.sqrt(f[0] ** 2 + f[1] ** 2)
 
 @claim(
     "6.2/asymptotic-derivative", "dV/dt for the asymptotic seeker on the average",
-    le(_averaged.derivative_along(-(F - F_source)), f_norm * G - k / 2 * G**2),
+    le(asymptotic_average.derivative_along(-(F - F_source)), f_norm * G - k / 2 * G**2),
     given=[eq(f_norm, drift_norm), eq(G, gradient_norm)], place="Section 6.2", uses=[averaged_asymptotic],
 )  # fmt: skip
 def asymptotic_derivative(goal: Goal) -> Evidence:

@@ -58,13 +58,17 @@ def nonvanishing_as_simulated(goal: Goal) -> Evidence:
     return exact(goal)
 
 
+clip = saturated.saturation
+assert clip is not None
+
+
 @claim(
     "7.3/as-simulated", "The saturated example is simulated with the paper's data",
     every(
         *same_data(saturated, section7c_saturated.field, [sp.S.Zero] * 2, printed("1.4", 30, 1, (2, 2))),
-        eq(saturated.saturation.epsilon, sp.Rational("0.0004")),
-        eq(saturated.saturation.level, sp.Integer(4)),
-        eq(saturated.saturation.gain, sp.Rational("11.11")),
+        eq(clip.epsilon, sp.Rational("0.0004")),
+        eq(clip.level, sp.Integer(4)),
+        eq(clip.gain, sp.Rational("11.11")),
     ),
     labels=["eq:sat_seeker"], place="Section 7.3",
 )  # fmt: skip

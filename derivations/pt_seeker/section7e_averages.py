@@ -7,17 +7,16 @@ from typing import Any
 import sympy as sp
 
 from ptproof.proof import Evidence, Goal, claim, ge, gt, lt, reals
-from ptproof.system import System
 
 from .chain import averaged_t
-from .notation import F, T, f, k, nu, position, t, t0, x1, x2
-from .section6a_asymptotic import averaged_asymptotic
+from .notation import F, T, f, k, nu, t, t0, x1, x2
+from .section6a_asymptotic import asymptotic_average, averaged_asymptotic
 from .section7a_vanishing import drift, field, gradient_bounds, peak
 
 SECTION = "7.1 Simulation: the averages of both seekers"
 
 values: dict[Any, Any] = {F: field, f[0]: drift.rate[0], f[1]: drift.rate[1], k: sp.Rational("1.8")}
-asymptotic = System(t, position, tuple(averaged_asymptotic.statement.right)).with_values(values)
+asymptotic = asymptotic_average.with_values(values)
 prescribed = averaged_t.with_values(values)
 away_from_source = gt(x1**2 + x2**2, 0)
 

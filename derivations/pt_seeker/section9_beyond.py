@@ -31,7 +31,7 @@ from ptproof.proof import (
 from ptproof.system import System, gradient
 
 from .notation import E11, E12, E21, E22, E, E_norm, F, F_source, G, T, V, b1, c, d, k, position, q, t
-from .section5b_stability import gradient_bounds
+from .section5b_stability import gradient_bounds, sigma
 from .section6a_asymptotic import averaged_asymptotic
 from .section6b_critical import A as drift_letter
 from .section6b_critical import B as feed_letter
@@ -40,7 +40,6 @@ from .section6b_critical import (
     duration,
     finite_small_start,
     positive_small_start,
-    sigma,
     smallest_critical_value,
 )
 

@@ -22,27 +22,6 @@ jobs = click.option(
 )
 
 
-def _client(context: click.Context, option: click.Parameter, address: str | None) -> Any:
-    """The client of a cluster, for as long as the command runs."""
-    if address is None:
-        return None
-    try:
-        from distributed import Client
-    except ImportError:
-        raise InputError("--cluster needs Dask: install ptproof[cluster]") from None
-    try:
-        client = Client(address, timeout=10)
-    except (OSError, ValueError) as error:
-        raise InputError(f"--cluster: no Dask scheduler answers at {address} ({error})") from None
-    context.call_on_close(client.close)
-    return client
-
-
-cluster = click.option(
-    "--cluster", "client", metavar="ADDRESS", callback=_client, help="Compute on the Dask cluster with this scheduler."
-)
-
-
 def timeout(of: str = "") -> Decorator:
     """``--timeout``, the limit of the whole command or ``of`` one thing that it does."""
     limit = click.FloatRange(min=0, min_open=True, max=1e6)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import click
 
 from ptproof.commands import options
@@ -16,7 +14,9 @@ from ptproof.commands import options
 @options.cluster
 @options.timeout("one claim")
 @click.option("-k", "select", default="", metavar="TEXT", help="Only claims that contain TEXT, and what they use.")
-def verify(paths: tuple[str, ...], as_json: bool, jobs: int | None, client: Any, timeout: float, select: str) -> int:
+def verify(
+    paths: tuple[str, ...], as_json: bool, jobs: int | None, cluster: str | None, timeout: float, select: str
+) -> int:
     """Verify the claims below each PATH (the shipped derivation of the paper where left out).
 
     Exit status 1 if a claim did not come out as its author recorded.
@@ -26,7 +26,7 @@ def verify(paths: tuple[str, ...], as_json: bool, jobs: int | None, client: Any,
     from ptproof.proof.run import verify as run
 
     derivation = load(paths)
-    with claim_progress(len(derivation.select(select))) as progress:
+    with options.connected(cluster) as client, claim_progress(len(derivation.select(select))) as progress:
         verification = run(derivation, workers=jobs, client=client, timeout=timeout, select=select, progress=progress)
     if as_json:
         options.print_json(verification.to_json())
