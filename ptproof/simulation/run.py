@@ -176,7 +176,7 @@ def _job(
     return _Job(setup, table, batch, plan, engine, about)
 
 
-_POSITIVE = ("k", "omega", "mu", "T", "nu_min", "epsilon", "S", "C")
+_POSITIVE = tuple(name.name for name in vars(loop_parameters).values() if getattr(name, "is_positive", False))
 
 
 def _check_values(setup: Setup, varied: Mapping[str, Array]) -> None:
