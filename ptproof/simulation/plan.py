@@ -197,7 +197,7 @@ class Batch:
         for a, b in itertools.pairwise(edges):
             if b > a:
                 count = math.ceil(samples * (b - a) / (edges[-1] - edges[0]) - 1e-9)
-                yield np.linspace(a, b, max(1, count) + 1)
+                yield np.linspace(a, b, count + 1) if count > 1 else np.array([a, b])
 
 
 @dataclass(frozen=True)

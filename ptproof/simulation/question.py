@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields, replace
+from functools import lru_cache
 from typing import Any, TypedDict
 
 from ptproof.errors import InputError
@@ -68,8 +69,10 @@ class Question:
             raise InputError(f"simulate: expected a problem, a system or an example's name, got {kind}")
         if self.span is not None:
             raise InputError("span: a problem has its own; use until= for another end")
-        setup = from_problem(problem, self.seeker, self.frame, self.coordinates, self.model, self.until, self.nu_end)
-        return self._with_values(setup)
+        until = None if self.until is None else as_float(self.until, "until")
+        return self._with_values(
+            _setup(problem, self.seeker, self.frame, self.coordinates, self.model, until, self.nu_end)
+        )
 
     def _with_values(self, setup: Setup) -> Setup:
         if self.initial is not None and not isinstance(self.initial, Mapping):
@@ -82,6 +85,9 @@ class Question:
                 raise InputError(f"initial, parameters: {name!r} is not one of {', '.join(setup.free)}")
         numbers = {name: as_float(value, name) for name, value in changes.items()}
         return replace(setup, defaults=dict(setup.defaults) | numbers)
+
+
+_setup = lru_cache(maxsize=64)(from_problem)
 
 
 class Options(TypedDict, total=False):

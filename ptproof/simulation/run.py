@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time as clock
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -192,8 +193,8 @@ def _check_values(setup: Setup, varied: Mapping[str, Array]) -> None:
 def _escape_radius(setup: Setup, batch: Batch, settings: Settings) -> float:
     if settings.escape_radius is not None:
         return settings.escape_radius
-    start = batch.initial[list(setup.position)] - np.array(setup.source)[:, None]
-    return 1e6 * max(1.0, float(np.sqrt(np.max(np.sum(start * start, axis=0)))))
+    away = sum((batch.initial[i] - centre) ** 2 for i, centre in zip(setup.position, setup.source, strict=True))
+    return 1e6 * max(1.0, math.sqrt(np.max(away)))
 
 
 def _radians(setup: Setup, table: Mapping[str, Array], batch: Batch) -> float | None:
@@ -209,8 +210,8 @@ def _tightening(setup: Setup, table: Mapping[str, Array], radians: float | None)
     """A hundred radians are within the tolerances' own margin; further turns of heading and dither tighten them."""
     if loop_parameters.omega not in (setup.system.parameters or ()):
         return 1.0
-    turned = (radians or 0.0) + float(np.max(np.abs(table.get("theta", np.zeros(1)))))
-    return 10.0 ** -max(0, int(np.ceil(np.log10(max(turned, 1.0) / 100))))
+    turned = (radians or 0.0) + (float(np.max(np.abs(table["theta"]))) if "theta" in table else 0.0)
+    return 10.0 ** -max(0, math.ceil(math.log10(max(turned, 1.0) / 100)))
 
 
 def _work(many: bool, table: Mapping[str, Array], radians: float | None) -> Work:

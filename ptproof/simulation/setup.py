@@ -211,7 +211,7 @@ class _Ending:
             raise InputError(f"until: must be after the start t0 = {start.min():g}, got {self.until:g}")
         edges = [start, end]
         if isinstance(self.clock, CappedClock):
-            edges = [start, np.clip(time_map(self.clock.until, TIME)(start, table), start, end), end]
+            edges = [start, np.minimum(np.maximum(time_map(self.clock.until, TIME)(start, table), start), end), end]
         elif isinstance(self.clock, Clock) and self.clock.horizon is not sp.oo:
             last = time_map(self.clock.instant(_NU), _NU)(np.full_like(start, self._last_nu(table)), table)
             edges = [start, np.minimum(end, last)]

@@ -81,8 +81,7 @@ def equations(system: System) -> Equations:
     def evaluate(values: Array) -> Array:
         with np.errstate(all="ignore"):
             more = function(values)
-        rest = values.shape[1:]
-        return np.array([*values, *(np.broadcast_to(entry, rest) for entry in more)]).reshape(count, *rest)
+        return np.array([*values, *more]).reshape(count, *values.shape[1:])
 
     rates, count = list(zip(variables, converted(rhs, table), strict=True)), len(parameters) + len(constants)
     return Equations(rates, evaluate, count)
@@ -138,6 +137,22 @@ def scalar(system: System, tolerance: float) -> Any:
 
     made = equations(system)
     return hy.taylor_adaptive(made.rates, [0.0] * system.dimension, pars=[0.0] * made.count, tol=tolerance, **_BUILD)
+
+
+@lru_cache(maxsize=64)
+def _ready(
+    system: System, conditions: tuple[Relational, ...], tolerance: float
+) -> Callable[[float, tuple[float, ...]], tuple[Any, Callable[[Array], Array]]]:
+    """From an instant and the parameters to an integrator and its constants; one look-up, since runs are short."""
+    pick, made = picker(system, conditions), {}
+
+    def ready(time: float, values: tuple[float, ...]) -> tuple[Any, Callable[[Array], Array]]:
+        smooth = pick(time, values)
+        if id(smooth) not in made:
+            made[id(smooth)] = scalar(smooth, tolerance), equations(smooth).constants
+        return made[id(smooth)]
+
+    return ready
 
 
 @lru_cache(maxsize=256)
@@ -242,12 +257,11 @@ class _Taylor:
     def trajectory(self, plan: Plan, member: Batch) -> Run:
         """One run; its samples come from the Taylor series of the steps, in one call for each piece."""
         values = member.parameters[:, 0]
-        way, pick, numbers = _Way(plan, Samples(member)), picker(plan.system, plan.conditions), tuple(values.tolist())
+        way, numbers = _Way(plan, Samples(member)), tuple(values.tolist())
+        ready = _ready(plan.system, plan.conditions, _tolerance(plan))
         for grid in member.grids(plan.settings.samples):
-            system = pick(float(grid[0] + grid[-1]) / 2, numbers)
-            solver = scalar(system, _tolerance(plan))
-            solver.time, solver.state[:] = grid[0], way.samples.state
-            solver.pars[:] = equations(system).constants(values)
+            solver, constants = ready(float(grid[0] + grid[-1]) / 2, numbers)
+            solver.time, solver.state[:], solver.pars[:] = grid[0], way.samples.state, constants(values)
             if stop := way.along(solver, grid):
                 return way.samples.run(stop)
         return way.samples.run()
