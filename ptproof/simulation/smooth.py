@@ -58,7 +58,7 @@ def constants_apart(system: System) -> tuple[list[sp.Expr], dict[sp.Expr, sp.Sym
 def _without_constants(node: Any, moving: set[sp.Symbol], constants: dict[sp.Expr, sp.Symbol]) -> Any:
     """``node`` with a symbol for each part without ``moving`` symbols that is not a number; fills ``constants``."""
     if not node.free_symbols & moving:
-        if node.is_Symbol or node.is_number:
+        if not isinstance(node, sp.Expr) or node.is_Symbol or node.is_number:
             return node
         return constants.setdefault(node, sp.Symbol(f"constant {len(constants)}", real=True))
     if not node.args:
