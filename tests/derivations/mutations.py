@@ -84,7 +84,7 @@ def _statements(statement: Statement) -> Iterator[tuple[str, Statement]]:
 def _relations(relation: Relation) -> Iterator[tuple[str, Relation]]:
     if isinstance(relation.left, sp.MatrixBase):
         for index in range(len(relation.left)):
-            for word, entry in _changes(relation.left[index]):
+            for word, entry in _changes(relation.left[index], relation.sign, relation.right[index]):
                 left = relation.left.as_mutable()
                 left[index] = entry
                 yield f"entry {index}: {word}", Relation(left, relation.sign, relation.right)
@@ -92,15 +92,21 @@ def _relations(relation: Relation) -> Iterator[tuple[str, Relation]]:
     yield "direction", Relation(relation.left, _FLIPPED[relation.sign], relation.right)
     sides = ("right",) if isinstance(relation.left, sp.Limit) else ("left", "right")
     for side in sides:
-        for word, changed in _changes(getattr(relation, side)):
+        other = relation.right if side == "left" else relation.left
+        for word, changed in _changes(getattr(relation, side), relation.sign, other):
             yield f"{side}: {word}", replace(relation, **{side: changed})
 
 
-def _changes(expression: sp.Expr) -> Iterator[tuple[str, sp.Expr]]:
-    """A term added, doubled or negated; an exponent raised; a factor halved."""
+def _changes(expression: sp.Expr, sign: str, other: sp.Expr) -> Iterator[tuple[str, sp.Expr]]:
+    """A term added, doubled or negated; an exponent raised; a factor halved.
+
+    Against 0 the doubled side says the same, and so does the negated side of an equality.
+    """
     yield "plus one", expression + 1
-    yield "doubled", 2 * expression
-    yield "negated", -expression
+    if other != 0:
+        yield "doubled", 2 * expression
+    if other != 0 or sign not in ("=", "!="):
+        yield "negated", -expression
     for term in sp.Add.make_args(expression)[:4]:
         if term != expression:
             yield f"sign of {term}", expression - 2 * term
