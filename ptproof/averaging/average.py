@@ -50,12 +50,30 @@ def average(system: DitherSystem) -> System:
         the phase, fields that contain the frequency.
     AveragingUndecided
         If a dither is outside the class that is integrated exactly.
+
+    Examples
+    --------
+    >>> tau, theta, x = sp.symbols("tau theta x", real=True)
+    >>> omega, F = sp.Symbol("omega", positive=True), sp.Function("F", real=True)(x)
+    >>> seeker = DitherSystem(tau, theta, omega, (x,), (0,), ((1,), (F,)), (sp.cos(theta), sp.sin(theta)))
+    >>> average(seeker).rhs
+    (Derivative(F(x), x)/2,)
     """
     return derive(system).system
 
 
 def derive(system: DitherSystem) -> Derived:
-    """As :func:`average`, with the coefficients and the brackets; only brackets with v_ji ≠ 0 are formed."""
+    """As :func:`average`, with the coefficients and the brackets; only brackets with v_ji ≠ 0 are formed.
+
+    Examples
+    --------
+    >>> tau, theta, x = sp.symbols("tau theta x", real=True)
+    >>> omega, F = sp.Symbol("omega", positive=True), sp.Function("F", real=True)(x)
+    >>> seeker = DitherSystem(tau, theta, omega, (x,), (0,), ((1,), (F,)), (sp.cos(theta), sp.sin(theta)))
+    >>> derived = derive(seeker)
+    >>> derived.v, derived.brackets
+    ({(2, 1): 1/2}, {(1, 2): (Derivative(F(x), x),)})
+    """
     check_form(system)
     v = v_matrix(system)
     fields = [SparseField(entries, system.state) for entries in system.fields]

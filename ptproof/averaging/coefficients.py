@@ -92,6 +92,14 @@ def v_matrix(system: DitherSystem, *, check: bool = True) -> Coefficients:
     Each value is the exact integral, by finite algebra on smooth pieces, and (with ``check``) lies inside a
     rigorous enclosure that is computed from the dithers themselves by another method; where a value contains
     symbols, at exact values of these.
+
+    Examples
+    --------
+    >>> tau, theta, x = sp.symbols("tau theta x", real=True)
+    >>> omega, F = sp.Symbol("omega", positive=True), sp.Function("F", real=True)(x)
+    >>> seeker = DitherSystem(tau, theta, omega, (x,), (0,), ((1,), (F,)), (sp.cos(theta), sp.sin(theta)))
+    >>> v_matrix(seeker)
+    {(2, 1): 1/2}
     """
     found = signals(system)
     values = _all_pairs(found)

@@ -106,6 +106,14 @@ def first_correction(system: DitherSystem) -> Correction:
     """The near-identity term and the drift of the average, both of order 1/√ω, by exact algebra.
 
     Raises as :func:`ptproof.averaging.average.average` does; what is guaranteed stands in :class:`Correction`.
+
+    Examples
+    --------
+    >>> tau, theta, x = sp.symbols("tau theta x", real=True)
+    >>> omega, F = sp.Symbol("omega", positive=True), sp.Function("F", real=True)(x)
+    >>> seeker = DitherSystem(tau, theta, omega, (x,), (0,), ((1,), (F,)), (sp.cos(theta), sp.sin(theta)))
+    >>> first_correction(seeker).shift
+    (-F(x)*cos(theta) + sin(theta),)
     """
     derived = derive(system)
     found = signals(system)

@@ -67,6 +67,15 @@ def examine(problem: DitherProblem) -> Ledger:
     Undefined functions of ``problem.functions`` are taken as smooth (that is what their declaration says) and
     the letters say so. An entry "refuted" means that the theorem does not cover the system, with the place and,
     where there is one, a witness; "undecided" is a caveat of the result.
+
+    Examples
+    --------
+    >>> from ptproof.system import DitherSystem
+    >>> tau, theta, x = sp.symbols("tau theta x", real=True)
+    >>> omega, F = sp.Symbol("omega", positive=True), sp.Function("F", real=True)(x)
+    >>> seeker = DitherSystem(tau, theta, omega, (x,), (0,), ((1,), (F,)), (sp.cos(theta), sp.sin(theta)))
+    >>> examine(DitherProblem(seeker)).with_verdict(Verdict.PROVED)
+    ('form', 'A', 'B', 'C', 'D', 'E', 'F', 'boundary layer')
     """
     steady = None if problem.fast is None else _solve(problem.fast, problem.domain)
     entries = {
@@ -191,13 +200,9 @@ def _dilation_hint(problem: DitherProblem, entry: sp.Expr, witness: Witness) -> 
 
 @_timed
 def _bounded_fields(problem: DitherProblem) -> Evidence:
+    system, start, domain = problem.system, problem.start, problem.domain
     found = [
-        (
-            place,
-            bounded_in_time(
-                entry, problem.system.time, _states(problem), problem.start, problem.domain, problem.bounded
-            ),
-        )
+        (place, bounded_in_time(entry, system.time, _states(problem), start, domain, problem.bounded))
         for place, entry in _places(problem)
     ]
     evidence = _worst(found, "bounded in time", "bounded on every compact set of states" + _where(problem))
@@ -239,10 +244,8 @@ def _period_and_mean(problem: DitherProblem) -> Evidence:
 def _lipschitz_rates(problem: DitherProblem) -> Evidence:
     if problem.fast is None:
         return Evidence("smoothness", Verdict.PROVED, "there are no fast states")
-    found = [
-        (f"fast rate {i}", _lipschitz(rate, _states(problem), problem))
-        for i, rate in enumerate(problem.fast.rate, start=1)
-    ]
+    rates = enumerate(problem.fast.rate, start=1)
+    found = [(f"fast rate {i}", _lipschitz(rate, _states(problem), problem)) for i, rate in rates]
     return _worst(found, "smoothness", "locally Lipschitz" + _where(problem))
 
 
@@ -266,14 +269,13 @@ def _lipschitz(rate: sp.Expr, variables: Sequence[sp.Symbol], problem: DitherPro
         if evidence.verdict is not Verdict.PROVED:
             # Not differentiable is not yet not Lipschitz; a jump is.
             jump = smoothness(rate, variables, 0, _assumed(problem), domain)
-            return (
-                jump if jump.verdict is Verdict.REFUTED else replace(evidence, verdict=Verdict.UNDECIDED, witness=None)
-            )
+            unknown = replace(evidence, verdict=Verdict.UNDECIDED, witness=None)
+            return jump if jump.verdict is Verdict.REFUTED else unknown
     return Evidence("smoothness", Verdict.PROVED, "locally Lipschitz")
 
 
 def _steady(problem: DitherProblem, steady: QuasiSteadyState | None) -> Evidence:
-    if steady is None:
+    if steady is None or problem.fast is None:
         return Evidence("quasi-steady state", Verdict.PROVED, "there are no fast states")
     if steady.values is None or steady.unique.verdict is Verdict.REFUTED:
         return steady.unique
@@ -281,13 +283,9 @@ def _steady(problem: DitherProblem, steady: QuasiSteadyState | None) -> Evidence
     for i, value in enumerate(steady.values, start=1):
         smooth = smoothness(value, problem.system.state, 2, _assumed(problem), problem.domain)
         found.append((f"l_{i} = {value}", smooth))
-    values = ", ".join(f"{z} = {value}" for z, value in zip(_fast_state(problem), steady.values, strict=True))
+    values = ", ".join(f"{z} = {value}" for z, value in zip(problem.fast.state, steady.values, strict=True))
     detail = f"{values} is the only solution ({steady.unique.detail}) and twice continuously differentiable"
     return _worst(found, "quasi-steady state", detail)
-
-
-def _fast_state(problem: DitherProblem) -> tuple[sp.Symbol, ...]:
-    return () if problem.fast is None else problem.fast.state
 
 
 def _boundary_layer(problem: DitherProblem, steady: QuasiSteadyState | None) -> Evidence:

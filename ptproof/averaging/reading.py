@@ -70,7 +70,15 @@ def load_dither_system(path: str | Path) -> DitherProblem:
 
 
 def read_dither_system(text: str, where: str = "text", name: str | None = None) -> DitherProblem:
-    """The dither system that ``text`` (TOML) describes; ``where`` opens the error messages."""
+    """The dither system that ``text`` (TOML) describes; ``where`` opens the error messages.
+
+    Examples
+    --------
+    >>> text = '[system]\\nstate = ["x"]\\ndrift = ["-x"]\\nperiod = "2*pi"\\n'
+    >>> text += '[[system.dither]]\\nfield = ["x"]\\nsignal = "cos(theta)"'
+    >>> read_dither_system(text).system.dithers
+    (cos(theta),)
+    """
     return build_from(text, where, _Tables, lambda data: _problem(data, name or where))
 
 

@@ -1,4 +1,7 @@
-"""A right-hand side written with sin and cos of (frequency · time + g(x)) becomes drift, fields and dithers."""
+"""A right-hand side written with sin and cos of (frequency · time + g(x)) becomes drift, fields and dithers.
+
+This is the step from eq:reduced_model_tau to eq:reduced_model_tau_2.
+"""
 
 from __future__ import annotations
 
@@ -20,26 +23,26 @@ def split_dithers(
     system
         Its right-hand side contains the frequency only in √ω and in sines and cosines of m·ω·time + g, with
         rational m, and g free of the frequency (powers and products of these are expanded).
-    omega
-        The frequency, declared positive.
-    phase
-        The symbol θ for ω·time; left out, a real symbol ``theta``.
+    omega, phase
+        The frequency, declared positive, and the symbol θ for ω·time (a real ``theta`` where left out).
 
     Returns
     -------
     DitherSystem
-        With the dithers cos(mθ), sin(mθ) in the order of m, only those whose field is not zero, and with
-        their least common period.
+        With the dithers cos(mθ), sin(mθ) in the order of m, only those whose field is not zero, and their least
+        common period. The difference between its ``to_system`` and ``system`` has the normal form 0, exactly.
 
     Raises
     ------
     AveragingRefused
         If a fast term does not have the factor √ω, or the factor stands with no dither.
 
-    Guarantees
-    ----------
-    The difference between the result's ``to_system`` and ``system`` has the normal form 0, exactly.
-    Source: the step from eq:reduced_model_tau to eq:reduced_model_tau_2.
+    Examples
+    --------
+    >>> tau, x = sp.symbols("tau x", real=True)
+    >>> omega, F = sp.Symbol("omega", positive=True), sp.Function("F", real=True)(x)
+    >>> split_dithers(System(tau, (x,), (sp.sqrt(omega) * sp.cos(omega * tau + F),)), omega).fields
+    ((cos(F(x)),), (-sin(F(x)),))
     """
     theta = sp.Symbol("theta", real=True) if phase is None else phase
     if theta in {system.time, *system.state, *(system.parameters or ())}:
@@ -49,11 +52,7 @@ def split_dithers(
     columns: dict[tuple[sp.Expr, int], dict[int, sp.Expr]] = {}
     for row, entry in enumerate(system.rhs):
         where = f"d{system.state[row]}/d{system.time}"
-        masked = entry.subs(omega, root**2)
-        waves = [node for node in masked.atoms(sp.sin, sp.cos) if root in node.free_symbols]
-        masked = masked.xreplace(
-            {wave: wave.func(_in_phase(wave.args[0], system.time, theta, root, where)) for wave in waves}
-        )
+        masked = _waves_in_phase(entry.subs(omega, root**2), system.time, theta, root, where)
         slow, masked = sp.powdenest(masked, force=True).as_independent(root, theta, as_Add=True)
         drift.append(slow)
         for (power, rate), parts in read(masked, theta, where).terms.items():
@@ -65,22 +64,24 @@ def split_dithers(
                     else:
                         columns.setdefault((rate, sine), {})[row] = field
     order = sorted(columns, key=lambda key: (key[0], key[1]))
-    result = DitherSystem(
-        system.time,
-        theta,
-        omega,
-        system.state,
-        tuple(drift),
-        tuple(tuple(tidy(columns[key].get(row, sp.S.Zero)) for row in range(system.dimension)) for key in order),
-        tuple((sp.sin if sine else sp.cos)(rate * theta) for rate, sine in order),
-        _common_period([rate for rate, _ in order]),
-        name=system.name if name is None else name,
-    )
-    recombined = result.to_system()
-    for row, (ours, given) in enumerate(zip(recombined.rhs, system.rhs, strict=True)):
+    fields = tuple(tuple(tidy(columns[key].get(row, sp.S.Zero)) for row in range(system.dimension)) for key in order)
+    dithers = tuple((sp.sin if sine else sp.cos)(rate * theta) for rate, sine in order)
+    period = _common_period([rate for rate, _ in order])
+    title = system.name if name is None else name
+    result = DitherSystem(system.time, theta, omega, system.state, tuple(drift), fields, dithers, period, name=title)
+    _check_recombined(result, system)
+    return result
+
+
+def _check_recombined(result: DitherSystem, system: System) -> None:
+    for row, (ours, given) in enumerate(zip(result.to_system().rhs, system.rhs, strict=True)):
         if tidy(sp.expand(sp.expand_trig(ours - given))) != 0:
             raise ArithmeticError(f"split_dithers: recombining gives {ours} for entry {row + 1}, not {given}")
-    return result
+
+
+def _waves_in_phase(masked: sp.Expr, time: sp.Symbol, theta: sp.Symbol, root: sp.Symbol, where: str) -> sp.Expr:
+    waves = [node for node in masked.atoms(sp.sin, sp.cos) if root in node.free_symbols]
+    return masked.xreplace({wave: wave.func(_in_phase(wave.args[0], time, theta, root, where)) for wave in waves})
 
 
 def _in_phase(argument: sp.Expr, time: sp.Symbol, theta: sp.Symbol, root: sp.Symbol, where: str) -> sp.Expr:

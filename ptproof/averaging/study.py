@@ -114,6 +114,15 @@ def study(problem: DitherProblem | DitherSystem) -> Average:
     Average
         Where a hypothesis is refuted there is no averaged system, and ``refusals`` says why and where. What is
         undecided is listed in ``caveats``; then the average is the theorem's if these hold.
+
+    Examples
+    --------
+    >>> tau, theta, x = sp.symbols("tau theta x", real=True)
+    >>> omega, F = sp.Symbol("omega", positive=True), sp.Function("F", real=True)(x)
+    >>> seeker = DitherSystem(tau, theta, omega, (x,), (0,), ((1,), (F,)), (sp.cos(theta), sp.sin(theta)))
+    >>> found = study(DitherProblem(seeker, expected=(sp.diff(F, x),)))
+    >>> found.refusals, str(found.expected.verdict)
+    ((), 'refuted')
     """
     if isinstance(problem, DitherSystem):
         problem = DitherProblem(problem)

@@ -85,27 +85,25 @@ def holds_on_box(
     expression = sp.sympify(expression)
     if missing := expression.free_symbols - set(box):
         raise InputError(f"no range is given for {', '.join(sorted(map(str, missing)))}")
-    symbols = tuple(box)
-    negated = -expression if relation[0] == ">" else expression
     began = time.perf_counter()
     with precision(BITS):
         start = _Start.read(box)
-        function = _first_of(compile_tape([negated], symbols))
+        function = _first_of(compile_tape([-expression if relation[0] == ">" else expression], start.symbols))
         strict = len(relation) == 1
         search = Search(lambda sides, _: _look(function, sides, strict), [start.sides], depth_first=True)
         search.run(lambda: search.point is not None, deadline=began + seconds, most=max_boxes)
         point = None if search.point is None else start.exact_point(search.point)
-    value = None
+    spent = time.perf_counter() - began
     if point is not None:
+        where = ", ".join(f"{symbol} = {value}" for symbol, value in point.items())
         value = enclosure_text(enclose(expression, point, bits=BITS))
-        detail = f"{expression} {relation} 0 fails at " + ", ".join(f"{key} = {point[key]}" for key in symbols)
-    elif search.left:
-        detail = f"{search.looks} boxes in {time.perf_counter() - began:.1f} s, {search.left} left; resisting: "
-        detail += _place(symbols, search.next or start.sides)
-    else:
-        detail = f"a cover of {search.looks} boxes, each with the right sign at {BITS} bits"
-    holds = False if point is not None else None if search.left else True
-    return CoverResult(holds, detail, search.looks, time.perf_counter() - began, point, value)
+        return CoverResult(False, f"{expression} {relation} 0 fails at {where}", search.looks, spent, point, value)
+    if search.left:
+        place = _place(start.symbols, search.next or start.sides)
+        detail = f"{search.looks} boxes in {spent:.1f} s, {search.left} left; resisting: {place}"
+        return CoverResult(None, detail, search.looks, spent)
+    detail = f"a cover of {search.looks} boxes, each with the right sign at {BITS} bits"
+    return CoverResult(True, detail, search.looks, spent)
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,9 @@
-"""The search for a certificate: the source, infinity, the four constants, and a radius that works if they fail."""
+"""The search for a certificate: the source, infinity, the four constants, and a radius that works if they fail.
+
+Near the source, the Taylor polynomial is divided by the power of ‖x − x*‖, and the remainder is enclosed by
+Lagrange's form; the orders below 2κ are proved to vanish before. Far away, the radius is inverted, and what is not a
+polynomial is bounded by how it grows. In between, boxes are halved until the mean value form decides.
+"""
 
 from __future__ import annotations
 
@@ -23,6 +28,7 @@ from ptproof.errors import InputError
 from ptproof.problem.field import Field
 from ptproof.proof.verdict import Verdict
 from ptproof.reading.expressions import parse
+from ptproof.reading.limits import check_seconds
 
 GOALS = {
     "a2": Goal(slope=False, largest=False),
@@ -59,12 +65,8 @@ def certify_field(
     field
         A :class:`~ptproof.problem.field.Field` (then the next three are left out), or F: a smooth expression in
         ``variables`` with exact numbers, SymPy or text.
-    variables
-        n ≥ 1 symbols, or their names.
-    source
-        The n exact coordinates of x*; numbers or text.
-    kappa
-        κ, a positive integer.
+    variables, source, kappa
+        n ≥ 1 symbols or their names, the n exact coordinates of x*, and κ, a positive integer; numbers or text.
     radius, annulus
         The ball ‖x − x*‖ ≤ radius, or the annulus (r, R), exact; the whole space if both are left out.
     rtol
@@ -79,24 +81,13 @@ def certify_field(
     FieldCertificate
         Proved with rigorous enclosures of the supremum and infimum of (F(x*) − F(x))/‖x − x*‖^(2κ) and of
         ‖∇F(x)‖/‖x − x*‖^(2κ−1) over the domain (eq:assumption2, eq:assumption3); refuted with a witness; or
-        undecided with what was tried.
-
-    Raises
-    ------
-    InputError
-        For data that make no sense.
+        undecided with what was tried. Raises ``InputError`` for data that make no sense.
 
     Examples
     --------
     >>> certificate = certify_field("5 - x1^2/2 - x2^2", ["x1", "x2"], [0, 0], 1)
     >>> print(certificate.verdict, certificate.a2)
     proved [0.4996275, 0.5000306]
-
-    Notes
-    -----
-    Near the source, the Taylor polynomial is divided by the power of ‖x − x*‖, and the remainder is enclosed by
-    Lagrange's form; the orders below 2κ are proved to vanish before. Far away, the radius is inverted, and what is
-    not a polynomial is bounded by how it grows. In between, boxes are halved until the mean value form decides.
     """
     began = time.perf_counter()
     field = _field(field, variables, source, kappa)
@@ -104,18 +95,15 @@ def certify_field(
     domain = Domain.of(_exact(radius, "radius"), ends)
     if isinstance(rtol, bool) or not (1e-9 <= rtol <= 1):
         raise InputError(f"the relative width must be between 1e-9 and 1, but is {rtol}")
-    if isinstance(seconds, bool) or not (0 < seconds < 1e6):
-        raise InputError(f"the time limit must be a positive number of seconds, but is {seconds}")
+    check_seconds(seconds)
     with precision(BITS):
         try:
             quotients = Quotients(*_drop(field), field.kappa)
-            search = _Search(
-                field, domain, quotients, Prosecutor(field, quotients, domain), rtol, began, seconds, progress
-            )
         except Undefined as error:
             detail = f"the field cannot be enclosed: {error}"
             return FieldCertificate(field, domain, Verdict.UNDECIDED, detail=detail, rtol=rtol)
-        return search.run()
+        prosecutor = Prosecutor(field, quotients, domain)
+        return _Search(field, domain, quotients, prosecutor, rtol, began, seconds, progress).run()
 
 
 def _field(

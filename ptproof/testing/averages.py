@@ -51,7 +51,6 @@ def assert_average(
     """
     from ptproof.averaging import AveragingRefused, AveragingUndecided, study
     from ptproof.averaging.problem import DitherProblem
-    from ptproof.proof.verdict import Verdict
 
     if isinstance(assuming, str):
         assuming = (assuming,)
@@ -70,6 +69,13 @@ def assert_average(
         return lines("the averaging theorem does not cover the system: refused", [("reason", str(reason))])
     except AveragingUndecided as reason:
         return lines("the average could not be decided: undecided", [("reason", str(reason))])
+    return _complaint(found, wanted, assuming)
+
+
+def _complaint(found: Any, wanted: Sequence[sp.Expr], assuming: Collection[str]) -> str | None:
+    """What speaks against the average ``found``, with the assumptions ``assuming`` taken on trust."""
+    from ptproof.proof.verdict import Verdict
+
     if unknown := set(assuming) - set(found.ledger.entries):
         known = ", ".join(found.ledger.entries)
         raise InputError(f"assuming: {sorted(unknown)[0]!r} is not an assumption of the theorem; they are {known}")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import sympy as sp
@@ -53,7 +53,6 @@ def assert_field_bounds(
         For data that make no sense.
     """
     from ptproof.certify import certify_field
-    from ptproof.proof.verdict import Verdict
 
     if not (isinstance(variables, Sequence) and all(isinstance(item, sp.Symbol) for item in variables)):
         raise TypeError("variables: expected a sequence of symbols")
@@ -69,13 +68,20 @@ def assert_field_bounds(
         )
     except OutOfTime:
         return f"the bounds of the field could not be decided: no answer in {seconds:g} s"
+    return _complaint(certificate, constants, rtol, seconds)
+
+
+def _complaint(certificate: Any, constants: Mapping[str, sp.Expr], rtol: float, seconds: float) -> str | None:
+    """What speaks against the claimed ``constants``."""
+    from ptproof.proof.verdict import Verdict
+
     if certificate.verdict is Verdict.REFUTED:
-        assert certificate.witness is not None
         witness = certificate.witness
         where = ", ".join(f"{name} = {value}" for name, value in witness.values.items())
         smaller = "" if certificate.largest_radius is None else f"the ball of radius {certificate.largest_radius}"
         return lines("the field has no such bounds: refuted", [
-            ("field", str(F)), ("domain", str(certificate.domain)), ("fails", witness.statement),
+            ("field", str(certificate.field.expression)), ("domain", str(certificate.domain)),
+            ("fails", witness.statement),
             ("witness", f"{where}: {witness.left}, but the assumption wants {witness.right}"),
             ("certified on", smaller),
         ])  # fmt: skip
@@ -85,7 +91,7 @@ def assert_field_bounds(
     if not bad and not needs_all:
         return None
     refuted = any(outcomes[name] is Verdict.REFUTED for name in bad)
-    rows = [("field", str(F)), ("domain", str(certificate.domain))]
+    rows = [("field", str(certificate.field.expression)), ("domain", str(certificate.domain))]
     for name in bad:
         best = getattr(certificate, name)
         what = "at least" if ABOVE[name] else "at most"
