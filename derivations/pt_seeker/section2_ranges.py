@@ -9,7 +9,8 @@ from ptproof.proof import Evidence, Goal, claim, eq, every, exact, ge, gt, integ
 from ptproof.system import DitherSystem, lie_bracket
 
 from .notation import T, nu, omega, t, t0, tau, x1, x2
-from .section2_preliminaries import contraction_rate, dilation_rate, inverse_map, iterated_integral, phase, time_map
+from .section2_averaging import iterated_integral, phase
+from .section2_change_of_time import contraction_rate, dilation_rate, inverse_map, time_map
 
 SECTION = "2 Preliminaries: intervals, period, pairs of dithers"
 

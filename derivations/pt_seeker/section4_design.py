@@ -10,7 +10,7 @@ from ptproof.transforms.time import contract, dilate
 
 from .chain import clock, closed_loop_t, closed_loop_tau
 from .notation import F, T, drift_at, f, k, mu, nu, omega, rate_of, t, t0, tau, theta, x1, x2, z
-from .section2_preliminaries import contraction_rate, dilation_rate
+from .section2_change_of_time import contraction_rate, dilation_rate
 
 SECTION = "4 Prescribed-time source seeking design"
 

@@ -8,7 +8,8 @@ from ptproof.problem.drift import gradient_drift
 from ptproof.proof import Evidence, Goal, Smooth, claim, every, ge, le, reals, smooth
 
 from .notation import E, F, T, f, position, t0, tau
-from .section5a_averaging import drift_brace, f_tau, stretch
+from .section5a_1_reduction import f_tau, stretch
+from .section5a_2_averaging import drift_brace
 
 SECTION = "5.1 Theorem, Steps 1 to 3: the averaged system"
 

@@ -54,8 +54,8 @@ from .notation import (
     x2,
     zeta,
 )  # fmt: skip
-from .section5a_averaging import averaged_system
-from .section5b_stability import v_bounds, v_differential_inequality
+from .section5a_2_averaging import averaged_system
+from .section5b_1_lyapunov import v_bounds, v_differential_inequality
 
 SECTION = "5.3 Proposition: a bounded drift that does not vanish"
 

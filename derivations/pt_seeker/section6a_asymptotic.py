@@ -54,7 +54,8 @@ from .notation import (
     theta,
     z,
 )  # fmt: skip
-from .section5b_stability import between_1, distance_bound_tau, gradient_bounds
+from .section5b_1_lyapunov import gradient_bounds
+from .section5b_2_gradient_drift import between_1, distance_bound_tau
 
 SECTION = "6.1 Discussion: the asymptotic seeker and κ = 1"
 

@@ -7,7 +7,8 @@ import sympy as sp
 from ptproof.proof import Claim, Evidence, Goal, claim, eq, every, ge, le, limits, lt, power_positive, reals, specialise
 
 from .notation import G, T, V, a1, a2, c, d, f_norm, h1, h2, k, kappa, nu, omega, q, t, t0, tau
-from .section5d_estimates import Z, beta, bounds_at, distance, falls, gamma, input_gain, kappa_1, kappa_2, m, s, start
+from .section5d_1_interval import Z, beta, bounds_at, distance, falls, gamma, input_gain, m, s, start
+from .section5d_2_estimates import kappa_1, kappa_2
 from .section6a_asymptotic import asymptotic_derivative
 
 SECTION = "6.3 Discussion: nonvanishing drift and feasibility"

@@ -24,7 +24,7 @@ from ptproof.proof import (
 
 from .chain import clock
 from .notation import T, mu, t, t0, tau
-from .section2_preliminaries import inverse_map
+from .section2_change_of_time import inverse_map
 from .section2_ranges import contraction_range
 
 SECTION = "Appendix: the stability properties"

@@ -21,12 +21,12 @@ from ptproof.proof.verdict import Verdict
 
 FOLDER = Path(__file__).parents[2] / "derivations" / "pt_seeker"
 NAMES = (
-    "section5c_proposition", "section5d_estimates", "section6a_asymptotic", "section6b_critical",
-    "section6c_feasibility",
+    "section5c_proposition", "section5d_1_interval", "section5d_2_estimates", "section6a_asymptotic",
+    "section6b_1_comparison", "section6b_2_critical", "section6c_feasibility",
 )  # fmt: skip
 FOUND = {claim.id: claim for claim in load([FOLDER / f"{name}.py" for name in NAMES]).claims}
 MODULES = {claim.prove.__module__.rpartition(".")[2]: sys.modules[claim.prove.__module__] for claim in FOUND.values()}
-prop, est, asy, crit, feas = (MODULES[name] for name in NAMES)
+prop, est, whole, asy, bound, crit, feas = (MODULES[name] for name in NAMES)
 OWN = [claim for claim in FOUND.values() if claim.prove.__module__.rpartition(".")[2] in NAMES]
 
 
@@ -70,7 +70,7 @@ d, E_norm, kappa = prop.d, asy.E_norm, prop.kappa
 ONE, TWO = sp.Integer(1), est.m + 1
 both = [("kappa-1", ONE), ("kappa-2", TWO)]
 theta = prop.share
-W, n, sigma = crit.W, crit.n, crit.sigma
+W, n, sigma = bound.W, bound.n, bound.sigma
 REFUTED = Verdict.REFUTED
 
 # κ ≥ 2 takes longer, so there each claim gets one or two twins.
@@ -154,7 +154,7 @@ TWINS = [
         FOUND["6/asymptotic-seeker-is-the-limit"].statement.parts[2].left, 2 * asy.printed_asymptotic[2])), REFUTED),
     ("asymptotic-derivative-k", right("6.2/asymptotic-derivative", {k: 4 * k}), None),
     ("asymptotic-average-k", says("6.2/averaged-asymptotic", eq(
-        FOUND["6.2/averaged-asymptotic"].statement.left, 2 * asy._averaged.vector)), REFUTED),
+        FOUND["6.2/averaged-asymptotic"].statement.left, 2 * asy.asymptotic_average.vector)), REFUTED),
     ("asymptotic-inequality-factor", says("6.2/asymptotic-inequality", le(
         asy.V_dot, (asy.C2**2 * E_norm - k * asy.C1**2) * V)), None),
     ("condition-half", replace(FOUND["6.2/gain-condition-suffices"], assumptions=(
@@ -171,32 +171,33 @@ TWINS = [
     ("bound-in-t-limit", says("6.2/distance-bound-in-t-limit", eq(
         FOUND["6.2/distance-bound-in-t-limit"].statement.left, asy.R0)), REFUTED),
     ("drift-helps", says("6.2/drift-slows", le(asy.printed_in_t, asy.printed_in_t.subs(E_norm, 0))), REFUTED),
-    ("drift-by-v-power", says("6.2/drift-by-v", le(crit.f_norm, crit.c(2) * E_norm * V ** (prop.q() / 2))), REFUTED),
+    ("drift-by-v-power", says("6.2/drift-by-v", le(bound.f_norm, bound.c(2) * E_norm * V ** (prop.q() / 2))), REFUTED),
     ("v-inequality-c2", says("6.2/v-inequality", le(
-        crit.V_dot, (crit.c(2) * E_norm / prop.stretch**2 - k * crit.c(1) ** 2 / 2) * V ** (2 * prop.q()))), REFUTED),
+        bound.V_dot, V ** (2 * prop.q()) * (bound.c(2) * E_norm / prop.stretch**2 - k * bound.c(1) ** 2 / 2))),
+        REFUTED),
     ("bernoulli-sigma", scaled("6.2/bernoulli", 2), None),
     ("bernoulli-integrated-half", says("6.2/bernoulli-integrated", le(
-        crit.Y(tau), crit.Y(t0) + sigma * crit.work / 2)), None),
-    ("denominator-gamma-0", says("6.2/denominator", eq(crit.denominator(W) + t0, crit.explicit)), REFUTED),
+        bound.Y(tau), bound.Y(t0) + sigma * bound.work / 2)), None),
+    ("denominator-gamma-0", says("6.2/denominator", eq(bound.denominator(W) + t0, bound.explicit)), REFUTED),
     ("remark-without-domain", without("6.2/remark-inequality", 2), None),
     ("remark-halved", scaled("6.2/remark-inequality", half), None),
-    ("remark-sigma", says("6.2/remark-inequality", le(crit.V_away(tau), crit.V_away(t0) * (
-        (tau - t0 + T) / crit.denominator(crit.V_away(t0) ** sigma)) ** sigma)), None),
+    ("remark-sigma", says("6.2/remark-inequality", le(bound.V_away(tau), bound.V_away(t0) * (
+        (tau - t0 + T) / bound.denominator(bound.V_away(t0) ** sigma)) ** sigma)), None),
     ("attained-with-double-rate", scaled("6.2/bound-attained", 2), REFUTED),
     ("escape-to-zero", says("6.2/bound-escapes", eq(FOUND["6.2/bound-escapes"].statement.left, 0)), None),
-    ("denominator-start", says("6.2/denominator-shape", eq(crit.denominator(W, t0), 2 * T)), REFUTED),
+    ("denominator-start", says("6.2/denominator-shape", eq(bound.denominator(W, t0), 2 * T)), REFUTED),
     ("critical-sign", says("6.2/critical-v0-positive", lt(crit.critical_power, 0)), REFUTED),
     ("critical-weaker-condition", replace(FOUND["6.2/critical-v0-positive"], assumptions=(
         gt(crit.tau_star, t0), gt(E_norm, crit.threshold / 2))), REFUTED),
     ("critical-converse-stronger", says("6.2/critical-v0-condition", gt(E_norm, 2 * crit.threshold)), REFUTED),
     ("critical-other-root", replace(FOUND["6.2/critical-v0"], assumptions=(
-        *FOUND["6.2/critical-v0"].assumptions[:2], eq(crit.V0, crit.critical_power))), None),
+        *FOUND["6.2/critical-v0"].assumptions[:2], eq(bound.V0, crit.critical_power))), None),
     ("critical-time-without-room", without("6.2/critical-time-near-start", 0), None),
     ("finite-under-half-the-condition", replace(FOUND["6.2/finite-under-gain-condition"], assumptions=(
-        ge(tau, t0), gt(k, crit.C2**2 / crit.C1**2 * E_norm))), REFUTED),
+        ge(tau, t0), gt(k, bound.C2**2 / bound.C1**2 * E_norm))), REFUTED),
     ("finite-before-the-start", without("6.2/finite-under-gain-condition", 0), REFUTED),
     ("finite-at-half-equality", replace(FOUND["6.2/finite-at-equality"], assumptions=(
-        ge(tau, t0), eq(k, crit.C2**2 / crit.C1**2 * E_norm))), REFUTED),
+        ge(tau, t0), eq(k, bound.C2**2 / bound.C1**2 * E_norm))), REFUTED),
     ("work-bound-halved", scaled("6.2/work-of-the-drift", half), REFUTED),
     ("start-twice-as-large", replace(FOUND["6.2/positive-for-a-small-start"], assumptions=(
         lt(sigma * W * T * (crit.A - crit.B) ** 2, 2),)), REFUTED),

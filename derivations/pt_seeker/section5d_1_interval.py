@@ -1,4 +1,4 @@
-"""Section 5, Proposition: the class-KL estimate with explicit functions, in both times, and its limit.
+"""Section 5, Proposition: functions of class K and KL, and the estimate on one interval.
 
 κ = 1 has an exponential decay, κ ≥ 2 a power law; both families of claims come from one text, the second with
 κ = m + 1 for every m ≥ 1.
@@ -9,7 +9,6 @@ from __future__ import annotations
 import sympy as sp
 
 from ptproof.proof import (
-    Assumption,
     Claim,
     Evidence,
     ForAll,
@@ -21,8 +20,6 @@ from ptproof.proof import (
     eq,
     every,
     ge,
-    gt,
-    instances,
     le,
     limits,
     lt,
@@ -31,12 +28,11 @@ from ptproof.proof import (
     power_strict,
     reals,
     specialise,
-    squeezed,
     superadditive,
 )
 
 from . import chain
-from .notation import T, a1, a2, c, d, h2, k, kappa, nu, t, t0, tau
+from .notation import T, a1, a2, c, d, h2, k, kappa, t0, tau
 from .section5c_proposition import constants_ordered, no_increase, u_bounds, u_inequality
 
 SECTION = "5.4 Proposition: the estimate in both times"
@@ -138,10 +134,23 @@ def falls(order: sp.Expr, forcing: sp.Expr, *domain: Relation) -> ForAll:
     return ForAll((s,), le(sp.Derivative(U_at(s), s), rate), domain)
 
 
-def estimates(order: sp.Expr, tag: str, words: str) -> tuple[Claim, ...]:
-    """The claims about β and γ for one kind of κ."""
-    linear = order == 1
-    h, g, root, exponent = rate_of(order), input_gain(order), 1 / (2 * order), 2 * order - 1
+def smaller(order: sp.Expr, low: sp.Expr, high: sp.Expr, after: sp.Expr) -> list[Implication]:
+    """The decay from a smaller value is smaller, as far as powers are concerned."""
+    if order == 1:
+        return []
+    power = 2 * order - 2
+    below, above = (value**power / denominator(value, after, order) for value in (low, high))
+    return [power_monotone(low, high, power), power_monotone(below, above, 1 / power)]
+
+
+def regular(order: sp.Expr, value: sp.Expr, after: sp.Expr) -> list[Implication]:
+    """The denominator of the decay, and its root, are positive."""
+    return [] if order == 1 else [power_positive(denominator(value, after, order), 1 / (2 * order - 2))]
+
+
+def comparison_functions(order: sp.Expr, tag: str, words: str) -> tuple[Claim, Claim, Claim, Claim]:
+    """γ is of class K, the decay is monotone, β vanishes and is of class KL, for one kind of κ."""
+    linear, h, root, exponent = order == 1, rate_of(order), 1 / (2 * order), 2 * order - 1
 
     @claim(
         f"prop/gamma-class-k-{tag}", f"γ is of class K ({words})",
@@ -156,17 +165,6 @@ def estimates(order: sp.Expr, tag: str, words: str) -> tuple[Claim, ...]:
         lemmas = [] if linear else [power_strict(low / h, second / h, inverse)]
         return reals(goal, *lemmas)
 
-    def smaller(low: sp.Expr, high: sp.Expr, after: sp.Expr) -> list[Implication]:
-        if linear:
-            return []
-        power = 2 * order - 2
-        smaller, larger = (value**power / denominator(value, after, order) for value in (low, high))
-        return [power_monotone(low, high, power), power_monotone(smaller, larger, 1 / power)]
-
-    def regular(value: sp.Expr, after: sp.Expr) -> list[Implication]:
-        """The denominator of the decay, and its root, are positive."""
-        return [] if linear else [power_positive(denominator(value, after, order), 1 / (2 * order - 2))]
-
     @claim(
         f"prop/decay-monotone-{tag}", f"The decay from a smaller value is smaller ({words})",
         le(decay(first, elapsed, order), decay(second, elapsed, order)), given=[le(first, second)],
@@ -174,7 +172,7 @@ def estimates(order: sp.Expr, tag: str, words: str) -> tuple[Claim, ...]:
     )  # fmt: skip
     def decay_monotone(goal: Goal) -> Evidence:
         """For κ ≥ 2 the power 2κ − 2 of the decay is y/(1 + cy) with y = w₀^(2κ−2), which increases with y."""
-        return reals(goal, *smaller(first, second, elapsed))
+        return reals(goal, *smaller(order, first, second, elapsed))
 
     @claim(
         f"prop/beta-zero-{tag}", f"β is 0 at the source and tends to 0 with time ({words})",
@@ -204,6 +202,13 @@ def estimates(order: sp.Expr, tag: str, words: str) -> tuple[Claim, ...]:
         before, after = (value**power / denominator(value, elapsed, order) for value in (near, far))
         return reals(goal, power_strict(near, far, power), power_strict(before, after, 1 / power))
 
+    return gamma_class_k, decay_monotone, beta_vanishes, beta_class_kl
+
+
+def one_interval(order: sp.Expr, tag: str, words: str, decay_monotone: Claim) -> tuple[Claim, Claim]:
+    """The estimates of U and of the distance on [p, τ], for one kind of κ."""
+    linear, h, root, exponent = order == 1, rate_of(order), 1 / (2 * order), 2 * order - 1
+
     @claim(
         f"prop/u-estimate-{tag}", f"U stays below its decay plus the level where ζ balances it ({words})",
         le(U_at(tau), decay(U_at(start), tau - start, order) + (Z / h) ** (1 / exponent)),
@@ -221,12 +226,10 @@ def estimates(order: sp.Expr, tag: str, words: str) -> tuple[Claim, ...]:
         lemmas = [] if linear else [superadditive(falling, level, exponent)]
         return comparison(goal, falling + level, denominators=denominators, lemmas=lemmas)
 
-    known: list[Assumption] = [le(a2, a1)]
-
     @claim(
         f"prop/upper-bound-{tag}", f"The input-to-state estimate with the printed gain ({words})",
         le(distance(tau), beta(distance(start), tau - start, order) + gamma(Z, order)),
-        given=[ge(tau, start), falls(order, Z, ge(s, start), le(s, tau)), *known, *bounds_at(order, tau, start)],
+        given=[ge(tau, start), falls(order, Z, ge(s, start), le(s, tau)), le(a2, a1), *bounds_at(order, tau, start)],
         labels=["eq:upper_bound"], uses=[u_estimate, decay_monotone, u_bounds, constants_ordered],
     )  # fmt: skip
     def upper_bound(goal: Goal) -> Evidence:
@@ -235,134 +238,8 @@ def estimates(order: sp.Expr, tag: str, words: str) -> tuple[Claim, ...]:
         values = {first: U_at(start), second: a1**root * distance(start), elapsed: tau - start}
         return reals(
             goal, *specialise(goal, u_estimate, {}), *specialise(goal, decay_monotone, values),
-            power_monotone(sp.S.One, a1 / a2, root), *regular(U_at(start), tau - start),
-            *regular(a1**root * distance(start), tau - start),
+            power_monotone(sp.S.One, a1 / a2, root), *regular(order, U_at(start), tau - start),
+            *regular(order, a1**root * distance(start), tau - start),
         )  # fmt: skip
 
-    whole = falls(order, zeta_at(s, order), ge(s, t0), le(s, tau))
-    first_part = le(distance(half), beta(distance(t0), (tau - t0) / 2, order) + gamma(g * d, order))
-    second_part = le(distance(tau), beta(distance(half), (tau - t0) / 2, order) + gamma(halved(tau, order), order))
-
-    @claim(
-        f"prop/upper-bound-first-half-{tag}", f"The estimate on the first half ({words})", first_part,
-        given=[ge(tau, t0), whole, *known, *bounds_at(order, half, t0)],
-        labels=["eq:upper_bound1"], uses=[upper_bound, zeta_suprema],
-    )  # fmt: skip
-    def upper_bound_1(goal: Goal) -> Evidence:
-        """From t₀ to the middle, where ζ is at most h₂ times the largest bound of the drift."""
-        return reals(goal, *specialise(goal, upper_bound, {start: t0, tau: half, Z: g * d}))
-
-    @claim(
-        f"prop/upper-bound-second-half-{tag}", f"The estimate on the second half ({words})", second_part,
-        given=[ge(tau, t0), whole, *known, *bounds_at(order, tau, half)],
-        labels=["eq:upper_bound2"], uses=[upper_bound, zeta_suprema],
-    )  # fmt: skip
-    def upper_bound_2(goal: Goal) -> Evidence:
-        """From the middle on, where ζ has become small."""
-        return reals(goal, *specialise(goal, upper_bound, {start: half, Z: halved(tau, order)}))
-
-    everywhere = [*bounds_at(order, half, t0), *bounds_at(order, tau, half)]
-
-    def inner(duration: sp.Expr) -> sp.Expr:
-        return beta(distance(t0), duration / 2, order) + gamma(g * d, order)
-
-    @claim(
-        f"prop/finale-{tag}", f"Both halves together ({words})",
-        le(distance(tau), beta(middle_bound, (tau - t0) / 2, order) + gamma(halved(tau, order), order)),
-        given=[eq(middle_bound, inner(tau - t0)), ge(tau, t0), whole, *known, *everywhere],
-        labels=["eq:finale"], uses=[upper_bound_1, upper_bound_2, decay_monotone],
-    )  # fmt: skip
-    def finale(goal: Goal) -> Evidence:
-        """β increases with its first argument, so the estimate at the middle may be put into it. X abbreviates what is
-        printed there: β of the initial distance plus the gain of the first half's input."""
-        low_end, high_end, duration = a1**root * distance(half), a1**root * middle_bound, (tau - t0) / 2
-        return reals(
-            goal, *specialise(goal, upper_bound_1, {}), *specialise(goal, upper_bound_2, {}),
-            *specialise(goal, decay_monotone, {first: low_end, second: high_end, elapsed: duration}),
-            *regular(low_end, duration), *regular(high_end, duration),
-        )  # fmt: skip
-
-    input_in_t = g * d / (1 + (t - t0) / (2 * T * nu(t - t0))) ** 2
-    duration_in_t = (t - t0) / nu(t - t0)
-
-    @claim(
-        f"prop/finale-in-t-{tag}", f"The estimate in the original time ({words})",
-        le(distance_in_t(t), beta(middle_bound, duration_in_t / 2, order) + gamma(input_in_t, order)),
-        given=[
-            ge(t, t0), lt(t, t0 + T), *known,
-            eq(distance_in_t(t), distance(end)), eq(middle_bound, inner(duration_in_t)),
-            falls(order, zeta_at(s, order), ge(s, t0), le(s, end)),
-            *(part.map(lambda side: side.subs(tau, end)) for part in everywhere),
-        ],
-        labels=["eq:finale_t"], uses=[finale],
-    )  # fmt: skip
-    def finale_in_t(goal: Goal) -> Evidence:
-        """The same signal on the other clock: τ − t₀ is replaced by (t − t₀)/ν, also in X."""
-        return reals(goal, *specialise(goal, finale, {tau: end}))
-
-    if linear:
-        after_all = beta(inner(tau - t0), (tau - t0) / 2, order) + gamma(halved(tau, order), order)
-        towards_zero = beta(inner(duration_in_t), duration_in_t / 2, order) + gamma(input_in_t, order)
-        bounded_steps: list[Claim] = []
-    else:
-        after_all = fixed((tau - t0) / 2, order) + gamma(halved(tau, order), order)
-        towards_zero = fixed(duration_in_t / 2, order) + gamma(input_in_t, order)
-
-        @claim(
-            f"prop/beta-uniform-{tag}", f"β has a bound that does not depend on the distance ({words})",
-            le(beta(second, low, order), fixed(low, order)), place="Proof of the Proposition",
-        )  # fmt: skip
-        def beta_uniform(goal: Goal) -> Evidence:
-            """The power law forgets where it started: (w₀/D)^(2κ−2) is below 1/((2κ − 2)h₁ times the time)."""
-            power = 2 * order - 2
-            value = a1**root * second
-            ratio = value**power / denominator(value, low, order)
-            return reals(goal, power_monotone(ratio, 1 / (power * h * low), 1 / power))
-
-        bounded_steps = [beta_uniform]
-
-    @claim(
-        f"prop/finale-limit-{tag}", f"The bound tends to 0 in both times ({words})",
-        every(eq(sp.Limit(after_all, tau, sp.oo, "-"), 0), eq(sp.Limit(towards_zero, t, t0 + T, "-"), 0)),
-        labels=["eq:finale", "eq:finale_t"], uses=[finale, finale_in_t, *bounded_steps],
-    )  # fmt: skip
-    def finale_limit(goal: Goal) -> Evidence:
-        """For κ ≥ 2 with β replaced by its bound that does not depend on the distance, which also covers a drift that
-        is zero."""
-        return limits(goal)
-
-    roots = [
-        ForAll((s,), le(a2**root * distance(s), U_at(s)), (ge(s, t0),)),
-        ForAll((s,), le(U_at(s), a1**root * distance(s)), (ge(s, t0),)),
-    ]
-    clock = ForAll((s,), eq(distance_in_t(s), distance(end.subs(t, s))), (ge(s, t0), lt(s, t0 + T)))
-
-    @claim(
-        f"prop/convergence-{tag}", f"The averaged vehicle reaches the source in the prescribed time ({words})",
-        eq(sp.Limit(distance_in_t(t), t, t0 + T, "-"), 0),
-        given=[falls(order, zeta_at(s, order), ge(s, t0)), *roots, clock, *known],
-        labels=["proposition"], uses=[finale_in_t, upper_bound_2, finale_limit, *bounded_steps],
-    )  # fmt: skip
-    def convergence(goal: Goal) -> Evidence:
-        """The statement of the Proposition: the distance lies between 0 and a bound that tends to 0 as t tends to
-        t₀ + T. For κ ≥ 2 the estimate on the second half alone is enough, since β forgets the distance."""
-
-        def facts(there: Goal) -> list[Implication]:
-            middle = half.subs(tau, end)
-            points = instances(there, t0, middle, end, t)
-            if linear:
-                return [*specialise(there, finale_in_t, {middle_bound: inner(duration_in_t)}), *points]
-            values = {second: distance(middle), low: duration_in_t / 2}
-            last = specialise(there, upper_bound_2, {tau: end})
-            return [*last, *specialise(there, bounded_steps[0], values), *points]
-
-        return squeezed(goal, towards_zero, [gt(t, t0), lt(t, t0 + T)], facts)
-
-    return (
-        gamma_class_k, decay_monotone, beta_vanishes, beta_class_kl, u_estimate, upper_bound, upper_bound_1,
-        upper_bound_2, finale, finale_in_t, *bounded_steps, finale_limit, convergence,
-    )  # fmt: skip
-
-
-kappa_1 = estimates(sp.Integer(1), "kappa-1", "κ = 1")
-kappa_2 = estimates(m + 1, "kappa-2", "κ ≥ 2")
+    return u_estimate, upper_bound

@@ -1,4 +1,4 @@
-"""Section 5, Theorem 2, Steps 4 to 6: the Lyapunov chain, the averaging theorem, and back to the original time."""
+"""Section 5, Theorem 2, Step 4: the Lyapunov function, and stability without drift."""
 
 from __future__ import annotations
 
@@ -16,29 +16,20 @@ from ptproof.proof import (
     eq,
     every,
     exact,
-    exp_monotone,
     ge,
-    gt,
-    integrals,
     le,
-    limits,
     lt,
     power_monotone,
     power_positive,
     reals,
-    specialise,
 )
 
 from . import chain
 from .notation import (
-    R0,
-    V0,
-    E_norm,
     F,
     F_source,
     G,
     R,
-    T,
     V,
     a1,
     a2,
@@ -53,14 +44,9 @@ from .notation import (
     tau,
     x1,
     x2,
-    y_tilde,
 )  # fmt: skip
-from .section2_preliminaries import averaging_theorem, contraction_rate
-from .section2_preliminaries import boundary_layer as general_boundary_layer
-from .section3_problem import spectral_norm
-from .section4_design import closed_loop_in_t
-from .section5a_averaging import assumption_1, averaged_system, boundary_layer, f_tau, qualitative, stretch
-from .section5a_bounds import assumption_a_drift, assumption_b_drift_derivatives
+from .section5a_1_reduction import f_tau, stretch
+from .section5a_2_averaging import averaged_system
 
 SECTION = "5.2 Theorem, Steps 4 to 6: stability"
 ONE = sp.S.One
@@ -247,163 +233,3 @@ lyapunov_theorem = claim(
           "asymptotically stable for the averaged system in τ"),
     expected="cited", place="Step 4, case i", uses=[v_bounds, driftless, driftless_definite],
 )(cited("Khalil, Nonlinear Systems, Theorem 4.9"))  # fmt: skip
-
-# --- Case ii: gradient drift, κ = 1 -------------------------------------------------------------------------
-
-B1, B2 = c(1, ONE), c(2, ONE)
-between_1 = tuple(relation.map(lambda e: e.subs(kappa, 1)) for relation in (*between, *gradient_between))
-case_two = le(V_dot, B2**2 * E_norm * V / stretch**2 - k * B1**2 / 2 * V)
-
-
-@claim(
-    "5/step4-gradient-drift", "With gradient drift and κ = 1 the inequality is linear in V", case_two,
-    given=[after, derivative_given, le(f_norm, E_norm * G), *between_1],
-    labels=["eq:lyapunov_derivative_inequality_kappa_1"],
-    uses=[spectral_norm, v_differential_inequality, gradient_bounds],
-)  # fmt: skip
-def gradient_drift(goal: Goal) -> Evidence:
-    """2q₁ = 1, and ‖E∇F‖ ≤ ‖E‖‖∇F‖ is bounded by c₂‖E‖ times the root of V."""
-    return reals(
-        goal,
-        *specialise(goal, v_differential_inequality, {kappa: ONE}),
-        *specialise(goal, gradient_bounds, {kappa: ONE}),
-    )
-
-
-drift_rate = B2**2 * E_norm
-decay_rate = k * B1**2 / 2
-elapsed = tau - t0
-
-
-@claim(
-    "5/step4-integral-of-the-drift", "The drift's factor has the integral ‖l₁‖₁ = c₂²‖E‖T",
-    eq(sp.Integral(drift_rate / (1 + x1 / T) ** 2, (x1, 0, sp.oo)), drift_rate * T), place="Step 4, case ii",
-)  # fmt: skip
-def drift_integral(goal: Goal) -> Evidence:
-    """In the variable τ − t₀; this is why the growth by the drift is bounded however strong the drift is."""
-    return integrals(goal)
-
-
-lag = sp.Symbol("tau_hat", nonnegative=True)  # τ − t₀
-
-
-@claim(
-    "5/step4-lemma-hypotheses", "What the cited comparison lemma asks of its data",
-    every(ge(drift_rate / (1 + lag / T) ** 2, 0), gt(decay_rate, 0)), place="Step 4, case ii",
-)  # fmt: skip
-def lemma_hypotheses(goal: Goal) -> Evidence:
-    """c = k c₁²/2 > 0, l₁ ≥ 0 and l₂ = 0; that l₁ is integrable is the claim before. The bound itself is proved below
-    without the lemma."""
-    return reals(goal)
-
-
-exponent = drift_rate * (s - t0) / (1 + (s - t0) / T) - decay_rate * (s - t0)
-
-
-@claim(
-    "5/step4-exponential-bound", "V decreases exponentially in τ up to a factor",
-    le(V_t(tau), V_t(t0) * sp.exp(drift_rate * T) * sp.exp(-decay_rate * elapsed)),
-    given=[on_interval(drift_rate / (1 + (s - t0) / T) ** 2 * V_t(s) - decay_rate * V_t(s), V_t(s)), after],
-    labels=["eq:Lyapunov_inequality_upper_bound"], uses=[gradient_drift, drift_integral],
-)  # fmt: skip
-def exponential_bound(goal: Goal) -> Evidence:
-    """The linear comparison equation is solved and its solution checked; the integral of the drift's factor up to τ is
-    then replaced by its limit."""
-    bounded = exp_monotone(exponent.subs(s, tau), drift_rate * T - decay_rate * elapsed)
-    return comparison(goal, V_t(t0) * sp.exp(exponent), denominators=[1 + (s - t0) / T], lemmas=[bounded])
-
-
-growth, decay = sp.exp(drift_rate * T), sp.exp(-decay_rate * elapsed)
-distance_bound = (  # as printed
-    sp.sqrt(a1 / a2) * R0 * sp.exp(c(2, ONE) ** 2 / 2 * E_norm * T) * sp.exp(-k * c(1, ONE) ** 2 / 4 * (tau - t0))
-)
-
-
-@claim(
-    "5/step4-distance-bound", "The distance decreases exponentially in τ up to a factor", le(R, distance_bound),
-    given=[le(a2 * R**2, V), le(V0, a1 * R0**2), le(V, V0 * growth * decay)],
-    labels=["eq:x_bar_upper_bound"], uses=[exponential_bound, v_bounds],
-)  # fmt: skip
-def distance_bound_tau(goal: Goal) -> Evidence:
-    """V is bounded by the squared distance from below at τ and from above at t₀; then the root is taken,
-    which halves both exponents: half of c₂²‖E‖T, and a quarter of k c₁²."""
-    return reals(goal)
-
-
-@claim(
-    "5/step4-distance-limit", "The bound tends to 0", eq(sp.Limit(distance_bound, tau, sp.oo, "-"), 0),
-    place="Step 4, case ii", uses=[distance_bound_tau],
-)  # fmt: skip
-def distance_limit(goal: Goal) -> Evidence:
-    """However large the drift is."""
-    return limits(goal)
-
-
-start = sp.Symbol("tau_0", real=True)
-
-
-@claim(
-    "5/step4-uniform", "The bound is uniform in the time at which the averaged system is started",
-    le(
-        drift_rate * ((tau - t0) / (1 + (tau - t0) / T) - (start - t0) / (1 + (start - t0) / T)),
-        drift_rate * T,
-    ),
-    given=[ge(start, t0), ge(tau, start)], place="Step 4, case ii", uses=[exponential_bound],
-)  # fmt: skip
-def uniform(goal: Goal) -> Evidence:
-    """The averaged system depends on τ, so uniformity needs a word: from any later start the drift contributes at most
-    the same factor."""
-    return reals(goal)
-
-
-guas = claim(
-    "5/step4-guas", "With gradient drift and κ = 1 the source is globally uniformly asymptotically stable",
-    Prose("x* is globally uniformly asymptotically stable for the averaged system in τ, by the class-KL bound"),
-    expected="cited", place="Step 4, case ii", uses=[distance_bound_tau, distance_limit, uniform],
-)(cited("Khalil, Nonlinear Systems, Lemma 4.5: a class-KL bound that is uniform in the initial time"))  # fmt: skip
-
-# --- Steps 5 and 6 ------------------------------------------------------------------------------------------
-
-V_layer = y_tilde**2 / 2
-
-
-@claim(
-    "5/step5-layer-rate", "The boundary layer's Lyapunov function",
-    eq(-(y_tilde**2), chain.boundary_layer.derivative_along(V_layer)),
-    labels=["eq:blm_req_2"], uses=[boundary_layer, general_boundary_layer],
-)  # fmt: skip
-def layer_rate(goal: Goal) -> Evidence:
-    """V(ỹ) = ỹ²/2 decreases at the rate ỹ², which is a class-K function of |ỹ|."""
-    return exact(goal)
-
-
-@claim(
-    "5/step5-layer-bounds", "It lies between class-K∞ functions, and so does its rate",
-    every(
-        le(sp.Abs(y_tilde) ** 2 / 2, V_layer), le(V_layer, sp.Abs(y_tilde) ** 2 / 2),
-        le(chain.boundary_layer.derivative_along(V_layer), -(sp.Abs(y_tilde) ** 2)),
-    ),
-    labels=["eq:blm_req_1", "eq:blm_req_2"], uses=[layer_rate],
-)  # fmt: skip
-def layer_bounds(goal: Goal) -> Evidence:
-    """α₁ = α₂ = s²/2 and α₃ = s²."""
-    return reals(goal)
-
-
-step_five = claim(
-    "5/step5-averaging-applies", "The source is sSPUAS for the closed loop in dilated time",
-    Prose("By Theorem 1 the source is singularly semi-globally practically uniformly asymptotically stable for the "
-          "closed loop in τ, in both cases of Theorem 2"),
-    expected="cited", place="Step 5",
-    uses=[
-        averaging_theorem, *assumption_1, assumption_a_drift, assumption_b_drift_derivatives, layer_bounds,
-        lyapunov_theorem, guas, qualitative,
-    ],
-)(cited("the paper's Theorem 1, whose hypotheses are the claims listed"))  # fmt: skip
-
-main_theorem = claim(
-    "5/main-theorem", "Theorem 2: prescribed-time seeking under vanishing drift",
-    Prose("The source is FxT-sSPUAS for the closed loop in t, without drift for every κ, and with drift E∇F for κ = 1"),
-    expected="cited", labels=["thm:main_theorem"], place="Theorem 2",
-    uses=[step_five, closed_loop_in_t, contraction_rate],
-)(cited("Step 5 and the time contraction, which is increasing and carries trajectories to trajectories"))  # fmt: skip
