@@ -147,7 +147,9 @@ def capped(clock: Clock, nu_min: sp.Expr) -> CappedClock:
 
 
 def _settled(value: sp.Expr) -> sp.Expr:
-    """The value at the corner in a short form, where that is shown to be the same."""
+    """The value at the corner in a short form, where that is shown to be the same; a number stays as it is."""
+    if not value.free_symbols:  # exp(899/101) − 1 has factors without end
+        return value
     for form in (factored(sp.cancel(settle(value))), settle(sp.simplify(value)), settle(value)):
         # SymPy would write 1 + tan² as 1/cos², whose denominator hides that it is positive.
         if vanishes(form - value) and (form.has(sp.tan) or not value.has(sp.tan)):
