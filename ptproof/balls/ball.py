@@ -9,12 +9,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import lru_cache
+from itertools import pairwise
 from typing import Any
 
 import flint
 import sympy as sp
 from flint import arb
 
+from ptproof.balls.rounding import up
 from ptproof.balls.tape import Tape, Undefined, compile_tape
 
 __all__ = ["BALLS", "Undefined", "ball_from", "enclose", "enclosure_text", "interval", "precision", "separated"]
@@ -193,6 +195,18 @@ def enclose(expression: sp.Expr, values: Mapping[sp.Symbol, Any] | None = None, 
         for symbol, ball in zip(symbols, inputs, strict=True):
             _respect(symbol, ball)
         return _finite(_tape(sp.sympify(expression), symbols).run(inputs, BALLS)[0], expression)
+
+
+def largest_along(
+    expression: sp.Expr, values: Mapping[sp.Symbol, Any], symbol: sp.Symbol, ends: tuple[Any, Any], pieces: int
+) -> float:
+    """What ``expression`` does not exceed while ``symbol`` runs from one end to the other, cut into equal pieces.
+
+    ``values`` are those of the other symbols, as for :func:`enclose`; raises :class:`Undefined` as it does.
+    """
+    low, high = map(ball_from, ends)
+    marks = [low + (high - low) * i / pieces for i in range(pieces + 1)]
+    return max(up(enclose(expression, {symbol: interval(*pair), **values})) for pair in pairwise(marks))
 
 
 def _respect(symbol: sp.Symbol, ball: arb) -> None:

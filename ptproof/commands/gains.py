@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-import json
 from typing import TYPE_CHECKING, Any
 
 import click
+
+from ptproof.commands import options
+from ptproof.errors import InputError
 
 if TYPE_CHECKING:
     import sympy as sp
@@ -26,7 +28,8 @@ _NUMBERS = {
     "drift-bound": "Largest norm of a bounded drift.",
     "k": "Gain.",
     "T": "Prescribed time.",
-    "nu-min": "Where the gain 1/nu^2 is clipped.",
+    "nu-min": "Where the clock's rate, 1/nu^2 for the paper's, is capped.",
+    "exponent": "The m of the clock 'power', whose rate is 1/nu^(m + 1).",
     "V0": "F(x*) - F at the start.",
     "x0-norm": "Distance to the source at the start.",
     "tau-star": "A stretched time at which the bound may escape.",
@@ -36,29 +39,6 @@ _NUMBERS = {
     "residual": "A distance that is wanted at t0 + T (exit status 1 if it is not guaranteed).",
     "radius": "Of the ball on which a problem's constants are certified.",
 }
-_LABELS = {
-    "constants.q": "exponent q", "constants.sigma": "exponent σ = 2q − 1",
-    "constants.c1": "c₁ = b₁/a₁^q", "constants.c2": "c₂ = b₂/a₂^q",
-    "asymptotic.k_min_printed": "least k, as printed", "asymptotic.k_min": "least k that suffices",
-    "prescribed_time.overshoot": "overshoot factor, as printed", "prescribed_time.rate": "decay rate in τ",
-    "prescribed_time.overshoot_split": "overshoot factor, sharper",
-    "critical.V0_at_tau_star": "V₀ that escapes at τ*", "critical.V0_threshold_printed": "safe V₀ below, as printed",
-    "critical.V0_threshold": "safe V₀ below", "critical.T_threshold_printed": "safe T below, as printed",
-    "critical.T_threshold": "safe T below", "critical.escape_time": "the printed bound escapes at τ",
-    "critical.escape_time_split": "the sharper bound escapes at τ",
-    "nonvanishing.h1": "h₁", "nonvanishing.h2": "h₂", "nonvanishing.gamma": "γ(h₂d), as printed",
-    "nonvanishing.ultimate_bound": "ultimate distance",
-    "nonvanishing.ultimate_bound_printed": "ultimate distance, printed γ",
-    "nonvanishing.exact_bound": "exact bound in τ, unclipped",
-    "clip.tau_end": "τ reached at t₀ + T", "clip.k_effective": "gain after the clip, k/ν_min²",
-    "clip.k_min_after_clip": "least k for convergence after the clip", "clip.u1_peak": "peak of u₁",
-    "clip.u2_peak": "peak of |u₂| while r ≤ r₀", "clip.residual_bound": "distance at t₀ + T is at most",
-    "clip.residual_bound_printed": "the same, as printed", "clip.nu_min_for_residual": "largest ν_min for the residual",
-}  # fmt: skip
-_TITLES = {
-    "constants": "Constants", "asymptotic": "Asymptotic seeker", "prescribed_time": "Prescribed time",
-    "critical": "Critical start and time", "nonvanishing": "Drift that does not vanish", "clip": "Clipped gain",
-}  # fmt: skip
 
 
 def _options(command: Any) -> Any:
@@ -70,9 +50,10 @@ def _options(command: Any) -> Any:
 @click.command()
 @click.argument("problem", required=False, metavar="[PROBLEM.toml]")
 @_options
-@click.option("--plot", "picture", metavar="FILE", help="Write a picture of the bounds.")
-@click.option("--json", "as_json", is_flag=True, help="Print JSON on standard output.")
-def gains(problem: str | None, picture: str | None, as_json: bool, **texts: str | None) -> int:
+@click.option("--clock", metavar="NAME", help="paper, power, logarithmic, exponential or tangent (default: paper).")
+@options.plot("a picture of the bounds")
+@options.as_json
+def gains(problem: str | None, clock: str | None, plot: str | None, as_json: bool, **texts: str | None) -> int:
     """Compute every gain condition and bound for a problem or for given constants.
 
     Numbers are exact: "1.8", "9/5" and "2*pi/3" all work. For a problem file (or the name of one of the paper's
@@ -82,24 +63,23 @@ def gains(problem: str | None, picture: str | None, as_json: bool, **texts: str 
     \b
     Example:  ptproof gains --kappa 2 --a1 3/2 --a2 1/2 --b1 1.4 --b2 3.3 --drift-norm 1.5 --k 1.8 --T 1 --V0 0.5
     """
-    from ptproof.errors import InputError
     from ptproof.reading.expressions import parse
 
     values: dict[str, Any] = {
         name: parse(text, where=f"--{name.replace('_', '-')}") for name, text in texts.items() if text is not None
     }
-    radius = values.pop("radius", None)
-    if problem is None:
-        missing = [f"--{name}" for name in _CONSTANTS if name not in values]
-        if missing:
-            raise InputError(f"without a problem file the field's constants are needed: {', '.join(missing)}")
-        if radius is not None:
-            raise InputError("--radius: only a problem file has a field to certify")
-        return _from_numbers(values, picture, as_json)
-    return _from_problem(problem, radius, values, picture, as_json)
+    if clock is not None:
+        values["clock"] = clock
+    if problem is not None:
+        return _from_problem(problem, values, plot, as_json)
+    if missing := [f"--{name}" for name in _CONSTANTS if name not in values]:
+        raise InputError(f"without a problem file the field's constants are needed: {', '.join(missing)}")
+    if "radius" in values:
+        raise InputError("--radius: only a problem file has a field to certify")
+    return _from_numbers(values, plot, as_json)
 
 
-def _from_numbers(values: dict[str, Any], picture: str | None, as_json: bool) -> int:
+def _from_numbers(values: dict[str, Any], plot: str | None, as_json: bool) -> int:
     from ptproof.gains import GainData
     from ptproof.gains import gains as answer_for
     from ptproof.problem.field import FieldBounds
@@ -108,37 +88,40 @@ def _from_numbers(values: dict[str, Any], picture: str | None, as_json: bool) ->
     answer = answer_for(GainData(bounds, **values))
     if answer.data.impossible is not None:
         click.echo(f"ptproof: warning: {answer.data.impossible}", err=True)
-    if picture is not None:
+    if plot is not None:
         from ptproof.gains.plot import plot_gains
 
-        plot_gains(picture, answer.data)
+        plot_gains(plot, answer.data)
     bound = answer["clip.residual_bound"]
     met = _met(values.get("residual"), None if bound is None else bound.value)
     if as_json:
-        click.echo(json.dumps(answer.to_json(), indent=2, ensure_ascii=False))
+        options.print_json(answer.to_json())
     else:
         _table(answer)
         _say_residual(values.get("residual"), met)
     return 1 if met is False else 0
 
 
-def _from_problem(name: str, radius: Any, values: dict[str, Any], picture: str | None, as_json: bool) -> int:
-    from ptproof.gains.problem import study
+def _from_problem(name: str, values: dict[str, Any], plot: str | None, as_json: bool) -> int:
+    from ptproof.gains import study
     from ptproof.problem import EXAMPLES, example, load
     from ptproof.simulation.worst import worst_distance
 
-    problem = example(name) if name in EXAMPLES else load(name)
-    problem = _changed(problem, values)
-    result = study(problem, bounds=_declared(problem, values), radius=radius, **values)
+    problem = _changed(example(name) if name in EXAMPLES else load(name), values)
+    bounds = _declared(problem, values)
+    try:
+        result = study(problem, bounds=bounds, **values)
+    except InputError as error:
+        raise InputError(f"{name}: {error}") from None
     simulated = worst_distance(problem, result.curve.initial)
-    if picture is not None:
+    if plot is not None:
         from ptproof.gains.plot import plot_gains
 
-        plot_gains(picture, None if result.answer is None else result.answer.data, result.curve, simulated.curves)
+        plot_gains(plot, None if result.answer is None else result.answer.data, result.curve, simulated.curves)
     best = min((bound for bound in result.bounds_at_end.values() if bound is not None), default=None)
     met = _met(values.get("residual"), best)
     if as_json:
-        click.echo(json.dumps(_problem_json(result, simulated.worst, simulated.why), indent=2, ensure_ascii=False))
+        options.print_json(_problem_json(result, simulated.worst, simulated.why))
     else:
         if result.answer is not None:
             _table(result.answer)
@@ -149,7 +132,6 @@ def _from_problem(name: str, radius: Any, values: dict[str, Any], picture: str |
 
 def _declared(problem: Problem, values: dict[str, Any]) -> FieldBounds | None:
     """The constants out of the options, which then take the place of certified ones."""
-    from ptproof.errors import InputError
     from ptproof.problem.field import FieldBounds
 
     kappa = values.pop("kappa", problem.kappa)
@@ -167,7 +149,10 @@ def _changed(problem: Problem, values: dict[str, Any]) -> Problem:
     """The problem with the tuning that the options replace; the rest of ``values`` stays."""
     import dataclasses
 
-    tuning = {name: values.pop(name) for name in ("k", "T", "t0", "nu_min", "omega", "mu") if name in values}
+    names = ("k", "T", "t0", "nu_min", "omega", "mu", "clock", "exponent")
+    tuning = {name: values.pop(name) for name in names if name in values}
+    if "clock" in tuning:
+        tuning.setdefault("exponent", None)
     return dataclasses.replace(problem, tuning=dataclasses.replace(problem.tuning, **tuning))
 
 
@@ -212,20 +197,22 @@ def _problem_json(result: Study, worst: float | None, why: str) -> dict[str, Any
 def _table(answer: Gains) -> None:
     import shutil
 
+    from ptproof.gains.entries import ENTRIES, TITLES
+
     room = max(24, shutil.get_terminal_size((110, 24)).columns - 56)
     for section, entries in answer.values.items():
-        click.secho(_TITLES[section], bold=True)
+        click.secho(TITLES[section], bold=True)
         reasons = {answer.why.get(f"{section}.{key}") for key in entries}
         if len(reasons) == 1 and None not in reasons:
             click.echo(f"  — {reasons.pop()}")
             continue
         for key, quantity in entries.items():
-            if quantity is None:
-                shown, exact = "—", answer.why[f"{section}.{key}"]
-            else:
+            shown, beside = "—", answer.why.get(f"{section}.{key}", "")
+            if quantity is not None:
                 shown, exact = quantity.text, str(quantity.exact)
-            exact = exact if quantity is None or len(exact) <= room else exact[: room - 1] + "…"
-            click.echo(f"  {_LABELS[f'{section}.{key}']:<38}{shown:>13}  " + click.style(exact, dim=True))
+                beside = exact if len(exact) <= room else "" if shown else "a formula in tau; see --json"
+            row = f"  {ENTRIES[section][key].label:<38}{shown:>13}"
+            click.echo(f"{row}  {click.style(beside, dim=True)}" if beside else row)
 
 
 def _summary(result: Study, worst: float | None, why: str) -> None:

@@ -63,9 +63,9 @@ def gains(data: GainData) -> Gains:
     values: dict[str, Mapping[str, Quantity | None]] = {}
     for section, entries in ENTRIES.items():
         found: dict[str, Quantity | None] = {}
-        for key, compute in entries.items():
+        for key, entry in entries.items():
             try:
-                found[key] = Quantity(compute(data))
+                found[key] = Quantity(entry.compute(data))
             except NotApplicable as reason:
                 found[key] = None
                 why[f"{section}.{key}"] = str(reason)

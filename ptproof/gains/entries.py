@@ -3,13 +3,47 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import partial
 from types import MappingProxyType
+from typing import Any, TypeAlias
 
 import sympy as sp
 
 from ptproof.gains import nonvanishing, vanishing
 from ptproof.gains.data import GainData
 from ptproof.gains.numbers import NotApplicable, sign, times_exponential
+from ptproof.gains.vanishing import Chain
+
+Formula: TypeAlias = Callable[..., sp.Expr]
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A key of the answer: what a table calls it, and its expression for given data."""
+
+    label: str
+    compute: Callable[[GainData], sp.Expr]
+
+
+TITLES: Mapping[str, str] = MappingProxyType({
+    "constants": "Constants", "asymptotic": "Asymptotic seeker", "prescribed_time": "Prescribed time",
+    "critical": "Critical start and time", "nonvanishing": "Drift that does not vanish", "clip": "Clipped gain",
+})  # fmt: skip
+_entries: dict[str, dict[str, Entry]] = {section: {} for section in TITLES}
+ENTRIES: Mapping[str, Mapping[str, Entry]] = MappingProxyType(_entries)
+"""Section to key to entry, in the order of this module."""
+
+
+def _entry(key: str, label: str, **chosen: Any) -> Callable[[Formula], Formula]:
+    """Put the function into :data:`ENTRIES` under ``section.key``; ``chosen`` are its further arguments."""
+
+    def put(formula: Formula) -> Formula:
+        section, name = key.split(".")
+        _entries[section][name] = Entry(label, partial(formula, **chosen))
+        return formula
+
+    return put
 
 
 def _along_gradient(data: GainData) -> None:
@@ -23,36 +57,56 @@ def _quadratic(data: GainData) -> None:
         raise NotApplicable("for kappa = 1 only: with kappa >= 2 the average decays like a power of tau")
 
 
-def _higher(data: GainData) -> None:
+def _higher(data: GainData, chain: Chain) -> None:
     _along_gradient(data)
     if data.bounds.kappa == 1:
         raise NotApplicable("for kappa = 1 the bound is finite for every V0 and T")
+    _known_chain(data, chain)
 
 
-def _printed(data: GainData, chain: vanishing.Chain) -> None:
+def _known_chain(data: GainData, chain: Chain) -> None:
     if chain == "printed":
         data.unit.only_printed()
 
 
+@_entry("constants.c2", "c₂ = b₂/a₂^q", name="c2")
+@_entry("constants.c1", "c₁ = b₁/a₁^q", name="c1")
+@_entry("constants.sigma", "exponent σ = 2q − 1", name="sigma")
+@_entry("constants.q", "exponent q", name="q")
+def _constant(data: GainData, name: str) -> sp.Expr:
+    return getattr(data.bounds, name)
+
+
+@_entry("asymptotic.k_min_printed", "least k, as printed")
 def _k_min_printed(data: GainData) -> sp.Expr:
     _along_gradient(data)
     return vanishing.smallest_gain_printed(data.bounds, data.norm)
 
 
+@_entry("asymptotic.k_min", "least k that suffices")
 def _k_min(data: GainData) -> sp.Expr:
     _along_gradient(data)
     return vanishing.smallest_gain(data.push)
 
 
+@_entry("prescribed_time.overshoot", "overshoot factor, as printed")
 def _overshoot(data: GainData) -> sp.Expr:
     _quadratic(data)
-    data.unit.only_printed()
+    _known_chain(data, "printed")
     if data.norm == 0:
         return sp.sqrt(data.bounds.a1 / data.bounds.a2)
     (T,) = data.known("T")
     return vanishing.overshoot(data.bounds, data.norm, T)
 
 
+@_entry("prescribed_time.rate", "decay rate in τ")
+def _rate(data: GainData) -> sp.Expr:
+    _quadratic(data)
+    (k,) = data.known("k")
+    return vanishing.decay_rate(data.bounds, k)
+
+
+@_entry("prescribed_time.overshoot_split", "overshoot factor, sharper")
 def _overshoot_split(data: GainData) -> sp.Expr:
     _along_gradient(data)
     bounds = data.bounds
@@ -69,15 +123,9 @@ def _overshoot_split(data: GainData) -> sp.Expr:
     return factor * left ** (-1 / (bounds.sigma * 2 * bounds.kappa))
 
 
-def _rate(data: GainData) -> sp.Expr:
-    _quadratic(data)
-    (k,) = data.known("k")
-    return vanishing.decay_rate(data.bounds, k)
-
-
+@_entry("critical.V0_at_tau_star", "V₀ that escapes at τ*")
 def _at_tau_star(data: GainData) -> sp.Expr:
-    _higher(data)
-    data.unit.only_printed()
+    _higher(data, "printed")
     _, _, tau_star = data.known("k", "T", "tau_star")
     value = vanishing.critical_value_at(data, tau_star - data.t0)
     if value is None:
@@ -85,96 +133,104 @@ def _at_tau_star(data: GainData) -> sp.Expr:
     return value
 
 
-def _V0_threshold(chain: vanishing.Chain) -> Callable[[GainData], sp.Expr]:
-    def compute(data: GainData) -> sp.Expr:
-        _higher(data)
-        _printed(data, chain)
-        value = vanishing.critical_value(data, chain)
-        if value is None:
-            raise NotApplicable("no threshold: the bound decreases from the start, for every V0")
-        return value
-
-    return compute
+@_entry("critical.V0_threshold", "safe V₀ below", chain="split")
+@_entry("critical.V0_threshold_printed", "safe V₀ below, as printed", chain="printed")
+def _V0_threshold(data: GainData, chain: Chain) -> sp.Expr:
+    _higher(data, chain)
+    value = vanishing.critical_value(data, chain)
+    if value is None:
+        raise NotApplicable("no threshold: the bound decreases from the start, for every V0")
+    return value
 
 
-def _T_threshold(chain: vanishing.Chain) -> Callable[[GainData], sp.Expr]:
-    def compute(data: GainData) -> sp.Expr:
-        _higher(data)
-        _printed(data, chain)
-        value = vanishing.critical_horizon(data, chain, data.start_value)
-        if value is None:
-            raise NotApplicable("no threshold: the guarantee holds for every T")
-        return value
-
-    return compute
+@_entry("critical.T_threshold", "safe T below", chain="split")
+@_entry("critical.T_threshold_printed", "safe T below, as printed", chain="printed")
+def _T_threshold(data: GainData, chain: Chain) -> sp.Expr:
+    _higher(data, chain)
+    value = vanishing.critical_horizon(data, chain, data.start_value)
+    if value is None:
+        raise NotApplicable("no threshold: the guarantee holds for every T")
+    return value
 
 
-def _escape(chain: vanishing.Chain) -> Callable[[GainData], sp.Expr]:
-    def compute(data: GainData) -> sp.Expr:
-        _higher(data)
-        data.unit.only_printed()
-        initial = data.start_value
-        threshold = vanishing.critical_value(data, chain)
-        if threshold is None or sign(threshold - initial) > 0:
-            raise NotApplicable("never: V0 is below the threshold, the bound is finite for all time")
-        return data.t0 + vanishing.escape_elapsed(data, chain, initial)
-
-    return compute
+@_entry("critical.escape_time_split", "the sharper bound escapes at τ", chain="split")
+@_entry("critical.escape_time", "the printed bound escapes at τ", chain="printed")
+def _escape(data: GainData, chain: Chain) -> sp.Expr:
+    _higher(data, "printed")
+    initial = data.start_value
+    threshold = vanishing.critical_value(data, chain)
+    if threshold is None or sign(threshold - initial) > 0:
+        raise NotApplicable("never: V0 is below the threshold, the bound is finite for all time")
+    return data.t0 + vanishing.escape_elapsed(data, chain, initial)
 
 
+@_entry("nonvanishing.h1", "h₁")
 def _h1(data: GainData) -> sp.Expr:
     (k,) = data.known("k")
     return nonvanishing.damping(data.bounds, k)
 
 
+@_entry("nonvanishing.h2", "h₂")
+def _h2(data: GainData) -> sp.Expr:
+    return nonvanishing.input_factor(data.bounds)
+
+
+@_entry("nonvanishing.gamma", "γ(h₂d), as printed")
 def _gamma(data: GainData) -> sp.Expr:
     k, d = data.known("k", "drift_bound")
     return nonvanishing.input_gain_printed(data.bounds, k, nonvanishing.input_factor(data.bounds) * d)
 
 
+@_entry("nonvanishing.ultimate_bound", "ultimate distance")
 def _ultimate(data: GainData) -> sp.Expr:
     k, d = data.known("k", "drift_bound")
-    return nonvanishing.ultimate_bound(data.bounds, k, d, _last_gain(data))
+    return nonvanishing.ultimate_bound(data.bounds, k, d, _last_rate(data))
 
 
+@_entry("nonvanishing.ultimate_bound_printed", "ultimate distance, printed γ")
 def _ultimate_printed(data: GainData) -> sp.Expr:
     k, d = data.known("k", "drift_bound")
-    return nonvanishing.input_gain_printed(
-        data.bounds, k, nonvanishing.input_factor(data.bounds) * d / _last_gain(data)
-    )
+    level = nonvanishing.input_factor(data.bounds) * d / _last_rate(data)
+    return nonvanishing.input_gain_printed(data.bounds, k, level)
 
 
-def _last_gain(data: GainData) -> sp.Expr:
+def _last_rate(data: GainData) -> sp.Expr:
     return sp.S.One if data.nu_min is None else data.unit.cap
 
 
+@_entry("nonvanishing.exact_bound", "exact bound in τ, unclipped")
 def _exact_bound(data: GainData) -> sp.Expr:
     return nonvanishing.exact_bound(data) / sp.sqrt(data.bounds.a2)
 
 
+@_entry("clip.tau_end", "τ reached at t₀ + T")
 def _tau_end(data: GainData) -> sp.Expr:
     data.known("T", "nu_min")
     return data.t0 + data.horizon.stretched_end
 
 
+@_entry("clip.k_effective", "gain after the clip, k·dτ/dt")
 def _k_effective(data: GainData) -> sp.Expr:
     k, _ = data.known("k", "nu_min")
     return k * data.unit.cap
 
 
+@_entry("clip.k_min_after_clip", "least k for convergence after the clip")
 def _k_min_after_clip(data: GainData) -> sp.Expr:
     _along_gradient(data)
     data.known("nu_min")
     return vanishing.smallest_gain(data.push) / data.unit.cap
 
 
+@_entry("clip.u1_peak", "peak of u₁")
 def _u1_peak(data: GainData) -> sp.Expr:
     omega, _ = data.known("omega", "nu_min")
     return sp.sqrt(omega) * data.unit.cap
 
 
+@_entry("clip.u2_peak", "peak of |u₂| while r ≤ r₀")
 def _u2_peak(data: GainData) -> sp.Expr:
-    """(ω + kG(√ω + ‖f‖))K, G = b₂‖x₀ − x*‖^(2κ−1), K the last gain: no farther out than at the start.
+    """(ω + kG(√ω + ‖f‖))K, G = b₂‖x₀ − x*‖^(2κ−1), K the last rate: while no farther out than at the start.
 
     With e = y − z, de/dτ = ∇F·dx/dτ − e/μ and |∇F·dx/dτ| ≤ G(√ω + ‖f‖), so |e|/μ stays below that when z starts
     at the measured field.
@@ -185,24 +241,24 @@ def _u2_peak(data: GainData) -> sp.Expr:
     return (omega + k * slope * (sp.sqrt(omega) + drift)) * data.unit.cap
 
 
-def _residual(chain: vanishing.Chain) -> Callable[[GainData], sp.Expr]:
-    def compute(data: GainData) -> sp.Expr:
-        _, T, _ = data.known("k", "T", "nu_min")
-        _printed(data, chain)
-        if data.drift_bound is not None:
-            if sign(data.norm) != 0:
-                raise NotApplicable("both a gradient drift and a bounded one were given; give one")
-            if chain == "printed":
-                return nonvanishing.printed_distance_bound(data)
-            return nonvanishing.distance_bound(data, T)
-        value = vanishing.distance_bound(data, T, chain)
-        if value is None:
-            raise NotApplicable("the bound escapes before t0 + T: V0 is too large for this T, k and drift")
-        return value
+@_entry("clip.residual_bound_printed", "distance at t₀ + T, as printed", chain="printed")
+@_entry("clip.residual_bound", "distance at t₀ + T is at most", chain="split")
+def _residual(data: GainData, chain: Chain) -> sp.Expr:
+    _, T, _ = data.known("k", "T", "nu_min")
+    _known_chain(data, chain)
+    if data.drift_bound is not None:
+        if sign(data.norm) != 0:
+            raise NotApplicable("both a gradient drift and a bounded one were given; give one")
+        if chain == "printed":
+            return nonvanishing.printed_distance_bound(data)
+        return nonvanishing.distance_bound(data, T)
+    value = vanishing.distance_bound(data, T, chain)
+    if value is None:
+        raise NotApplicable("the bound escapes before t0 + T: V0 is too large for this T, k and drift")
+    return value
 
-    return compute
 
-
+@_entry("clip.nu_min_for_residual", "largest ν_min for the residual")
 def _nu_min_for_residual(data: GainData) -> sp.Expr:
     (residual,) = data.known("residual")
     if data.drift_bound is not None:
@@ -211,42 +267,3 @@ def _nu_min_for_residual(data: GainData) -> sp.Expr:
     if value is None:
         raise NotApplicable("no clip reaches it: V0 is not below the critical value")
     return value
-
-
-ENTRIES: Mapping[str, Mapping[str, Callable[[GainData], sp.Expr]]] = MappingProxyType({
-    "constants": {
-        "q": lambda data: data.bounds.q,
-        "sigma": lambda data: data.bounds.sigma,
-        "c1": lambda data: data.bounds.c1,
-        "c2": lambda data: data.bounds.c2,
-    },
-    "asymptotic": {"k_min_printed": _k_min_printed, "k_min": _k_min},
-    "prescribed_time": {"overshoot": _overshoot, "rate": _rate, "overshoot_split": _overshoot_split},
-    "critical": {
-        "V0_at_tau_star": _at_tau_star,
-        "V0_threshold_printed": _V0_threshold("printed"),
-        "V0_threshold": _V0_threshold("split"),
-        "T_threshold_printed": _T_threshold("printed"),
-        "T_threshold": _T_threshold("split"),
-        "escape_time": _escape("printed"),
-        "escape_time_split": _escape("split"),
-    },
-    "nonvanishing": {
-        "h1": _h1,
-        "h2": lambda data: nonvanishing.input_factor(data.bounds),
-        "gamma": _gamma,
-        "ultimate_bound": _ultimate,
-        "ultimate_bound_printed": _ultimate_printed,
-        "exact_bound": _exact_bound,
-    },
-    "clip": {
-        "tau_end": _tau_end,
-        "k_effective": _k_effective,
-        "k_min_after_clip": _k_min_after_clip,
-        "u1_peak": _u1_peak,
-        "u2_peak": _u2_peak,
-        "residual_bound": _residual("split"),
-        "residual_bound_printed": _residual("printed"),
-        "nu_min_for_residual": _nu_min_for_residual,
-    },
-})  # fmt: skip

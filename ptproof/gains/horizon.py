@@ -12,12 +12,12 @@ from ptproof.gains.numbers import NotApplicable, sign
 from ptproof.problem.model import Tuning
 from ptproof.proof.signs import sign_of, vanishes
 from ptproof.transforms.clocks.algebra import settle
-from ptproof.transforms.clocks.clock import Clock
+from ptproof.transforms.clocks.cap import CappedClock, capped
+from ptproof.transforms.clocks.clock import Clock, Piece
 from ptproof.transforms.clocks.named import named_clock
 
 _T, _TAU = sp.symbols("t tau", real=True)
 _NU = sp.Symbol("nu", positive=True)
-_OWN = "the paper prints this for its own clock, dτ/dt = 1/ν²"
 
 
 @lru_cache
@@ -57,48 +57,46 @@ class Horizon:
         return self.T if self.nu_min is None else self.T * (1 - self.nu_min)
 
     @cached_property
+    def _capped(self) -> CappedClock:
+        if self.nu_min is None:
+            raise InputError("without a clip the stretched time is infinite at t0 + T")
+        return capped(self.clock, self.nu_min)
+
+    @property
     def cap(self) -> sp.Expr:
         """The largest rate, K(ν_min): 1/ν_min² for the paper's clock (eq:kt)."""
-        return self.clock.rate.subs(self.clock.t, 1 - self._minimum)
+        return self._capped.last_rate
 
-    @cached_property
+    @property
     def stretched_corner(self) -> sp.Expr:
         """s at the corner."""
-        return self.T * self.clock.to_tau.subs(self.clock.t, 1 - self._minimum)
+        return self.T * self._capped.corner_tau
 
     @property
     def stretched_end(self) -> sp.Expr:
         """s at e = T: s at the corner plus ν_min·T at the largest rate."""
-        return self.stretched_corner + self._minimum * self.T * self.cap
-
-    @property
-    def _minimum(self) -> sp.Expr:
-        if self.nu_min is None:
-            raise InputError("without a clip the stretched time is infinite at t0 + T")
-        return self.nu_min
+        return self.T * self._capped.pieces[1].to_tau.subs(self.clock.t, 1)
 
     def stretched(self, elapsed: sp.Expr) -> sp.Expr:
         """s at the elapsed time e."""
-        if self.nu_min is not None and sign(elapsed - self.corner) >= 0:
-            return self.stretched_corner + (elapsed - self.corner) * self.cap
-        if sign(self.T - elapsed) <= 0:
+        late = self.nu_min is not None and sign(elapsed - self.corner) >= 0
+        if not late and sign(self.T - elapsed) <= 0:
             raise InputError("without a clip the stretched time is infinite at t0 + T")
-        return self.T * self.clock.to_tau.subs(self.clock.t, elapsed / self.T)
+        return self.T * self._piece(late).to_tau.subs(self.clock.t, elapsed / self.T)
 
     def elapsed(self, stretched: sp.Expr) -> sp.Expr:
         """e at the stretched time s."""
-        if self._is_late(stretched):
-            return self.corner + (stretched - self.stretched_corner) / self.cap
-        return self.T * self.clock.to_t.subs(self.clock.tau, stretched / self.T)
+        return self.T * self._piece(self._is_late(stretched)).to_t.subs(self.clock.tau, stretched / self.T)
 
     def weight(self, stretched: sp.Expr) -> sp.Expr:
         """w = dt/dτ = 1/K at the stretched time s, with which a drift enters dx/dτ."""
-        if self._is_late(stretched):
-            return 1 / self.cap
-        return self.clock.rate_back.subs(self.clock.tau, stretched / self.T)
+        return self._piece(self._is_late(stretched)).rate_back.subs(self.clock.tau, stretched / self.T)
 
     def _is_late(self, stretched: sp.Expr) -> bool:
         return self.nu_min is not None and sign(stretched - self.stretched_corner) >= 0
+
+    def _piece(self, late: bool) -> Piece:
+        return (self._capped if late else self.clock).pieces[-1]
 
     def balance(self, elapsed: sp.Expr, push: sp.Expr, k: sp.Expr) -> sp.Expr:
         """J(e) = ∫ (m·w − k/2) dτ = m·e − (k/2)·s(e): the drift's push m against the gain.
@@ -124,7 +122,7 @@ class Horizon:
     def only_printed(self) -> None:
         """Raise :class:`NotApplicable` unless the clock is the paper's own."""
         if not self.is_printed:
-            raise NotApplicable(f"{_OWN}, and has no such formula for the {self.clock.name}")
+            raise NotApplicable(f"printed for the paper's own clock only, not for the {self.clock.name}")
 
     def clip_for(self, stretched: sp.Expr) -> sp.Expr:
         """The largest ν_min ≤ 1 with which s at e = T is at least ``stretched``, where K is a power of ν.

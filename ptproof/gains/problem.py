@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
-from dataclasses import dataclass
-from fractions import Fraction
+from dataclasses import dataclass, fields
 from typing import Any
 
 import sympy as sp
 
+from ptproof.balls.ball import Undefined, ball_from, interval, largest_along
+from ptproof.balls.rounding import decimal_up
 from ptproof.certify import FieldCertificate, certify_field
 from ptproof.errors import InputError
 from ptproof.gains.answer import Gains, gains
@@ -137,8 +137,8 @@ def gain_data(problem: Problem, bounds: FieldBounds, radius: sp.Expr | None = No
     """
     tuning, drift = problem.tuning, problem.drift
     data: dict[str, Any] = {
-        "bounds": bounds, "k": tuning.k, "T": tuning.T, "nu_min": tuning.nu_min,
-        "t0": tuning.t0, "omega": tuning.omega, "mu": tuning.mu, "x0_norm": distance_from_source(problem),
+        "bounds": bounds, "x0_norm": distance_from_source(problem),
+        **{field.name: getattr(tuning, field.name) for field in fields(tuning)},
     }  # fmt: skip
     if "V0" in known and "x0_norm" not in known:
         data.pop("x0_norm")
@@ -157,42 +157,22 @@ def largest_drift(problem: Problem, radius: sp.Expr | None) -> sp.Rational:
 
     The declared bound is used only where the drift has no finite enclosure there.
     """
-    from ptproof.balls.ball import ball_from, enclose, interval
-    from ptproof.balls.tape import Undefined
-
-    t0, T = ball_from(problem.tuning.t0), ball_from(problem.tuning.T)
+    tuning, drift, field = problem.tuning, problem.drift, problem.field
     inside: dict[sp.Symbol, Any] = {}
     if radius is not None and radius.is_finite:
         reach = ball_from(radius)
-        inside = {
-            v: ball_from(c) + interval(-reach, reach)
-            for v, c in zip(problem.variables, problem.source, strict=True)
-        }  # fmt: skip
-    candidates = [sp.sqrt(sp.Add(*(entry**2 for entry in problem.drift.rate)))]
-    if problem.drift.bound is not None:
-        candidates.append(problem.drift.bound)
-    for norm in candidates:
+        inside = {v: ball_from(c) + interval(-reach, reach) for v, c in zip(field.variables, field.source, strict=True)}
+    norm = sp.sqrt(sp.Add(*(entry**2 for entry in drift.rate)))
+    for candidate in (norm, drift.bound):
+        if candidate is None:
+            continue
         try:
-            top = max(
-                _upper(
-                    enclose(norm, {TIME: interval(t0 + T * i / _INTERVALS, t0 + T * (i + 1) / _INTERVALS), **inside})
-                )
-                for i in range(_INTERVALS)
-            )
+            return _rounded_up(largest_along(candidate, inside, TIME, (tuning.t0, tuning.t0 + tuning.T), _INTERVALS))
         except Undefined:
             continue
-        if math.isfinite(top):
-            return _rounded_up(top)
     raise InputError(f"{problem.name}: the drift has no finite enclosure; give its bound")
 
 
-def _upper(ball: Any) -> float:
-    return math.nextafter(float(ball.upper()), math.inf)
-
-
 def _rounded_up(value: float) -> sp.Rational:
-    """A decimal of about six digits that is at least ``value``."""
-    if value == 0:
-        return sp.S.Zero
-    scale = Fraction(10) ** (_DIGITS - 1 - math.floor(math.log10(value)))
-    return sp.Rational(math.ceil(Fraction(value) * scale)) / sp.Rational(scale.numerator, scale.denominator)
+    """A decimal of six digits that is at least ``value``."""
+    return sp.Rational(str(decimal_up(value, _DIGITS)))

@@ -1,8 +1,10 @@
 """The answer to a question about gains: formulas against independent numbers, what does not apply, what is refused."""
 
+import dataclasses
 import math
 
 import pytest
+import random_sets
 import sympy as sp
 from scipy.integrate import solve_ivp
 from scipy.optimize import minimize_scalar
@@ -10,7 +12,7 @@ from scipy.optimize import minimize_scalar
 from ptproof.errors import InputError
 from ptproof.gains import GainData, gains, nonvanishing, vanishing
 from ptproof.gains.data import largest_singular_value, smallest_eigenvalue, symmetric_part
-from ptproof.gains.horizon import Horizon
+from ptproof.gains.horizon import Horizon, instant, unit_clock
 from ptproof.gains.numbers import NotApplicable, Quantity, sign
 from ptproof.problem.field import FieldBounds
 
@@ -60,21 +62,92 @@ def test_the_printed_threshold_is_the_least_critical_value_over_all_times(bounds
     assert found.x == pytest.approx(turning, rel=1e-2)
 
 
+CLOCKS = {
+    "paper": {},
+    "power": {"clock": "power", "exponent": R(2)},
+    "logarithmic": {"clock": "logarithmic"},
+    "exponential": {"clock": "exponential"},
+    "tangent": {"clock": "tangent"},
+}
+
+
+def gain(clock, nu):
+    return random_sets.GAINS[clock](nu, 2)
+
+
+@pytest.mark.parametrize("clock", list(CLOCKS))
 @pytest.mark.parametrize("bounds", [TWO, THREE])
-def test_the_split_threshold_separates_escape_from_decay(bounds):
+def test_the_split_threshold_separates_escape_from_decay(bounds, clock):
     k, T, norm = R(9, 5), R(3, 2), R(5)
-    answer = gains(GainData(bounds, k=k, T=T, drift_norm=norm))
+    answer = gains(GainData(bounds, k=k, T=T, drift_norm=norm, **CLOCKS[clock]))
     threshold = value(answer, "critical.V0_threshold")
-    assert threshold > value(answer, "critical.V0_threshold_printed")
     sigma, c1, c2 = (float(v) for v in (bounds.sigma, bounds.c1, bounds.c2))
 
-    def rate(s, w):  # w = V^-sigma, which reaches 0 where V escapes
-        r = float(norm) / (1 + s / float(T)) ** 2 - float(k) / 2
+    def rate(e, w):  # w = V^-sigma in the time t, which reaches 0 where V escapes
+        r = float(norm) - float(k) / 2 * gain(clock, 1 - e / float(T))
         return [-sigma * r * (c2 if r > 0 else c1) ** 2]
 
     for factor, escapes in ((0.999, False), (1.001, True)):
-        run = solve_ivp(rate, (0, 30), [(threshold * factor) ** -sigma], rtol=1e-9, atol=1e-12, max_step=0.05)
+        run = solve_ivp(rate, (0, 1.4), [(threshold * factor) ** -sigma], rtol=1e-9, atol=1e-12, max_step=0.005)
         assert bool(run.y.min() <= 0) is escapes
+
+
+@pytest.mark.parametrize("bounds", [TWO, THREE])
+def test_the_split_threshold_is_not_below_the_printed_one(bounds):
+    answer = gains(GainData(bounds, k=R(9, 5), T=R(3, 2), drift_norm=R(5)))
+    assert value(answer, "critical.V0_threshold") > value(answer, "critical.V0_threshold_printed")
+
+
+@pytest.mark.parametrize("clock", list(CLOCKS))
+def test_the_turning_point_is_where_the_gain_has_the_wanted_rate(clock):
+    exponent = CLOCKS[clock].get("exponent")
+    for rate in (R(5, 4), R(7), R(900)):
+        found = 1 - instant(unit_clock(clock, exponent), rate)
+        assert gain(clock, float(found)) == pytest.approx(float(rate), rel=1e-9)
+
+
+@pytest.mark.parametrize("clock", [name for name in CLOCKS if name != "paper"])
+def test_what_is_printed_for_the_paper_s_clock_is_not_given_for_another(clock):
+    data = {"k": R(1), "T": R(1), "nu_min": R(1, 2), "x0_norm": R(1), "tau_star": R(1, 10)}
+    found = gains(GainData(TWO, drift_norm=R(5), **data, **CLOCKS[clock]))
+    keys = ("critical.V0_at_tau_star", "critical.V0_threshold_printed", "critical.T_threshold_printed",
+            "critical.escape_time", "critical.escape_time_split", "clip.residual_bound_printed")  # fmt: skip
+    assert {found.why[key] for key in keys} == {
+        f"printed for the paper's own clock only, not for the {unit_clock(clock, CLOCKS[clock].get('exponent')).name}"
+    }
+    bounded = gains(GainData(ONE, drift_bound=R(1), **data, **CLOCKS[clock]))
+    for key in ("nonvanishing.exact_bound", "clip.residual_bound_printed"):
+        assert "own clock only" in bounded.why[key]
+    assert value(bounded, "clip.residual_bound") > 0
+
+
+def test_the_power_clock_of_order_one_is_the_paper_s():
+    data = {"k": R(1), "T": R(1), "nu_min": R(1, 2), "x0_norm": R(1), "drift_norm": R(1)}
+    assert gains(GainData(TWO, clock="power", exponent=R(1), **data)).values == gains(GainData(TWO, **data)).values
+
+
+@pytest.mark.parametrize(
+    ("clock", "exponent", "message"),
+    [("sundial", None, "clock: 'sundial' is not one of paper, power"), ("power", None, "needs one"),
+     ("tangent", R(2), "takes none")],
+)  # fmt: skip
+def test_a_clock_that_does_not_exist_is_refused(clock, exponent, message):
+    with pytest.raises(InputError, match=message):
+        GainData(ONE, clock=clock, exponent=exponent)
+
+
+@pytest.mark.parametrize("clock", ["power", "logarithmic"])
+def test_the_clip_for_a_residual_is_solved_where_the_gain_is_a_power_of_nu(clock):
+    data = GainData(ONE, k=R(2), T=R(1), x0_norm=R(1), residual=R(1, 2), **CLOCKS[clock])
+    nu = gains(data)["clip.nu_min_for_residual"].exact
+    end = gains(dataclasses.replace(data, nu_min=nu))["clip.residual_bound"]
+    assert end.value == pytest.approx(1 / 2)
+
+
+@pytest.mark.parametrize("clock", ["exponential", "tangent"])
+def test_the_clip_for_a_residual_of_another_clock_is_not_solved(clock):
+    found = gains(GainData(ONE, k=R(2), T=R(1), x0_norm=R(1), residual=R(1, 2), **CLOCKS[clock]))
+    assert "powers of ν only" in found.why["clip.nu_min_for_residual"]
 
 
 @pytest.mark.parametrize("name", ["T_threshold", "T_threshold_printed"])
@@ -163,12 +236,14 @@ def test_the_clipped_clock():
     assert value(answer, "clip.u1_peak") == pytest.approx(math.sqrt(30) / 0.09)
 
 
+@pytest.mark.parametrize("clock", list(CLOCKS))
 @pytest.mark.parametrize("nu_min", [R(1), R(3, 10), R(1, 10)])
-def test_the_stretched_end_is_the_integral_of_the_gain(nu_min):
-    horizon = Horizon(R(2), nu_min)
-    gain = solve_ivp(lambda e, y: [1 / max(float(nu_min), 1 - e / 2) ** 2], (0, 2), [0], rtol=1e-10, max_step=0.01)
-    assert float(horizon.stretched_end) == pytest.approx(gain.y[0, -1], rel=1e-6)
-    assert horizon.stretched(R(2)) == horizon.stretched_end
+def test_the_stretched_end_is_the_integral_of_the_gain(nu_min, clock):
+    horizon = Horizon(R(2), nu_min, unit_clock(clock, CLOCKS[clock].get("exponent")))
+    rate = lambda e, y: [gain(clock, max(float(nu_min), 1 - e / 2))]  # noqa: E731
+    end = solve_ivp(rate, (0, 2), [0], rtol=1e-10, max_step=0.01).y[0, -1]
+    assert float(horizon.stretched_end) == pytest.approx(end, rel=1e-5)
+    assert float(horizon.stretched(R(2))) == pytest.approx(float(horizon.stretched_end), rel=1e-14)
 
 
 def test_without_a_clip_the_end_is_refused():

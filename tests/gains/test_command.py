@@ -124,6 +124,38 @@ def test_the_printed_chain_of_the_first_example_says_nothing():
     assert content["looseness"]["printed"] > 1e6 > content["looseness"]["closed_form"]
 
 
+def test_the_clock_of_the_options_is_that_of_every_number():
+    content = answer([*QUADRATIC, "--nu-min", "1/10", "--omega", "4", "--clock", "power", "--exponent", "2"])
+    assert content["clip"]["k_effective"]["exact"] == "1800"
+    assert content["clip"]["tau_end"]["exact"] == "299/2"
+    assert content["clip"]["u1_peak"]["exact"] == "2000"
+    assert (
+        content["why"]["clip.residual_bound_printed"]
+        == "printed for the paper's own clock only, not for the power clock"
+    )
+
+
+def test_a_problem_file_says_which_clock(tmp_path):
+    clock = '\nnu_min = "1/2"\nclock = "power"\nexponent = 2'
+    file = problem_file(tmp_path, "-(x1 - 1)**2 - x2**2", 1, clock)
+    content = answer(file)
+    assert content["clip"]["k_effective"]["exact"] == "12"
+    assert 1 <= content["looseness"]["tight"] <= 3
+    assert answer([*file, "--clock", "logarithmic"])["clip"]["k_effective"]["exact"] == "3"
+
+
+def test_an_exact_expression_is_shown_whole_or_not_at_all():
+    lines = run(CRITICAL).stdout.splitlines()
+    assert not any("…" in line for line in lines)
+    assert any(line.endswith("1.0329  7*2**(3/4)*3**(1/4)/15") for line in lines)
+
+
+def test_bad_input_names_the_problem(tmp_path):
+    file = problem_file(tmp_path, "-(x1 - 2)**2 - x2**2", 1)
+    with pytest.raises(InputError, match=r"problem\.toml: the gradient of the field is not zero at the source"):
+        run(file)
+
+
 def test_options_replace_the_problem_s_tuning():
     content = answer(["saturated", "--nu-min", "1/2", "--k", "2"])
     assert content["clip"]["k_effective"]["exact"] == "8"
@@ -211,5 +243,5 @@ def test_a_picture_is_written(arguments, tmp_path):
 
 
 def test_a_picture_that_cannot_be_written_is_bad_input(tmp_path):
-    with pytest.raises(InputError, match="cannot write"):
+    with pytest.raises(InputError, match="there is no folder"):
         run([*ONE, *["--k", "1", "--T", "1"], "--plot", str(tmp_path / "missing" / "x.png")])

@@ -2,6 +2,7 @@
 
 import dataclasses
 import functools
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -10,11 +11,14 @@ from scipy.integrate import solve_ivp
 
 from ptproof.errors import InputError
 from ptproof.gains import upper
+from ptproof.gains.horizon import Horizon, unit_clock
 from ptproof.gains.tight import distance_from_source, tight_bound
+from ptproof.gains.upper import time_grid
 from ptproof.problem import example
 from ptproof.problem.drift import bounded_drift, gradient_drift
 from ptproof.problem.model import TIME
 from ptproof.proof.verdict import Verdict
+from ptproof.simulation.worst import worst_distance
 
 R = sp.Rational
 
@@ -65,6 +69,24 @@ def test_the_bound_lies_above_every_start_at_every_time(name):
     distances = averaged(problem, circle(float(found.initial), 24), [found.times[i] for i in keep])
     bounds = np.array([found.distances[i] for i in keep])
     assert (distances <= bounds * (1 + 1e-6)).all()
+
+
+@pytest.mark.parametrize("clock", ["power", "logarithmic", "exponential", "tangent"])
+def test_the_bound_is_proved_and_tight_for_every_clock(clock):
+    base = example("vanishing")
+    tuning = dataclasses.replace(base.tuning, clock=clock, exponent=sp.Integer(2) if clock == "power" else None)
+    problem = dataclasses.replace(base, tuning=tuning)
+    found = tight_bound(problem, steps=60)
+    assert found.evidence.verdict is Verdict.PROVED
+    worst = worst_distance(problem, found.initial, starts=16).worst
+    assert worst <= found.final <= 4 * worst
+
+
+def test_the_grid_is_finer_where_the_gain_grows_fast():
+    horizon = Horizon(R(1), R(1, 5), unit_clock("exponential"))
+    nodes = time_grid(horizon, R(1), 40)
+    assert all(a.weight <= 1.25 * b.weight for a, b in pairwise(nodes))
+    assert [nodes[i].stretched for i in (0, -1)] == [0, horizon.stretched_end]
 
 
 def test_the_grid_ends_at_the_prescribed_time():
