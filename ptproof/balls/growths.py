@@ -10,21 +10,19 @@ from flint import arb, fmpq
 
 from ptproof.balls.ball import BALLS, interval
 from ptproof.balls.growth import INFINITY, Growth, Span, power_of
+from ptproof.balls.lifted import Lifted
 from ptproof.balls.tape import Undefined
 
 FAST = 16
 """The power of r by which a decaying or growing exponential is replaced."""
 
 
-class _Growths:
-    """The arithmetic of growths; see :class:`ptproof.balls.tape.Arithmetic`."""
+class _Growths(Lifted):
+    """The arithmetic of growths."""
 
-    def constant(self, value: arb) -> Any:
-        return value
+    kind = Growth
 
     def call(self, name: str, value: Any) -> Any:
-        if not isinstance(value, Growth):
-            return BALLS.call(name, value)
         if name == "exp":
             return _exponential(value)
         if name == "log":
@@ -45,8 +43,6 @@ class _Growths:
         raise Undefined(f"no bound for {name} of something unbounded")
 
     def integer_power(self, base: Any, exponent: int) -> Any:
-        if not isinstance(base, Growth):
-            return BALLS.integer_power(base, exponent)
         if exponent < 0:
             return _inverse(self.integer_power(base, -exponent))
         result: Any = arb(1)
@@ -58,8 +54,6 @@ class _Growths:
         return result
 
     def root(self, base: Any, numerator: int, denominator: int, nonnegative: bool) -> Any:
-        if not isinstance(base, Growth):
-            return BALLS.root(base, numerator, denominator, nonnegative)
         if numerator < 0:
             return _inverse(self.root(base, -numerator, denominator, nonnegative))
         whole, rest = divmod(numerator, denominator)
@@ -76,14 +70,7 @@ class _Growths:
             raise Undefined("a root of something that may be negative")
         return self.integer_power(base, whole) * first if whole else first
 
-    def power(self, base: Any, exponent: Any) -> Any:
-        if not isinstance(base, Growth) and not isinstance(exponent, Growth):
-            return BALLS.power(base, exponent)
-        return self.call("exp", exponent * self.call("log", base))
-
     def absolute(self, value: Any) -> Any:
-        if not isinstance(value, Growth):
-            return BALLS.absolute(value)
         values = value.range()
         if values.low >= 0 or values.high <= 0:
             return value if values.low >= 0 else -value
@@ -94,15 +81,10 @@ class _Growths:
         return interval(-1, 1) if known is None else arb(known)
 
     def maximum(self, left: Any, right: Any) -> Any:
-        if not isinstance(left, Growth) and not isinstance(right, Growth):
-            return BALLS.maximum(left, right)
         return self.either([left, right])
 
-    def minimum(self, left: Any, right: Any) -> Any:
-        return -self.maximum(-left, -right)
-
     def floor(self, value: Any) -> Any:
-        return value + interval(-1, 0) if isinstance(value, Growth) else BALLS.floor(value)
+        return value + interval(-1, 0)
 
     def angle(self, y: Any, x: Any) -> Any:
         return interval(-arb.pi(), arb.pi())
@@ -122,8 +104,6 @@ class _Growths:
         return model.make(terms)
 
     def order(self, value: Any) -> int | None:
-        if not isinstance(value, Growth):
-            return BALLS.order(value)
         values = value.range()
         return 1 if values.low > 0 else -1 if values.high < 0 else None
 

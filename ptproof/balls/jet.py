@@ -15,6 +15,7 @@ from flint import arb
 
 from ptproof.balls.ball import BALLS, interval
 from ptproof.balls.boxes import Side, middle
+from ptproof.balls.lifted import Lifted
 from ptproof.balls.tape import Undefined
 
 Slopes = tuple[arb | None, ...]
@@ -101,59 +102,36 @@ _DERIVATIVES: Mapping[str, Callable[[arb, arb], arb]] = {
 }
 
 
-class _Jets:
-    """The arithmetic of jets; see :class:`ptproof.balls.tape.Arithmetic`."""
+class _Jets(Lifted):
+    """The arithmetic of jets."""
 
-    def constant(self, value: arb) -> Any:
-        return value
+    kind = Jet
 
     def call(self, name: str, value: Any) -> Any:
-        if not isinstance(value, Jet):
-            return BALLS.call(name, value)
         result = BALLS.call(name, value.value)
         return _checked(value.scaled(result, _DERIVATIVES[name](value.value, result)))
 
     def integer_power(self, base: Any, exponent: int) -> Any:
-        if not isinstance(base, Jet):
-            return BALLS.integer_power(base, exponent)
         if exponent == 0:
             return arb(1)
         value = BALLS.integer_power(base.value, exponent)
         return base.scaled(value, exponent * BALLS.integer_power(base.value, exponent - 1))
 
     def root(self, base: Any, numerator: int, denominator: int, nonnegative: bool) -> Any:
-        if not isinstance(base, Jet):
-            return BALLS.root(base, numerator, denominator, nonnegative)
         value = BALLS.root(base.value, numerator, denominator, nonnegative)
         slope = BALLS.root(base.value, numerator - denominator, denominator, nonnegative)
         return base.scaled(value, slope * numerator / denominator)
 
-    def power(self, base: Any, exponent: Any) -> Any:
-        if not isinstance(base, Jet) and not isinstance(exponent, Jet):
-            return BALLS.power(base, exponent)
-        return self.call("exp", exponent * self.call("log", base))
-
     def absolute(self, value: Any) -> Any:
         return self.maximum(value, -value)
 
-    def sign(self, value: Any) -> Any:
-        known = self.order(value)
-        if known is None:
-            raise Undefined("a jump of sign")
-        return arb(known)
-
     def maximum(self, left: Any, right: Any) -> Any:
-        if not isinstance(left, Jet) and not isinstance(right, Jet):
-            return BALLS.maximum(left, right)
         known = self.order(left - right)
         if known is not None:
             return left if known >= 0 else right
         # Both may be the larger one. The slope of a maximum lies between the slopes of the two.
         either = self.hull([left, right])
         return Jet(_value(left).max(_value(right)), either.slopes)
-
-    def minimum(self, left: Any, right: Any) -> Any:
-        return -self.maximum(-left, -right)
 
     def floor(self, value: Any) -> Any:
         result = BALLS.floor(_value(value))
@@ -162,8 +140,6 @@ class _Jets:
         return result
 
     def angle(self, y: Any, x: Any) -> Any:
-        if not isinstance(y, Jet) and not isinstance(x, Jet):
-            return BALLS.angle(y, x)
         first, second = _value(y), _value(x)
         if second <= 0 and not (first > 0 or first < 0):
             raise Undefined("a jump of the angle")
@@ -180,9 +156,6 @@ class _Jets:
             for column in zip(*rows, strict=True)
         )
         return Jet(BALLS.hull([_value(value) for value in values]), slopes)
-
-    def either(self, values: Sequence[Any]) -> Any:
-        raise Undefined("a Piecewise that may jump")
 
     def order(self, value: Any) -> int | None:
         return BALLS.order(_value(value))

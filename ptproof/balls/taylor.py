@@ -10,8 +10,9 @@ from typing import Any
 from flint import arb, arb_series
 
 from ptproof.balls.ball import BALLS
+from ptproof.balls.lifted import Lifted
 from ptproof.balls.series import SERIES, series_length
-from ptproof.balls.tape import Tape, Undefined
+from ptproof.balls.tape import Tape
 
 Exponents = tuple[int, ...]
 
@@ -96,28 +97,21 @@ class Taylor:
         return self.make(lowered)
 
 
-class _Taylors:
+class _Taylors(Lifted):
     """The arithmetic of Taylor polynomials: what is not a sum or a product is a composition with a series."""
 
-    def constant(self, value: arb) -> Any:
-        return value
+    kind = Taylor
 
-    def __getattr__(self, name: str) -> Any:
-        method = getattr(SERIES, name)
+    def call(self, name: str, value: Any) -> Any:
+        return value.compose(lambda series: SERIES.call(name, series))
 
-        def apply(*args: Any) -> Any:
-            inner = [arg for arg in args if isinstance(arg, Taylor)]
-            if not inner:
-                return method(*args)
-            if len(inner) > 1:
-                raise Undefined(f"no Taylor polynomial for {name}")
-            return inner[0].compose(lambda series: method(*(series if arg is inner[0] else arg for arg in args)))
+    def root(self, base: Any, numerator: int, denominator: int, nonnegative: bool) -> Any:
+        return base.compose(lambda series: SERIES.root(series, numerator, denominator, nonnegative))
 
-        return apply
+    def floor(self, value: Any) -> Any:
+        return value.compose(SERIES.floor)
 
     def integer_power(self, base: Any, exponent: int) -> Any:
-        if not isinstance(base, Taylor):
-            return BALLS.integer_power(base, exponent)
         if exponent < 0:
             return self.integer_power(base, -exponent).compose(lambda series: SERIES.integer_power(series, -1))
         result = base.constant(arb(1))
@@ -125,21 +119,8 @@ class _Taylors:
             result = result * result * base if bit == "1" else result * result
         return result
 
-    def power(self, base: Any, exponent: Any) -> Any:
-        return self.call("exp", exponent * self.call("log", base))
-
-    def maximum(self, left: Any, right: Any) -> Any:
-        known = self.order(left - right)
-        if known is None or known == 0:
-            raise Undefined("a kink")
-        return left if known > 0 else right
-
-    def minimum(self, left: Any, right: Any) -> Any:
-        return -self.maximum(-left, -right)
-
     def order(self, value: Any) -> int | None:
-        known = BALLS.order(value.start if isinstance(value, Taylor) else value)
-        return None if known == 0 and isinstance(value, Taylor) else known
+        return BALLS.order(value.start) or None  # where the polynomial starts at 0 its sign changes
 
 
 TAYLORS = _Taylors()

@@ -1,0 +1,83 @@
+"""What the arithmetics of other numbers share with that of balls."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable, Sequence
+from typing import Any, ClassVar
+
+from flint import arb
+
+from ptproof.balls.ball import BALLS
+from ptproof.balls.tape import Undefined
+
+_OPERATIONS = (
+    "call", "integer_power", "root", "power", "absolute", "sign", "maximum", "minimum", "floor", "angle", "order",
+)  # fmt: skip
+
+
+class Lifted:
+    """The arithmetic of one ``kind`` of number; see :class:`ptproof.balls.tape.Arithmetic`.
+
+    What is no such number is a ball, a constant, and an operation on balls alone is that of balls: a subclass
+    defines the operations for its own kind only, those that do not follow from others.
+    """
+
+    kind: ClassVar[type]
+
+    def __init_subclass__(cls) -> None:
+        for name in _OPERATIONS:
+            if hasattr(cls, name):
+                setattr(cls, name, _or_balls(getattr(cls, name), getattr(BALLS, name), cls.kind))
+
+    def constant(self, value: arb) -> Any:
+        return value
+
+    def call(self, name: str, value: Any) -> Any:
+        raise NotImplementedError
+
+    def integer_power(self, base: Any, exponent: int) -> Any:
+        raise NotImplementedError
+
+    def order(self, value: Any) -> int | None:
+        raise NotImplementedError
+
+    def power(self, base: Any, exponent: Any) -> Any:
+        return self.call("exp", exponent * self.call("log", base))
+
+    def absolute(self, value: Any) -> Any:
+        return value * self.sign(value)
+
+    def sign(self, value: Any) -> Any:
+        known = self.order(value)
+        if known is None:
+            raise Undefined("a kink or a jump")
+        return arb(known)
+
+    def maximum(self, left: Any, right: Any) -> Any:
+        known = self.order(left - right)
+        if known is None or known == 0:
+            raise Undefined("a kink")
+        return left if known > 0 else right
+
+    def angle(self, y: Any, x: Any) -> Any:
+        if self.order(x) != 1:
+            raise Undefined("an angle that is not smooth")
+        return self.call("atan", y * self.integer_power(x, -1))
+
+    def minimum(self, left: Any, right: Any) -> Any:
+        return -self.maximum(-left, -right)
+
+    def either(self, values: Sequence[Any]) -> Any:
+        raise Undefined("a Piecewise that may jump")
+
+
+def _or_balls(own: Callable[..., Any], balls: Callable[..., Any], kind: type) -> Callable[..., Any]:
+    @functools.wraps(own)
+    def operation(self: Lifted, *arguments: Any) -> Any:
+        for argument in arguments:
+            if isinstance(argument, kind):
+                return own(self, *arguments)
+        return balls(*arguments)
+
+    return operation
