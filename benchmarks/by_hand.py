@@ -15,6 +15,7 @@ from ptproof.simulation.plan import Array, Batch
 from ptproof.simulation.scipy_methods import lambdified
 from ptproof.simulation.setup import Setup, completed_parameters, from_problem
 from ptproof.simulation.smooth import picker
+from ptproof.simulation.taylor_form import equations
 
 
 def reduced(problem: Problem, angles: Array | None = None) -> tuple[Setup, Batch]:
@@ -59,7 +60,7 @@ def heyoka_loop(problem: Problem, angles: Array, cores: int, tolerance: float) -
     initial, values, edges = batch.initial, batch.parameters, batch.edges
     pick, first = picker(setup.system, setup.conditions), tuple(values[:, 0].tolist())
     systems = [pick(float((a + b) / 2), first) for a, b in itertools.pairwise(edges[:, 0])]
-    constants = [heyoka.equations(system).constants(values) for system in systems]
+    constants = [equations(system).constants(values) for system in systems]
     solvers = [heyoka.batched(system, tolerance) for system in systems]
     threads = [[copy.deepcopy(solver) for solver in solvers] for _ in range(cores)]
     width = heyoka.WIDTH

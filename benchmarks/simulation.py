@@ -89,12 +89,12 @@ def building(problem: Problem) -> list[Row]:
     rows = []
     for code in ("casadi", *(["heyoka"] if _FAST else [])):
         if code == "heyoka":
-            from ptproof.simulation import smooth
+            from ptproof.simulation import smooth, taylor_form
             from ptproof.simulation.engines import heyoka
 
             smooth.picker.cache_clear()
             heyoka.scalar.cache_clear()
-            heyoka.equations.cache_clear()
+            taylor_form.equations.cache_clear()
         begin = clock.perf_counter()
         _run(problem, engine=code)
         first = clock.perf_counter() - begin

@@ -15,13 +15,14 @@ from ptproof.averaging.correction import Correction, first_correction
 from ptproof.errors import InputError
 from ptproof.simulation.drawing import BLUE, RED, new_figure
 from ptproof.simulation.numbers import as_float, by_name
-from ptproof.simulation.plan import Array, Outcome
+from ptproof.simulation.plan import Array, Outcome, Settings
 from ptproof.simulation.run import simulate
 from ptproof.simulation.trajectory import Trajectory
 from ptproof.system import DitherSystem, System
 
 LADDER = (100.0, 200.0, 400.0, 800.0, 1600.0)
 _SLACK = 0.1
+_SETTINGS = Settings(rtol=1e-9)
 _SAMPLES_A_TURN = 16
 
 
@@ -87,10 +88,8 @@ def gap_order(
     values: Mapping[Any, Any] | None = None,
     omegas: Sequence[float] = LADDER,
     expected: float | None = None,
-    rtol: float = 1e-9,
     sharp: bool = False,
-    engine: str | None = None,
-    time_limit: float = 60.0,
+    settings: Settings = _SETTINGS,
 ) -> GapOrder:
     """Measure how the gap between a dithered system and its average falls with ω.
 
@@ -114,6 +113,8 @@ def gap_order(
     sharp
         For a dither system and a plain average: add the derived near-identity term to the average before comparing.
         The order becomes −1, and an average that is wrong by a percent, hidden by the dither otherwise, shows.
+    settings
+        Of the runs; their samples follow ω.
 
     Returns
     -------
@@ -128,42 +129,17 @@ def gap_order(
     ladder = tuple(as_float(value, "omegas") for value in omegas)
     if len(ladder) < 3 or any(b <= a for a, b in itertools.pairwise(ladder)) or ladder[0] <= 0:
         raise InputError("omegas: expected at least three positive numbers in increasing order")
-    symbol = omega if omega is not None else getattr(system, "omega", None) or sp.Symbol("omega", positive=True)
-    values = dict(values or {})
-    full = _filled(system.to_system() if isinstance(system, DitherSystem) else system, values)
-    begin, stop = as_float(start, "start"), as_float(end, "end")
-    names = [state.name for state in full.state]
-    table = by_name(initial) if isinstance(initial, Mapping) else dict(zip(names, initial, strict=False))
     if sharp:
         if not isinstance(system, DitherSystem) or isinstance(average, Correction):
             raise InputError("sharp: needs a dither system and a plain average of it")
         average = replace(first_correction(system), average=average)
-    corrected = isinstance(average, Correction)
-    slow = _filled(average.corrected_average if isinstance(average, Correction) else average, values)
-    correct = _correction(average, values) if isinstance(average, Correction) else None
-    shared = [state.name for state in slow.state]
-    if missing := [name for name in shared if name not in names]:
-        raise InputError(f"{slow.name}: {', '.join(missing)} is not a state of {full.name}")
-    gaps, message = [], ""
-    for rung in ladder:
-        samples = min(200_000, max(400, math.ceil(_SAMPLES_A_TURN * rung * (stop - begin) / (2 * math.pi))))
-        options: dict[str, Any] = {
-            "span": (begin, stop), "samples": samples, "rtol": rtol, "engine": engine, "time_limit": time_limit,
-        }  # fmt: skip
-        fast = _run(full, {name: table[name] for name in names if name in table}, symbol, rung, options)
-        x0 = {name: as_float(table[name], f"initial.{name}") for name in shared if name in table}
-        if correct is not None:
-            x0 = dict(zip(shared, correct.start([x0[name] for name in shared], begin, rung), strict=True))
-        mean = _run(slow, x0, symbol, rung, options)
-        if fast.outcome is not Outcome.REACHED or mean.outcome is not Outcome.REACHED:
-            message = f"at omega = {rung:g} the system ended as {fast.outcome!s}, the average as {mean.outcome!s}"
-            gaps.append(math.nan)
-            continue
-        expectation = mean.x if correct is None else correct.along(mean.t, mean.x, rung)
-        rows = [names.index(name) for name in shared]
-        gaps.append(float(np.max(np.linalg.norm(fast.x[rows] - expectation, axis=0))))
-    wanted = expected if expected is not None else (-1.0 if corrected else -0.5)
-    return fit_order(ladder, tuple(gaps), wanted, message)
+    span = as_float(start, "start"), as_float(end, "end")
+    pair = _pair(system, average, initial, span, omega, dict(values or {}), settings)
+    gaps = [pair.gap(rung) for rung in ladder]
+    if expected is None:
+        expected = -1.0 if isinstance(average, Correction) else -0.5
+    message = next((message for _, message in reversed(gaps) if message), "")
+    return fit_order(ladder, tuple(gap for gap, _ in gaps), expected, message)
 
 
 def fit_order(omegas: Sequence[float], gaps: Sequence[float], expected: float, message: str = "") -> GapOrder:
@@ -179,13 +155,58 @@ def fit_order(omegas: Sequence[float], gaps: Sequence[float], expected: float, m
     return GapOrder(tuple(omegas), tuple(gaps), float(slope), float(intercept), spread, tail, expected, message)
 
 
+def _pair(
+    system: DitherSystem | System, average: System | Correction, initial: Any, span: tuple[float, float],
+    omega: sp.Symbol | None, values: dict[Any, Any], settings: Settings,
+) -> _Pair:  # fmt: skip
+    symbol = omega if omega is not None else getattr(system, "omega", None) or sp.Symbol("omega", positive=True)
+    full = _filled(system.to_system() if isinstance(system, DitherSystem) else system, values)
+    slow = _filled(average.corrected_average if isinstance(average, Correction) else average, values)
+    names = [state.name for state in full.state]
+    if missing := [state.name for state in slow.state if state.name not in names]:
+        raise InputError(f"{slow.name}: {', '.join(missing)} is not a state of {full.name}")
+    table = by_name(initial) if isinstance(initial, Mapping) else dict(zip(names, initial, strict=False))
+    correct = _correction(average, values) if isinstance(average, Correction) else None
+    return _Pair(full, slow, symbol, table, span, correct, settings)
+
+
 def _filled(system: System, values: Mapping[Any, Any]) -> System:
     return system.with_values(values) if values else system
 
 
-def _run(system: System, initial: Mapping[str, Any], omega: sp.Symbol, rung: float, options: Any) -> Trajectory:
-    given = {omega.name: rung} if omega in (system.parameters or ()) else {}
-    return simulate(system, initial=initial, parameters=given, **options)
+@dataclass(frozen=True)
+class _Pair:
+    """A system and its average, to be run side by side."""
+
+    full: System
+    slow: System
+    omega: sp.Symbol
+    initial: Mapping[str, Any]
+    span: tuple[float, float]
+    correct: _Numbers | None
+    settings: Settings
+
+    def gap(self, rung: float) -> tuple[float, str]:
+        """The largest distance at ω = ``rung``, or NaN and why a run did not get through."""
+        (begin, end), names = self.span, [state.name for state in self.full.state]
+        samples = min(200_000, max(400, math.ceil(_SAMPLES_A_TURN * rung * (end - begin) / (2 * math.pi))))
+        fast = self._run(self.full, {name: self.initial[name] for name in names if name in self.initial}, rung, samples)
+        shared = [state.name for state in self.slow.state]
+        x0 = {name: as_float(self.initial[name], f"initial.{name}") for name in shared if name in self.initial}
+        if self.correct is not None:
+            x0 = dict(zip(shared, self.correct.start([x0[name] for name in shared], begin, rung), strict=True))
+        mean = self._run(self.slow, x0, rung, samples)
+        if not fast.outcome is mean.outcome is Outcome.REACHED:
+            return math.nan, f"at omega = {rung:g} the system ended as {fast.outcome}, the average as {mean.outcome}"
+        expectation = mean.x if self.correct is None else self.correct.along(mean.t, mean.x, rung)
+        rows = [names.index(name) for name in shared]
+        return float(np.max(np.linalg.norm(fast.x[rows] - expectation, axis=0))), ""
+
+    def _run(self, system: System, initial: Mapping[str, Any], rung: float, samples: int) -> Trajectory:
+        given = {self.omega.name: rung} if self.omega in (system.parameters or ()) else {}
+        return simulate(
+            system, initial=initial, parameters=given, span=self.span, settings=self.settings, samples=samples
+        )
 
 
 @dataclass(frozen=True)

@@ -56,6 +56,7 @@ def assert_converges_to_average(
         If states, parameters or values don't fit.
     """
     from ptproof.averaging import Correction
+    from ptproof.simulation import Settings
     from ptproof.simulation.order import LADDER, gap_order
 
     if not isinstance(system, DitherSystem | System):
@@ -66,7 +67,7 @@ def assert_converges_to_average(
         raise InputError(f"initial: {len(initial)} values for {len(system.state)} states; give one for each")
     found = gap_order(
         system, average, initial=initial, end=end, start=start, omega=omega, values=values,
-        omegas=LADDER if omegas is None else omegas, expected=order, time_limit=seconds,
+        omegas=LADDER if omegas is None else omegas, expected=order, settings=Settings(rtol=1e-9, time_limit=seconds),
     )  # fmt: skip
     if found.agrees:
         return None

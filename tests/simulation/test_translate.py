@@ -1,10 +1,13 @@
 """SymPy to CasADi: every rule gives SymPy's own number, and what has no rule is refused by name."""
 
+import numpy as np
 import pytest
 import sympy as sp
 
 from ptproof.errors import InputError
-from ptproof.simulation.engines.heyoka import converted
+from ptproof.simulation import simulate
+from ptproof.simulation.smooth import constants_apart
+from ptproof.simulation.taylor_form import converted
 from ptproof.simulation.translate import to_function, translate
 from ptproof.system import System
 
@@ -73,3 +76,24 @@ def test_what_has_no_rule_is_named(expression, message):
 
     with pytest.raises(InputError, match=message):
         translate([expression], {x: ca.SX.sym("x")})
+
+
+@pytest.mark.parametrize("power", [2, 3, 7, 12, -2])
+def test_integer_powers_have_their_taylor_series_at_zero_too(power):
+    # heyoka's own rule for powers divides by the base.
+    exact = 1 / (power + 1) if power > 0 else 0.5
+    base = x if power > 0 else x + 1
+    run = simulate(System(t, (x, y), (sp.Integer(1), base**power)), initial=[0, 0], span=(0, 1), engine="heyoka")
+    assert run["y"][-1] == pytest.approx(exact, rel=1e-12)
+
+
+def test_what_depends_on_parameters_alone_is_computed_once_a_run():
+    a = sp.Symbol("a", real=True)
+    system = System(t, (x,), (sp.sqrt(k) * a * sp.cos(k**2 * x) / 3 + a**2 * t + k,), (a, k))
+    rhs, constants = constants_apart(system)
+    assert not any(entry.free_symbols & {a} for entry in rhs)
+    back = {symbol: entry for entry, symbol in constants.items()}
+    assert sp.simplify(rhs[0].xreplace(back) - system.rhs[0]) == 0
+    question = {"initial": [1], "span": (0, 2), "parameters": {a: 0.7, k: 1.3}}
+    runs = [simulate(system, engine=engine, **question) for engine in ("heyoka", "lsoda")]
+    assert np.max(np.abs(runs[0].x - runs[1].x)) < 1e-7

@@ -9,7 +9,7 @@ import numpy as np
 import sympy as sp
 
 from ptproof.problem import Problem, parameters
-from ptproof.simulation import GapOrder, Trajectory, gap_order, hover_radius, simulate
+from ptproof.simulation import GapOrder, Settings, Trajectory, gap_order, hover_radius, simulate
 from ptproof.simulation.drawing import BLUE, GREEN, ORANGE, RED, new_figure
 from ptproof.simulation.figures import against_time, draw_field, mark_time, paths
 from ptproof.simulation.order import LADDER
@@ -134,5 +134,6 @@ def problem_order(problem: Problem, omegas: tuple[float, ...] = LADDER) -> GapOr
     initial = [*(float(value) for value in problem.initial.x), float(problem.measured)]
     return gap_order(
         system, problem.averaged("pt", "tau", symbolic=True), initial=initial, start=start,
-        end=start + 2 * float(problem.tuning.T), values=values, omega=parameters.omega, omegas=omegas, rtol=1e-8,
+        end=start + 2 * float(problem.tuning.T), values=values, omega=parameters.omega, omegas=omegas,
+        settings=Settings(rtol=1e-8),
     )  # fmt: skip

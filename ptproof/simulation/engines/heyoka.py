@@ -1,6 +1,6 @@
 """heyoka's Taylor integrator: the fast engine, an extra, for systems whose kinks are known instants.
 
-On each smooth piece the choices in the right-hand side (Max, Min, Piecewise in the time alone) are made once, so
+On each smooth piece the choices in the right-hand side are made once, so
 that heyoka sees smooth expressions. What depends on the parameters alone is computed once a run: as part of the
 expressions, heyoka would carry its Taylor series, which is a number and zeros, through every product. Members run in
 SIMD batches of a fixed order; whatever a batch can't finish is run again on its own and gets its own outcome.
@@ -11,22 +11,20 @@ from __future__ import annotations
 import copy
 import importlib.util
 import itertools
-import operator
 import time as clock
 from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from functools import lru_cache, reduce
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
-import sympy as sp
 from sympy.core.relational import Relational
 
 from ptproof.errors import InputError
 from ptproof.simulation.plan import Array, Batch, Finals, Limit, Outcome, Plan, Run, Samples, Stop, Work
-from ptproof.simulation.smooth import constants_apart, picker
-from ptproof.simulation.translate import number
+from ptproof.simulation.smooth import picker
+from ptproof.simulation.taylor_form import equations
 from ptproof.system import System
 
 _STEPS_A_CALL = 20_000
@@ -38,96 +36,6 @@ WIDTH = 8
 _BUILD = {"fast_math": True}
 # A turn takes the default engine a thousandth of a second or so; from here on compiling is worth it.
 _MANY_TURNS = 3000
-
-
-@dataclass(frozen=True)
-class Equations:
-    """A smooth system in heyoka's form.
-
-    Attributes
-    ----------
-    rates
-        Pairs (variable, rate).
-    constants
-        From the system's parameters (m × …) to heyoka's, which are those and what was computed from them.
-    count
-        How many heyoka has.
-    """
-
-    rates: list[tuple[Any, Any]]
-    constants: Callable[[Array], Array]
-    count: int
-
-
-@lru_cache(maxsize=64)
-def equations(system: System) -> Equations:
-    """The system for heyoka.
-
-    Raises
-    ------
-    InputError
-        For what heyoka's own converter from SymPy does not take.
-    """
-    import heyoka as hy
-
-    made = hy.make_vars(*(f"x{i}" for i in range(system.dimension)))
-    variables = made if isinstance(made, list) else [made]
-    parameters = system.parameters or ()
-    rhs, constants = constants_apart(system)
-    table: dict[Any, Any] = {system.time: hy.time, **dict(zip(system.state, variables, strict=True))}
-    table |= {symbol: hy.par[i] for i, symbol in enumerate((*parameters, *constants.values()))}
-    function = sp.lambdify([parameters], list(constants), "numpy", cse=True)
-
-    def evaluate(values: Array) -> Array:
-        with np.errstate(all="ignore"):
-            more = function(values)
-        return np.array([*values, *more]).reshape(count, *values.shape[1:])
-
-    rates, count = list(zip(variables, converted(rhs, table), strict=True)), len(parameters) + len(constants)
-    return Equations(rates, evaluate, count)
-
-
-def converted(expressions: Iterable[sp.Expr], table: dict[Any, Any]) -> list[Any]:
-    """The expressions by heyoka's own converter, which is told beforehand what it would refuse or get wrong.
-
-    It refuses numbers such as 1/3 and E. Its power rule divides by the base, so that x**3 would be NaN at 0: integer
-    powers become products.
-    """
-    import heyoka as hy
-
-    known, made = dict(table), []
-    for expression in expressions:
-        for node in sp.postorder_traversal(expression):
-            if node in known:
-                continue
-            if node.is_number:
-                known[node] = hy.expression(number(node))
-            elif node.is_Symbol:
-                raise InputError(f"the symbol {node} has no value; give it one in parameters")
-            elif node.is_Pow and node.exp.is_Integer:
-                power = _product(_by_heyoka(node.base, known), abs(int(node.exp)))
-                known[node] = power if node.exp > 0 else hy.expression(1.0) / power
-        made.append(_by_heyoka(expression, known))
-    return made
-
-
-def _by_heyoka(expression: sp.Expr, known: dict[Any, Any]) -> Any:
-    import heyoka as hy
-
-    try:
-        return hy.from_sympy(expression, known)
-    except TypeError as error:
-        raise InputError(
-            f"{error}: heyoka integrates smooth systems of elementary functions only; use the engine casadi"
-        ) from None
-
-
-def _product(base: Any, count: int) -> Any:
-    """``base`` to the power ``count``, by squaring."""
-    if count == 1:
-        return base
-    root = _product(base, count // 2)
-    return reduce(operator.mul, [root, root, *([base] if count % 2 else [])])
 
 
 @lru_cache(maxsize=64)
@@ -195,16 +103,14 @@ class _Way:
             self.steps -= steps
             rows = states[1:].T
             inside = self.plan.distance(rows) <= self.plan.radius
-            if not inside.all():
-                first = int(np.argmin(inside))
-                if not np.isfinite(rows[:, first]).all():
-                    return self._to_the_border(solver, grid, states, first)
-                self.samples.add(grid[1 : first + 2], rows[:, : first + 1])
+            good = len(inside) if inside.all() else int(np.argmin(inside))
+            if good:
+                self.samples.add(grid[1 : good + 1], rows[:, :good])
+            if good < len(inside) and np.isfinite(rows[:, good]).all():
+                self.samples.add(grid[good + 1 : good + 2], rows[:, good : good + 1])
                 return self.plan.escaped
-            if rows.size:
-                self.samples.add(grid[1 : 1 + rows.shape[1]], rows)
-            if outcome == hy.taylor_outcome.err_nf_state:
-                return self._to_the_border(solver, grid, states, rows.shape[1])
+            if good < len(inside) or outcome == hy.taylor_outcome.err_nf_state:
+                return self._to_the_border(solver, float(grid[good + 1]))
             grid = np.concatenate([[solver.time], grid[len(states) :]])
             if len(grid) > 1 and (limit := self._spent()):
                 self.samples.add(grid[:1], solver.state.reshape(-1, 1).copy())
@@ -217,19 +123,16 @@ class _Way:
             return Limit.STEPS
         return Limit.TIME if clock.monotonic() > self.deadline else None
 
-    def _to_the_border(self, solver: Any, grid: Array, states: Array, last: int) -> Stop:
-        """Step from sample ``last`` on to where the state leaves the ball, or is a number for the last time."""
-        import heyoka as hy
-
-        if last and self.samples.time < grid[last]:
-            self.samples.add(grid[1 : last + 1], states[1 : last + 1].T)
-        solver.time, solver.state[:] = grid[last], states[last]
-        time, x, going = grid[last], states[last], hy.taylor_outcome.step_limit
-        while self.plan.within(x[:, None]) and going == hy.taylor_outcome.step_limit:
-            going = solver.propagate_until(float(grid[last + 1]), max_steps=1)[0]
-            if not np.isfinite(solver.state).all():
-                break
-            time, x = solver.time, solver.state.copy()
+    def _to_the_border(self, solver: Any, target: float) -> Stop:
+        """From the last sample to where the state leaves the ball, or is a number for the last time."""
+        time, x, steps = self.samples.time, self.samples.state, _STEPS_A_CALL
+        while steps and time < target and self.plan.within(x[:, None]):
+            solver.time, solver.state[:] = time, x
+            solver.propagate_until(target, max_steps=steps)
+            if np.isfinite(solver.state).all():
+                time, x = float(solver.time), solver.state.copy()
+            else:
+                steps //= 8
         if time > self.samples.time:
             self.samples.add(np.array([time]), x[:, None])
         return self.plan.broken(self.samples.member.initial[:, 0], x, "the state is not finite any more")
