@@ -1,10 +1,14 @@
 """The reduced model and the average of a problem, against the paper's printed right-hand sides."""
 
+from dataclasses import replace
+
 import pytest
 import sympy as sp
 
 from ptproof.errors import InputError
-from ptproof.problem import TAU, TIME, example, parameters
+from ptproof.problem import SEEKERS, TAU, TIME, example, parameters
+from ptproof.problem.loops import closed_loop, symbolic_clock
+from ptproof.problem.models import averaged_system
 from ptproof.proof.algebra import is_zero
 
 P = parameters
@@ -43,3 +47,19 @@ def test_the_reduced_model_is_the_loop_with_the_measured_field_for_z():
 def test_a_saturated_seeker_is_not_averaged():
     with pytest.raises(InputError, match="saturated"):
         example("saturated").averaged("saturated")
+
+
+def test_a_law_of_ones_own_is_a_record_and_has_all_systems():
+    """Three times as fast: the gain is 3, tau runs at the rate 3, and the heading is solved for."""
+    problem, brisk = example("nonvanishing"), replace(SEEKERS["asymptotic"], name="brisk", gain=sp.Integer(3))
+    clock = symbolic_clock("paper", False, True, brisk.gain)
+    full, reduced = (
+        closed_loop(problem.field, problem.drift, brisk, clock, "t", coordinates) for coordinates in ("full", "reduced")
+    )
+    theta = full.state[2]
+    heading = P.p0 + 3 * P.omega * (TIME - P.t0) - P.k * full.state[3]
+    for i, j in ((0, 0), (1, 1), (3, 2)):
+        assert is_zero(full.rhs[i].subs(theta, heading) - reduced.rhs[j])
+    mean = averaged_system(problem.field, problem.drift, brisk, clock, "t")
+    for left, drift, slope in zip(mean.rhs, problem.drift.rate, problem.field.gradient, strict=True):
+        assert is_zero(left - drift - 3 * P.k / 2 * slope)
