@@ -12,6 +12,8 @@ from pathlib import Path
 import pytest
 
 from ptproof.commands.starter import write_starter
+from ptproof.simulation.drawing import BLUE
+from tests.pictures import ink, pixels
 
 TUTORIAL = Path(__file__).resolve().parents[1] / "TUTORIAL.md"
 BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
@@ -82,8 +84,10 @@ def test_the_commands(tmp_path):
             assert "Traceback" not in done.stdout + done.stderr
             output += done.stdout
         assert_shown(step.shown, output)
-    for name in ("report/index.html", "report/report.md", "path.png"):
-        assert (tmp_path / name).stat().st_size > 1000
+    for name in ("report/index.html", "report/report.md"):
+        assert "The average as printed, without the factor 1/2" in (tmp_path / name).read_text("utf-8")
+    assert pixels(tmp_path / "path.png").shape == (960, 1200, 3)
+    assert 0.005 < ink(tmp_path / "path.png", BLUE) < 0.2
 
 
 def test_the_notebook(tmp_path, monkeypatch):
@@ -122,5 +126,6 @@ def rich(value):
     for name, opening in (("_repr_png_", b"\x89PNG"), ("_repr_latex_", "$"), ("_repr_html_", "<")):
         method = getattr(value, name, None)
         if method is not None:
-            return method().startswith(opening)
+            shown = method()
+            return shown.startswith(opening) and (name != "_repr_png_" or ink(shown, BLUE) > 0.001)
     return False

@@ -44,13 +44,18 @@ _COLOURS = 64
 
 
 def png(figure: Any) -> bytes:
-    """The figure as PNG bytes, with a palette: line drawings need no more colours, and pages stay small."""
+    """The figure as PNG bytes, with a palette: line drawings need no more colours, and pages stay small.
+
+    The palette covers the colours that there are, however small the mark; the most frequent ones alone would leave
+    the source's star no red.
+    """
     import matplotlib
     from PIL import Image
 
     drawn, packed = io.BytesIO(), io.BytesIO()
     with matplotlib.rc_context(_STYLE):
         figure.savefig(drawn, format="png", metadata={"Software": None})
-    picture = Image.open(drawn).convert("RGB").quantize(_COLOURS, dither=Image.Dither.NONE)
+    covering = Image.Quantize.MAXCOVERAGE
+    picture = Image.open(drawn).convert("RGB").quantize(_COLOURS, method=covering, dither=Image.Dither.NONE)
     picture.save(packed, format="png", optimize=True)
     return packed.getvalue()

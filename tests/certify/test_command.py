@@ -1,12 +1,15 @@
 """``ptproof bounds``: text in, a table or JSON out, and the exit status."""
 
 import json
+import math
 
+import numpy as np
 import pytest
 from click.testing import CliRunner
 
 from ptproof.commands.bounds import bounds, split_list
 from ptproof.errors import InputError
+from tests.pictures import shown
 
 KEYS = {"verdict", "domain", "a1", "a2", "b1", "b2", "witness"}
 
@@ -52,10 +55,19 @@ def test_undecided_goes_to_standard_error_with_what_was_tried():
     assert "kink" in result.stderr
 
 
-def test_picture_is_written(tmp_path):
+def test_picture_shows_the_band_and_the_quotients_between(tmp_path, saved):
     path = tmp_path / "picture.png"
-    run("-x**2 - y**2", "--vars", "x,y", "--kappa", "1", "--radius", "1", "--plot", str(path))
-    assert path.stat().st_size > 1000
+    run("-x**2 - 3*y**2", "--vars", "x,y", "--kappa", "1", "--radius", "1", "--plot", str(path))
+    left, right = saved[0].axes
+    radii = np.linspace(0.2, 0.9, 30)
+    for axes, highest, lowest in ((left, 3, 1), (right, 6, 2)):
+        assert axes.get_xlim()[0] < 0.1 < 0.9 < axes.get_xlim()[1]
+        for value, colour, beside in ((highest, "tab:red", 0.94), (lowest, "tab:blue", 1.06)):
+            assert shown(path, axes, radii, value, colour) > 0.9
+            assert shown(path, axes, radii, beside * value, colour) < 0.2
+    # At 30 degrees the first quotient is 3/4 + 3/4, the second the square root of 3 + 9.
+    assert shown(path, left, radii, 1.5, "0.6") > 0.9
+    assert shown(path, right, radii, math.sqrt(12), "0.6") > 0.9
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,8 @@ import pytest
 from derivations.pt_seeker.experiments import block_diagram, observations
 from derivations.pt_seeker.experiments.gallery import figures
 from ptproof.problem import example
-from ptproof.simulation.drawing import png
+from ptproof.simulation.drawing import BLUE, png
+from tests.pictures import lines_shown, shown
 
 COUNT = 8
 
@@ -80,13 +81,23 @@ def test_the_figures_of_an_example_are_drawn_and_the_same_bytes_again(name):
     made = figures(problem, bound)
     assert set(made) == FIGURES[name]
     images = {key: png(figure) for key, figure in made.items()}
-    assert all(len(image) > 5000 for image in images.values())
+    for key, figure in made.items():
+        missing = {line: share for line, share in lines_shown(images[key], figure).items() if share < 0.25}
+        assert missing == {}, key  # dotted lines have gaps, and curves cover each other
+    start = [float(value) for value in problem.initial.x]
+    path = next(key for key in made if key.endswith("trajectories"))
+    assert shown(images[path], made[path].axes[0], *start, "black") == 1
     if name == "saturated":
         assert images == {key: png(figure) for key, figure in figures(problem, bound).items()}
 
 
 def test_the_block_diagram_is_drawn():
-    assert len(png(block_diagram.draw())) > 5000
+    figure = block_diagram.draw()
+    picture, axes = png(figure), figure.axes[0]
+    # The sides of the box K(t), the arrow that goes into it, and nothing where nothing is.
+    assert shown(picture, axes, [1.2, 2.2], 4.4, BLUE) == 1
+    assert shown(picture, axes, np.linspace(0.4, 1.0, 10), 4.4, "black") == 1
+    assert shown(picture, axes, np.linspace(3, 9, 30), 2.2, "white") == 1
 
 
 @pytest.fixture(scope="module", params=["vanishing", "nonvanishing"])

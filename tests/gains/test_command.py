@@ -8,6 +8,7 @@ from click.testing import CliRunner
 
 from ptproof.commands.gains import gains
 from ptproof.errors import InputError
+from tests.pictures import lines_shown, shown
 
 TWO = ["--kappa", "2", "--a1", "3/2", "--a2", "1/2", "--b1", "1.4", "--b2", "3.3"]
 ONE = ["--kappa", "1", "--a1", "1.5", "--a2", "0.5", "--b1", "0.5", "--b2", "3.25"]
@@ -236,10 +237,25 @@ def test_a_radius_below_the_reach_is_refused():
     ],
     ids=["critical", "time", "bounded", "problem"],
 )
-def test_a_picture_is_written(arguments, tmp_path):
-    file = tmp_path / "bounds.svg"
+def test_a_picture_shows_its_curves_where_they_are(arguments, tmp_path, saved):
+    file = tmp_path / "bounds.png"
     run([*arguments, "--plot", str(file)])
-    assert file.stat().st_size > 10_000
+    found = lines_shown(file, saved[0])
+    assert found
+    hidden = {name for name, share in found.items() if share < 0.4}  # dashes and dots have gaps
+    # Without a drift the printed chain and the closed form are one curve, and so are the two least gains.
+    assert hidden <= ({"printed", "k = 2(c2/c1)²‖E‖, printed"} if arguments == ["saturated"] else set())
+
+
+def test_the_picture_s_bound_is_the_one_that_is_printed(tmp_path, saved):
+    file = tmp_path / "bounds.png"
+    run([*QUADRATIC, "--plot", str(file)])
+    bound = answer(QUADRATIC)["clip"]["residual_bound"]["value"]
+    axes = saved[0].axes[0]
+    line = next(line for line in axes.get_lines() if line.get_label() == "closed form")
+    assert (line.get_xdata()[-1], line.get_ydata()[-1]) == pytest.approx((1, bound))
+    assert shown(file, axes, 1, bound, line.get_color()) == 1
+    assert shown(file, axes, 0.98, 3 * bound, line.get_color()) == 0
 
 
 def test_a_picture_that_cannot_be_written_is_bad_input(tmp_path):

@@ -6,6 +6,9 @@ from dataclasses import dataclass
 import pytest
 
 from ptproof.commands.cli import main
+from ptproof.simulation import simulate
+from ptproof.simulation.drawing import BLUE
+from tests.pictures import lines_shown, shown
 
 
 @dataclass(frozen=True)
@@ -121,12 +124,16 @@ def test_a_limit_says_which_it_was_and_how_to_move_it(call, tmp_path):
 
 
 @pytest.mark.parametrize("suffix", ["png", "svg"])
-def test_plots_are_the_same_bytes_each_time(call, tmp_path, suffix):
+def test_plots_are_the_same_bytes_each_time(call, tmp_path, suffix, saved):
     files = [tmp_path / f"{i}.{suffix}" for i in range(2)]
     for file in files:
         assert call("vanishing", "--plot", str(file)).exit_code == 0
     assert files[0].read_bytes() == files[1].read_bytes()
-    assert len(files[0].read_bytes()) > 5000
+    if suffix == "png":
+        figure, run = saved[0], simulate("vanishing")
+        assert shown(files[0], figure.axes[0], *run.x[:2], BLUE) > 0.9
+        assert shown(files[0], figure.axes[1], run.t, run["field"], BLUE) > 0.9
+        assert {name: share for name, share in lines_shown(files[0], figure).items() if share < 0.25} == {}
 
 
 def test_people_get_sentences(call):

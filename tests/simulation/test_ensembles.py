@@ -6,8 +6,10 @@ import sympy as sp
 
 from ptproof.errors import InputError
 from ptproof.simulation import Outcome, ensemble, simulate
+from ptproof.simulation.drawing import RED
 from ptproof.simulation.ensembles import headings, members
 from ptproof.system import System
+from tests.pictures import shown
 
 t, x = sp.symbols("t x", real=True)
 
@@ -93,8 +95,10 @@ def test_progress_counts_every_member():
     assert sum(seen) == 300
 
 
-def test_an_ensemble_shows_itself():
+def test_an_ensemble_shows_itself(saved):
     result = ensemble("vanishing", 12, model="average")
     assert result.q95 <= result.max
-    assert result._repr_png_()[:4] == b"\x89PNG"
+    picture = result._repr_png_()
+    axes = saved[0].axes[0]
+    assert shown(picture, axes, result.median, axes.get_ylim()[1] / 2, RED) == 1
     assert "reached T" in result._repr_html_()

@@ -14,8 +14,10 @@ import ptproof
 from ptproof.errors import InputError
 from ptproof.problem import example
 from ptproof.simulation import Limit, Outcome, Question, Settings, ensemble, simulate
+from ptproof.simulation.drawing import BLUE
 from ptproof.simulation.engines import names
 from ptproof.system import System
+from tests.pictures import shown
 
 t, x, y = sp.symbols("t x y", real=True)
 k = sp.Symbol("k", positive=True)
@@ -310,9 +312,10 @@ def test_the_package_exports_it():
     assert ptproof.example("vanishing").name == "vanishing"
 
 
-def test_a_trajectory_shows_itself():
+def test_a_trajectory_shows_itself(saved):
     run = simulate("vanishing", samples=100)
-    assert run._repr_png_()[:4] == b"\x89PNG"
+    picture = run._repr_png_()
+    assert shown(picture, saved[0].axes[0], *run.x[:2], BLUE) > 0.9
     assert "reached T" in run._repr_html_()
     assert "reached T" in repr(run)
     assert run["u1"].max() == pytest.approx(math.sqrt(30) / 0.09)

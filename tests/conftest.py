@@ -1,0 +1,23 @@
+"""What the tests of several rooms share."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+
+@pytest.fixture
+def saved(monkeypatch: pytest.MonkeyPatch) -> list[Any]:
+    """The figures that are written during the test, so that their pictures can be compared with their axes."""
+    from matplotlib.figure import Figure
+
+    figures: list[Any] = []
+    write = Figure.savefig
+
+    def savefig(self: Figure, *arguments: Any, **options: Any) -> None:
+        figures.append(self)
+        write(self, *arguments, **options)
+
+    monkeypatch.setattr(Figure, "savefig", savefig)
+    return figures
