@@ -9,10 +9,15 @@ import sympy as sp
 
 from ptproof.averaging import average, split_dithers
 from ptproof.problem.seekers import Letters, asymptotic_seeker, prescribed_time_seeker
-from ptproof.transforms.clocks.named import prescribed_time_clock
-from ptproof.transforms.reduction import split
-from ptproof.transforms.states import change_variable, solve_state
-from ptproof.transforms.time import contract, dilate, scale_time
+from ptproof.transforms import (
+    change_variable,
+    contract,
+    dilate,
+    prescribed_time_clock,
+    scale_time,
+    solve_state,
+    split,
+)
 
 from .notation import F, T, f, k, mu, omega, p, t, t0, tau, tau_fast, theta, u2, x1, x2, y_tilde, z
 
