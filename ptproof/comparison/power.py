@@ -7,17 +7,12 @@ from dataclasses import dataclass, field
 import sympy as sp
 
 from ptproof.errors import InputError
-from ptproof.proof.algebra import NotAlgebraic, is_zero
+from ptproof.proof.signs import vanishes
 
 
 def holds(difference: sp.Expr, what: str) -> None:
-    """Raise unless ``difference`` has the normal form zero."""
-    try:
-        # Products of surds are multiplied out by SymPy itself; both ways are exact, and zero is zero.
-        holds = sp.expand(sp.fraction(sp.together(difference))[0]) == 0 or is_zero(difference)
-    except NotAlgebraic as error:
-        raise InputError(f"comparison: cannot check that {what} ({error})") from None
-    if not holds:
+    """Raise unless ``difference`` is shown to vanish."""
+    if not vanishes(difference):
         raise InputError(f"comparison: it does not hold, or cannot be shown, that {what}")
 
 

@@ -12,11 +12,12 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
-from functools import lru_cache
 from typing import Any
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
+
+from ptproof.proof.powers import exponent_terms, split_powers, symbolic_power
 
 _COMPARISONS = (sp.LessThan, sp.StrictLessThan, sp.GreaterThan, sp.StrictGreaterThan)
 
@@ -105,10 +106,10 @@ class Generators:
 
     def read(self, expressions: Iterable[sp.Expr]) -> list[sp.Expr]:
         """Prepare the expressions and note each base with all exponents that it carries."""
-        prepared = [_split_powers(self._mask(prepare(expression))) for expression in expressions]
+        prepared = [split_powers(self._mask(prepare(expression))) for expression in expressions]
         for expression in prepared:
             for node in sp.preorder_traversal(expression):
-                pair = _symbolic_power(node)
+                pair = symbolic_power(node)
                 if pair is not None:
                     self._powers[pair[0]].append(pair[1])
         for base, exponents in self._powers.items():
@@ -131,7 +132,7 @@ class Generators:
             common = sp.lcm(common, denominator)
         parts: dict[sp.Expr, list[sp.Rational]] = defaultdict(list)
         for exponent in exponents:
-            for monomial, coefficient in _exponent_terms(exponent, common):
+            for monomial, coefficient in exponent_terms(exponent, common):
                 parts[monomial].append(coefficient)
         self._denominators[base] = common
         self._roots[base] = {}
@@ -197,7 +198,7 @@ class Generators:
                     for side in (value, *condition.args):
                         self._branches[side] = self.rational(side)
                 return self.symbol(expression, **({"real": True} if _real_where_defined(expression) else {}))
-        pair = _symbolic_power(expression)
+        pair = symbolic_power(expression)
         if pair is not None:
             return self._power(*pair)
         if isinstance(expression, sp.Pow) and expression.exp.is_Integer:
@@ -215,7 +216,7 @@ class Generators:
 
     def _power(self, base: sp.Expr, exponent: sp.Expr) -> sp.Expr:
         if base is not sp.E and not (base.is_Symbol and self._by_roots(base)):
-            own = _exponent_terms(sp.S.One, self._denominators[base])
+            own = exponent_terms(sp.S.One, self._denominators[base])
             if len(own) == 1 and own[0][0] in self._roots[base]:  # a root of the base, such as √b
                 monomial, coefficient = own[0]
                 generator, lcm = self._roots[base][monomial]
@@ -229,7 +230,7 @@ class Generators:
     def _product(self, base: sp.Expr, exponent: sp.Expr) -> sp.Expr:
         """A power of the base as a product of powers of its roots."""
         result: sp.Expr = sp.Integer(1)
-        for monomial, coefficient in _exponent_terms(exponent, self._denominators[base]):
+        for monomial, coefficient in exponent_terms(exponent, self._denominators[base]):
             generator, lcm = self._roots[base][monomial]
             result *= generator ** int(coefficient * lcm)
         return result
@@ -248,57 +249,6 @@ def _known_of(node: sp.Expr) -> dict[str, bool]:
                 return {word: True, **({"real": True} if word == "nonzero" and node.is_real else {})}
         return {}
     return {"real": True} if node.args[0].is_real else {}
-
-
-def _symbolic_power(node: sp.Expr) -> tuple[sp.Expr, sp.Expr] | None:
-    if isinstance(node, sp.exp):
-        return sp.E, node.args[0]
-    if isinstance(node, sp.Pow) and not node.exp.is_Integer:
-        return node.base, node.exp
-    return None
-
-
-@lru_cache(maxsize=4096)
-def _exponent_terms(exponent: sp.Expr, common: sp.Expr) -> tuple[tuple[sp.Expr, sp.Rational], ...]:
-    numerator = sp.expand(sp.cancel(exponent * common))
-    pairs = (term.as_coeff_Mul(rational=True) for term in sp.Add.make_args(numerator))
-    return tuple((monomial, sp.Rational(coefficient)) for coefficient, monomial in pairs)
-
-
-@lru_cache(maxsize=4096)
-def _factored(base: sp.Expr) -> sp.Expr:
-    return sp.factor(sp.together(base))
-
-
-def _split_powers(expression: sp.Expr) -> sp.Expr:
-    """Give every power a base that is one positive factor where SymPy's assumptions allow to split it."""
-
-    def split(node: sp.Expr) -> sp.Expr:
-        base, exponent = node.base, node.exp
-        if exponent.is_Integer:
-            return node
-        if isinstance(base, sp.Pow) and base.base.is_positive and base.exp.is_real:
-            return split(sp.Pow(base.base, sp.expand(base.exp * exponent), evaluate=False))
-        if isinstance(base, sp.exp) and base.args[0].is_real:
-            return sp.exp(base.args[0] * exponent)
-        if not base.is_Symbol and not base.is_number:
-            base = _factored(base)
-        positive = [factor for factor in sp.Mul.make_args(base) if factor.is_positive]
-        rest = sp.Mul(*(factor for factor in sp.Mul.make_args(base) if not factor.is_positive))
-        factors: list[sp.Expr] = []
-        for factor in positive:
-            inner, power = factor.as_base_exp()
-            if factor.is_Rational and factor.q != 1:
-                factors += [sp.Integer(factor.p) ** exponent, sp.Integer(factor.q) ** (-exponent)]
-            elif power != 1 and inner.is_positive and power.is_real:
-                factors.append(inner ** sp.expand(power * exponent))
-            else:
-                factors.append(factor**exponent)
-        if rest != 1:
-            factors.append(rest**exponent)
-        return sp.Mul(*factors)
-
-    return expression.replace(lambda node: isinstance(node, sp.Pow), split)
 
 
 def reduce_modulo(numerator: sp.Expr, relations: Sequence[tuple[sp.Symbol, sp.Expr]]) -> sp.Expr:

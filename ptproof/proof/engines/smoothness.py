@@ -30,6 +30,9 @@ class _Need:
     node: sp.Basic
     relation: Relation | None
 
+    def __str__(self) -> str:
+        return str(self.node) if self.relation is None else f"{self.node} needs {self.relation}"
+
 
 @engine
 def smooth(goal: Goal) -> Evidence:
@@ -104,10 +107,7 @@ def smoothness(
     if found is not None:
         reason, witness = found
         return Evidence(ENGINE, Verdict.REFUTED, f"not C^{order}: {reason}", witness=witness)
-    remaining = "; ".join(
-        f"{need.node}" + (f" needs {need.relation}" if need.relation is not None else "") for need in left
-    )
-    return Evidence(ENGINE, Verdict.UNDECIDED, f"C^{order} not shown, it rests on {remaining}")
+    return Evidence(ENGINE, Verdict.UNDECIDED, f"C^{order} not shown, it rests on {'; '.join(map(str, left))}")
 
 
 def _key(function: Any) -> str:
