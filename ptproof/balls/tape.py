@@ -1,68 +1,23 @@
 """A SymPy expression as a list of instructions that runs on any kind of number.
 
 The same tape is run on real balls (an enclosure), on balls with partial derivatives (a mean value form) and on
-power series of balls (a Taylor form with an enclosed remainder). What a kind of number has to offer is the
-protocol :class:`Arithmetic`.
+power series of balls (a Taylor form with an enclosed remainder).
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any
 
 import flint
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from ptproof.balls.arithmetic import Arithmetic, Undefined
 from ptproof.system import differentiated
 
-
-class Undefined(ArithmeticError):
-    """An expression has no finite real enclosure there: a singularity in reach, or a function not supported."""
-
-
-class Arithmetic(Protocol):
-    """What the instructions need of one kind of number, besides ``+`` and ``*``."""
-
-    def constant(self, value: flint.arb) -> Any:
-        """The number that is certainly in ``value``."""
-
-    def call(self, name: str, value: Any) -> Any:
-        """The function of that name out of :data:`METHODS`; raises :class:`Undefined` where it is not finite."""
-
-    def integer_power(self, base: Any, exponent: int) -> Any:
-        """``base**exponent``; raises :class:`Undefined` where a negative exponent meets zero."""
-
-    def root(self, base: Any, numerator: int, denominator: int, nonnegative: bool) -> Any:
-        """``base**(numerator/denominator)`` of a base >= 0; ``nonnegative`` says that it is so by its form."""
-
-    def power(self, base: Any, exponent: Any) -> Any:
-        """``base**exponent`` of a positive base."""
-
-    def absolute(self, value: Any) -> Any:
-        """The absolute value."""
-
-    def sign(self, value: Any) -> Any:
-        """The sign, -1, 0 or 1."""
-
-    def maximum(self, left: Any, right: Any) -> Any:
-        """The larger one."""
-
-    def minimum(self, left: Any, right: Any) -> Any:
-        """The smaller one."""
-
-    def floor(self, value: Any) -> Any:
-        """The largest integer that is not above."""
-
-    def angle(self, y: Any, x: Any) -> Any:
-        """The angle of the point (x, y), in (-π, π]."""
-
-    def either(self, values: Sequence[Any]) -> Any:
-        """One of ``values``, which are branches of a Piecewise; may raise :class:`Undefined`."""
-
-    def order(self, value: Any) -> int | None:
-        """The sign of ``value`` where it is certain (0 only for exactly zero), else None."""
+__all__ = ["METHODS", "Condition", "Tape", "Undefined", "compile_tape", "nonnegative_by_form", "number"]
 
 
 METHODS: Mapping[Any, str] = {

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -55,6 +55,16 @@ class Domain:
         if outer is None:
             raise InputError("an annulus needs an outer radius")
         return Domain(inner, outer)
+
+    def contains(self, offset: Sequence[sp.Expr]) -> bool:
+        """Whether x* + offset certainly belongs to it; exact coordinates."""
+        from ptproof.balls.ball import separated
+
+        square = sum((entry**2 for entry in offset), sp.Integer(0))
+        if square == 0:
+            return False
+        low = self.inner == 0 or separated(square, self.inner**2) == 1 or square == self.inner**2
+        return low and (self.outer is None or square == self.outer**2 or separated(square, self.outer**2) == -1)
 
     @property
     def has_source(self) -> bool:

@@ -24,12 +24,10 @@ from ptproof.balls.rest import LineBound, line_bound, split_polynomial
 from ptproof.balls.series import coefficient_along
 from ptproof.balls.tape import Tape, Undefined, compile_tape
 from ptproof.balls.taylor import Nested, Taylor, taylor
+from ptproof.certify.expansions import by_degree, in_radius
 
 EXTRA_ORDERS = {1: 9, 2: 5, 3: 3}
 """How many orders beyond the leading one the Taylor polynomial has, by dimension."""
-
-ALIKE = 1.5
-"""How far apart the coefficients of y₁^(2κ) … yₙ^(2κ) may be, as a factor, for a common part to be split off."""
 
 Function = Callable[[Sequence[Any], Any], Any]
 """A function of (coordinates, arithmetic)."""
@@ -187,61 +185,6 @@ class Quotients:
         mains = [value * scale for value in _run_parts(parts, balls, size, box.outer, BALLS)]
         return self._excess(tails, mains, w, share)
 
-    def _reduced(self, whole: Taylor) -> tuple[arb, Taylor]:
-        """A number c and the polynomial minus c·‖y‖^(2κ): what is the same in all directions needs no enclosure.
-
-        Where the directions differ much, c is 0, for then the difference would be larger than the polynomial.
-        """
-        powers = [
-            whole.terms.get(tuple(2 * self.kappa * (i == j) for j in range(self.n)), arb(0)).mid()
-            for i in range(self.n)
-        ]
-        low, high = powers[0], powers[0]
-        for power in powers[1:]:
-            low, high = low.min(power), high.max(power)
-        share = ((low + high) / 2).mid()
-        if share.is_zero() or not (low > 0 and high < ALIKE * low):
-            return arb(0), whole
-        square = whole.make({tuple(2 * (i == j) for j in range(self.n)): arb(1) for i in range(self.n)})
-        power = square
-        for _ in range(self.kappa - 1):
-            power = power * square
-        return share, whole - power * share
-
-    def build_homogeneous(self, face: Face, slope: bool) -> tuple[arb, list[dict[int, Nested]]]:
-        """The polynomial part of V, reduced, or of its derivatives: for each degree a polynomial in v."""
-        share, whole = self._reduced(self.outer_expansion)
-        result = []
-        for polynomial in [whole.derivative(i) for i in range(self.n)] if slope else [whole]:
-            groups: dict[int, dict[tuple[int, ...], arb]] = {}
-            for key, value in polynomial.terms.items():
-                group = groups.setdefault(sum(key), {})
-                place = (*key[: face.axis], *key[face.axis + 1 :])
-                signed = value if face.sign > 0 or key[face.axis] % 2 == 0 else -value
-                group[place] = group[place] + signed if place in group else signed
-            result.append({degree: Nested(group) for degree, group in groups.items()})
-        return share, result
-
-    def build_parts(self, face: Face, outer: bool, slope: bool) -> tuple[arb, list[Nested]]:
-        """V, reduced, or its derivatives, as polynomials in (radial variable, v), the leading power taken out."""
-        share, whole = self._reduced(self.outer_expansion if outer else self.expansion)
-        polynomials = [whole.derivative(i) for i in range(self.n)] if slope else [whole]
-        top = 2 * self.kappa - slope
-        result = []
-        for polynomial in polynomials:
-            terms: dict[tuple[int, ...], arb] = {}
-            for key, value in polynomial.terms.items():
-                radial = top - sum(key) if outer else sum(key) - top
-                if radial < 0:
-                    if outer:
-                        raise Undefined("the field falls off faster than the power 2κ")
-                    continue  # proved to vanish, see the order of vanishing
-                place = (radial, *key[: face.axis], *key[face.axis + 1 :])
-                signed = value if face.sign > 0 or key[face.axis] % 2 == 0 else -value
-                terms[place] = terms[place] + signed if place in terms else signed
-            result.append(Nested(terms))
-        return share, result
-
     @cached_property
     def outer_expansion(self) -> Taylor:
         """The polynomial part of V with exact coefficients."""
@@ -315,12 +258,13 @@ class Quotients:
 
 @lru_cache(maxsize=256)
 def _parts_of(quotients: Quotients, face: Face, outer: bool, slope: bool) -> tuple[arb, list[Nested]]:
-    return quotients.build_parts(face, outer, slope)
+    whole = quotients.outer_expansion if outer else quotients.expansion
+    return in_radius(whole, quotients.kappa, face, outer, slope)
 
 
 @lru_cache(maxsize=256)
 def _homogeneous_of(quotients: Quotients, face: Face, slope: bool) -> tuple[arb, list[dict[int, Nested]]]:
-    return quotients.build_homogeneous(face, slope)
+    return by_degree(quotients.outer_expansion, quotients.kappa, face, slope)
 
 
 def _sum_of_powers(part: dict[int, Nested], v: Sequence[Any], radius: Any, top: int, arithmetic: Any) -> Any:

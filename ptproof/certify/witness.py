@@ -12,12 +12,12 @@ from typing import Any
 import sympy as sp
 from flint import arb
 
-from ptproof.balls.ball import BALLS, ball_from, enclose, enclosure_text, separated
+from ptproof.balls.ball import ball_from, enclose, enclosure_text, separated
 from ptproof.balls.growth import Exponent, Growth, coordinates
 from ptproof.balls.growths import GROWTHS
-from ptproof.balls.newton import krawczyk, newton
-from ptproof.balls.tape import Undefined, compile_tape
+from ptproof.balls.tape import Undefined
 from ptproof.certify.certificate import FieldWitness
+from ptproof.certify.critical import CriticalPoints, length, values_at
 from ptproof.certify.domain import Domain
 from ptproof.certify.evaluator import Place
 from ptproof.certify.quotients import Quotients
@@ -50,27 +50,15 @@ class Prosecutor:
     quotients: Quotients
     domain: Domain
 
-    def inside(self, offset: Vector) -> bool:
-        """Whether x* + offset certainly lies in the domain."""
-        square = sum((entry**2 for entry in offset), sp.Integer(0))
-        if square == 0:
-            return False
-        low = self.domain.inner == 0 or separated(square, self.domain.inner**2) == 1 or square == self.domain.inner**2
-        outer = self.domain.outer
-        return low and (outer is None or square == outer**2 or separated(square, outer**2) == -1)
-
     def point(self, offset: Vector) -> tuple[sp.Expr, ...]:
         """x* + offset."""
         return tuple(s + y for s, y in zip(self.field.source, offset, strict=True))
-
-    def _values(self, x: Sequence[Any]) -> dict[str, str]:
-        return {str(variable): str(entry) for variable, entry in zip(self.field.variables, x, strict=True)}
 
     # Points that are not lower than the source.
 
     def not_lower(self, offset: Vector) -> FieldWitness | None:
         """The witness F(x) ≥ F(x*) at x = x* + offset, if that is certain there."""
-        if not self.inside(offset):
+        if not self.domain.contains(offset):
             return None
         x = self.point(offset)
         value, peak = self.field.value(x), self.field.peak
@@ -84,10 +72,10 @@ class Prosecutor:
         relation = "lies above" if sign == 1 else "equals"
         return FieldWitness(
             f"F(x) {relation} F(x*) at another point x",
-            self._values(x),
+            values_at(self.field, x),
             left,
             f"F(x) < F(x*) = {_shown(peak)}",
-            _length(offset),
+            length(offset),
         )
 
     def not_lower_near(self, target: Sequence[float]) -> FieldWitness | None:
@@ -126,7 +114,7 @@ class Prosecutor:
         right = f"{name} > 0" if limit != "∞" else f"a finite {name}"
         return FieldWitness(
             f"{quotient} tends to {limit} for {where} along a ray {origin} the source ({detail})",
-            self._values([s + c + r * d for s, c, d in zip(self.field.source, begin, direction, strict=True)]),
+            values_at(self.field, [s + c + r * d for s, c, d in zip(self.field.source, begin, direction, strict=True)]),
             f"{quotient} → {limit} for {where}",
             right,
             math.inf if outward else 0.0,
@@ -192,7 +180,7 @@ class Prosecutor:
         offset = place.offset()
         if value_is_zero_or_less and not slope and (found := self.not_lower_near(offset)):
             return found
-        return self.critical_point_near(offset)
+        return CriticalPoints(self.field, self.quotients, self.domain).near(offset)
 
     def undefined_near(self, target: Sequence[float]) -> FieldWitness | None:
         """The witness that F has no finite real value at a point with short coordinates near ``target``."""
@@ -203,87 +191,11 @@ class Prosecutor:
             )
             offset = tuple(entry - s for entry, s in zip(x, self.field.source, strict=True))
             value = self.field.value(x)
-            if self.inside(offset) and (value.has(sp.zoo, sp.nan, sp.oo, -sp.oo) or value.is_real is False):
+            if self.domain.contains(offset) and (value.has(sp.zoo, sp.nan, sp.oo, -sp.oo) or value.is_real is False):
                 right = "a function that is twice continuously differentiable"
                 left = f"F(x) = {value}"
-                return FieldWitness("F is not defined at x", self._values(x), left, right, _length(offset))
+                return FieldWitness("F is not defined at x", values_at(self.field, x), left, right, length(offset))
         return None
-
-    # Critical points besides the source.
-
-    def critical_point_near(self, start: Sequence[float]) -> FieldWitness | None:
-        """A second point with ∇F = 0, exact or enclosed with proof, reached from ``start`` by Newton's method."""
-        n = self.quotients.n
-        everything = list(range(n))
-        for kept in [everything] + [[index] for index in range(n) if n > 1 and self._gradient_stays_on_axis(index)]:
-            if found := self._newton(start, kept):
-                return found
-        return None
-
-    def _gradient_stays_on_axis(self, index: int) -> bool:
-        offsets = self.quotients.offsets
-        rest = {y: 0 for i, y in enumerate(offsets) if i != index}
-        slopes = (sp.diff(self.quotients.drop, y).subs(rest) for y in rest)
-        return all(vanishes(slope) for slope in slopes)
-
-    def _newton(self, start: Sequence[float], kept: Sequence[int]) -> FieldWitness | None:
-        offsets = self.quotients.offsets
-        active = [offsets[i] for i in kept]
-        drop = self.quotients.drop.subs({y: 0 for y in offsets if y not in active})
-        gradient = compile_tape([sp.diff(drop, y) for y in active], active)
-        hessian = compile_tape([sp.diff(drop, y, z) for y in active for z in active], active)
-        begin = [start[i] for i in kept]
-        if len(kept) < len(start):
-            begin = [math.copysign(math.sqrt(sum(entry**2 for entry in start)), begin[0])]
-        found = newton(gradient, hessian, begin)
-        if found is None:
-            return None
-        full = [0.0] * len(start)
-        for index, entry in zip(kept, found, strict=True):
-            full[index] = float(entry)
-        size = math.sqrt(sum(entry**2 for entry in full))
-        if size < 1e-6:
-            return None
-        return self._exact_critical(full) or self._enclosed_critical(found, kept, gradient, hessian)
-
-    def _exact_critical(self, offset: Sequence[float]) -> FieldWitness | None:
-        for denominator in (1, 12, 1000):
-            x = tuple(
-                s + sp.Rational(Fraction(entry).limit_denominator(denominator))
-                for s, entry in zip(self.field.source, offset, strict=True)
-            )
-            y = tuple(entry - s for entry, s in zip(x, self.field.source, strict=True))
-            if max(abs(float(a) - b) for a, b in zip(y, offset, strict=True)) > 1e-6 or not self.inside(y):
-                continue
-            at = dict(zip(self.field.variables, x, strict=True))
-            if all(vanishes(entry.subs(at)) for entry in self.field.gradient):
-                return self._critical(self._values(x), "∇F(x) = 0 exactly", _length(y))
-        return None
-
-    def _enclosed_critical(
-        self, found: Sequence[arb], kept: Sequence[int], gradient: Any, hessian: Any
-    ) -> FieldWitness | None:
-        box = krawczyk(found, gradient, hessian)
-        if box is None:
-            return None
-        square = sum((BALLS.integer_power(ball, 2) for ball in box), arb(0))
-        low, high = self.domain.inner, self.domain.outer
-        if not square > 0 or (low != 0 and not square > ball_from(low**2)):
-            return None
-        if high is not None and not square < ball_from(high**2):
-            return None
-        full = [arb(0)] * self.quotients.n
-        for index, ball in zip(kept, box, strict=True):
-            full[index] = ball
-        x = [ball_from(s) + y for s, y in zip(self.field.source, full, strict=True)]
-        values = {str(v): _interval_text(entry) for v, entry in zip(self.field.variables, x, strict=True)}
-        left = "∇F(x) = 0 at exactly one point x of this box (interval Newton method)"
-        return self._critical(values, left, float(square.upper()) ** 0.5 * (1 + 1e-12))
-
-    def _critical(self, values: dict[str, str], left: str, distance: float) -> FieldWitness:
-        power = 2 * self.field.kappa - 1
-        right = f"‖∇F(x)‖ ≥ b1‖x − x*‖^{power} > 0".replace("^1 ", " ")
-        return FieldWitness("the field has a second critical point", values, left, right, distance)
 
 
 def _head(output: Any, reach: arb) -> tuple[Exponent, int, bool]:
@@ -299,14 +211,6 @@ def _head(output: Any, reach: arb) -> tuple[Exponent, int, bool]:
 def _fraction(ball: arb) -> sp.Rational:
     value = ball.fmpq()
     return sp.Rational(int(value.p), int(value.q))
-
-
-def _length(offset: Vector) -> float:
-    return float(sp.sqrt(sum((entry**2 for entry in offset), sp.Integer(0)))) * (1 + 1e-12)
-
-
-def _interval_text(ball: arb) -> str:
-    return enclosure_text(ball, 12)
 
 
 def _shown(value: sp.Expr) -> str:

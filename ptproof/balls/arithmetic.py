@@ -1,0 +1,55 @@
+"""What a kind of number has to offer so that a tape can run on it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, Protocol
+
+import flint
+
+
+class Undefined(ArithmeticError):
+    """An expression has no finite real enclosure there: a singularity in reach, or a function not supported."""
+
+
+class Arithmetic(Protocol):
+    """What the instructions need of one kind of number, besides ``+`` and ``*``."""
+
+    def constant(self, value: flint.arb) -> Any:
+        """The number that is certainly in ``value``."""
+
+    def call(self, name: str, value: Any) -> Any:
+        """The function of that name in the table of tapes; raises :class:`Undefined` where it is not finite."""
+
+    def integer_power(self, base: Any, exponent: int) -> Any:
+        """``base**exponent``; raises :class:`Undefined` where a negative exponent meets zero."""
+
+    def root(self, base: Any, numerator: int, denominator: int, nonnegative: bool) -> Any:
+        """``base**(numerator/denominator)`` of a base >= 0; ``nonnegative`` says that it is so by its form."""
+
+    def power(self, base: Any, exponent: Any) -> Any:
+        """``base**exponent`` of a positive base."""
+
+    def absolute(self, value: Any) -> Any:
+        """The absolute value."""
+
+    def sign(self, value: Any) -> Any:
+        """The sign, -1, 0 or 1."""
+
+    def maximum(self, left: Any, right: Any) -> Any:
+        """The larger one."""
+
+    def minimum(self, left: Any, right: Any) -> Any:
+        """The smaller one."""
+
+    def floor(self, value: Any) -> Any:
+        """The largest integer that is not above."""
+
+    def angle(self, y: Any, x: Any) -> Any:
+        """The angle of the point (x, y), in (-π, π]."""
+
+    def either(self, values: Sequence[Any]) -> Any:
+        """One of ``values``, which are branches of a Piecewise; may raise :class:`Undefined`."""
+
+    def order(self, value: Any) -> int | None:
+        """The sign of ``value`` where it is certain (0 only for exactly zero), else None."""
