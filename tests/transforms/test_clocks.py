@@ -213,6 +213,7 @@ def test_a_clock_is_made_from_its_rate(rate, name):
         (2 - nu, "3*T/2"),
         (1 / sp.Max(sp.Rational(3, 10), nu) ** 2, "17*T/3"),
         (sp.Min(9, nu**-2), "5*T"),
+        (sp.Piecewise((nu**-2, t <= t0 + T * sp.Rational(7, 10)), (sp.Rational(100, 9), True)), "17*T/3"),
         (1 / sp.Max(k, nu) ** 2, r"-T*(k - 2)/k (for k <= 1)"),
     ],
 )

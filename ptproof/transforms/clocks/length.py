@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import sympy as sp
 
 from ptproof.proof.engines.limits import limit_of
+from ptproof.proof.kinks import branch, is_kink, switching
 from ptproof.proof.signs import vanishes
 from ptproof.reading.limits import OutOfTime, within
 
@@ -28,9 +29,10 @@ class DilatedLength:
 def dilated_length(rate: sp.Expr, t: sp.Symbol, *, start: sp.Expr, horizon: sp.Expr) -> DilatedLength | None:
     """The exact integral of ``rate`` (in t) over [t₀, t₀ + horizon), or None where it is not found and checked.
 
-    A maximum or minimum of a constant and something linear in t, as in a clipped gain, is split at its corner. The
-    antiderivative comes from SymPy and is checked by exact algebra; it is taken only where it is smooth by its
-    structure on the whole interval; the limit at the end is one of the limit theorems'.
+    One choice at a corner, as in a capped gain, is split there: a maximum or minimum of a constant and something linear
+    in t or a power of ν, or two pieces. The antiderivative comes from SymPy and is checked by exact algebra; it is
+    taken only where it is smooth by its structure on the whole interval; the limit at the end is one of the limit
+    theorems'.
 
     >>> t = sp.Symbol("t", real=True); T = sp.Symbol("T", positive=True)
     >>> print(dilated_length(1 / (1 - t / T) ** 2, t, start=0, horizon=T))
@@ -47,49 +49,49 @@ def dilated_length(rate: sp.Expr, t: sp.Symbol, *, start: sp.Expr, horizon: sp.E
         lambda node: isinstance(node, sp.Max | sp.Min),
         lambda node: node.func(*(sp.factor(sp.cancel(argument)) for argument in node.args)),
     )
-    choices = sorted(integrand.atoms(sp.Max, sp.Min), key=str)
+    choices = {node for node in sp.preorder_traversal(integrand) if is_kink(node, {nu})}
     if len(choices) > 1:
         return None
     if not choices:
         value = _improper(integrand, nu, sp.S.Zero, sp.S.One)
         return None if value is None else DilatedLength(value)
-    return _split(integrand, nu, choices[0])
+    return _split(integrand, nu, choices.pop())
 
 
 def _split(integrand: sp.Expr, nu: sp.Symbol, choice: sp.Expr) -> DilatedLength | None:
-    moving = [argument for argument in choice.args if argument.has(nu)]
-    still = [argument for argument in choice.args if not argument.has(nu)]
-    if len(moving) != 1 or len(still) != 1:
-        return None
-    found = _crossing(moving[0], still[0], nu)
+    sides = switching(choice)
+    found = _crossing(sides[0], nu) if len(sides) == 1 else None
     if found is None:
         return None
     corner, slope = found
     inside = (corner.is_positive, (1 - corner).is_nonnegative)
     if False in inside or not (slope.is_positive or slope.is_negative):
         return None
-    moving_above = isinstance(choice, sp.Max) == bool(slope.is_positive)
-    above, below = (moving[0], still[0]) if moving_above else (still[0], moving[0])
-    first = _improper(integrand.xreplace({choice: below}), nu, sp.S.Zero, corner)
-    second = _improper(integrand.xreplace({choice: above}), nu, corner, sp.S.One)
-    if first is None or second is None:
-        return None
+    parts = []
+    for sign, low, high in ((-1, sp.S.Zero, corner), (1, corner, sp.S.One)):
+        there = sign if slope.is_positive else -sign
+        piece = branch(choice, lambda side: there if side == sides[0] else -there)  # noqa: B023
+        if piece is None or (value := _improper(integrand.xreplace({choice: piece}), nu, low, high)) is None:
+            return None
+        parts.append(value)
     provided = tuple(
         text for known, text in zip(inside, (f"{corner} > 0", f"{corner} <= 1"), strict=True) if known is None
     )
-    return DilatedLength(sp.oo if sp.oo in (first, second) else sp.factor(sp.cancel(first + second)), provided)
+    return DilatedLength(sp.oo if sp.oo in parts else sp.factor(sp.cancel(sp.Add(*parts))), provided)
 
 
-def _crossing(moving: sp.Expr, still: sp.Expr, nu: sp.Symbol) -> tuple[sp.Expr, sp.Expr] | None:
-    """Where a + bν, or c ν^q, crosses a constant, and an expression with the sign of its slope."""
-    if moving.is_polynomial(nu) and sp.degree(moving, nu) == 1:
-        slope = sp.diff(moving, nu)
-        return sp.cancel(nu + (still - moving) / slope), slope
+def _crossing(side: sp.Expr, nu: sp.Symbol) -> tuple[sp.Expr, sp.Expr] | None:
+    """Where a + bν, or c ν^q − d, vanishes, and an expression with the sign of its slope."""
+    side = sp.expand(side)
+    if side.is_polynomial(nu) and sp.degree(side, nu) == 1:
+        slope = sp.diff(side, nu)
+        return sp.cancel(nu - side / slope), slope
+    rest, moving = side.as_independent(nu, as_Add=True)
     factor, power = moving.as_independent(nu, as_Add=False)
     base, exponent = power.as_base_exp()
-    if base != nu or exponent.has(nu) or not (still / factor).is_positive:
+    if base != nu or exponent.has(nu) or not (-rest / factor).is_positive:
         return None
-    return sp.simplify((still / factor) ** (1 / exponent)), factor * exponent
+    return sp.simplify((-rest / factor) ** (1 / exponent)), factor * exponent
 
 
 def _improper(integrand: sp.Expr, nu: sp.Symbol, low: sp.Expr, high: sp.Expr) -> sp.Expr | None:
