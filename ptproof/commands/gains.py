@@ -91,7 +91,7 @@ def _from_numbers(values: dict[str, Any], plot: str | None, as_json: bool) -> in
     if plot is not None:
         from ptproof.gains.plot import plot_gains
 
-        plot_gains(plot, answer.data)
+        plot_gains(answer.data, path=plot)
     bound = answer["clip.residual_bound"]
     met = _met(values.get("residual"), None if bound is None else bound.value)
     if as_json:
@@ -117,7 +117,7 @@ def _from_problem(name: str, values: dict[str, Any], plot: str | None, as_json: 
     if plot is not None:
         from ptproof.gains.plot import plot_gains
 
-        plot_gains(plot, None if result.answer is None else result.answer.data, result.curve, simulated.curves)
+        plot_gains(None if result.answer is None else result.answer.data, result.curve, simulated.curves, plot)
     best = min((bound for bound in result.bounds_at_end.values() if bound is not None), default=None)
     met = _met(values.get("residual"), best)
     if as_json:

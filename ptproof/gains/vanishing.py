@@ -68,11 +68,20 @@ def escape_elapsed(data: GainData, chain: Chain, initial: sp.Expr) -> sp.Expr:
 
 def critical_value_at(data: GainData, elapsed: sp.Expr) -> sp.Expr | None:
     """The V₀ whose printed bound is infinite at τ − t₀ = ``elapsed`` (critical-V_0); None if there is none."""
+    return critical_values(data, elapsed) if sign(last_critical(data) - elapsed) > 0 else None
+
+
+def critical_values(data: GainData, elapsed: sp.Expr) -> sp.Expr:
+    """That V₀ as a formula in ``elapsed``, between 0 and :func:`last_critical`."""
     (T,), (g, h) = data.known("T"), rates(data, "printed")
-    if sign(g - h * (1 + elapsed / T)) <= 0:
-        return None
     values = {_GROWTH: g, _DECAY: h, _HORIZON: T}
     return _in_letters(data.bounds.sigma).critical_initial_at(elapsed).subs(values, simultaneous=True)
+
+
+def last_critical(data: GainData) -> sp.Expr:
+    """T(g/h − 1), the τ − t₀ from which on the printed bound is infinite for no V₀."""
+    (T,), (g, h) = data.known("T"), rates(data, "printed")
+    return T * (g / h - 1)
 
 
 @lru_cache
@@ -95,12 +104,15 @@ def threshold_factor(data: GainData, chain: Chain) -> sp.Expr | None:
     return None if sign(turning) == 0 else bounds.c2**2 * horizon.balance(turning, data.push, k)
 
 
-def critical_value(data: GainData, chain: Chain) -> sp.Expr | None:
-    """(σT·factor)^(−1/σ): below it the bound is finite for all time (κ ≥ 2); None if every V₀ is below."""
+def critical_value(data: GainData, chain: Chain, T: sp.Expr | None = None) -> sp.Expr | None:
+    """(σT·factor)^(−1/σ): below it the bound is finite for all time (κ ≥ 2); None if every V₀ is below.
+
+    ``T`` may be a positive symbol; left out, it is the data's.
+    """
     factor = threshold_factor(data, chain)
     if factor is None:
         return None
-    (T,) = data.known("T")
+    T = data.known("T")[0] if T is None else T
     return (data.bounds.sigma * T * factor) ** (-1 / data.bounds.sigma)
 
 
