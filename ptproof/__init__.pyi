@@ -7,11 +7,13 @@ from .errors import InputError as InputError
 from .gains import GainData as GainData
 from .gains import gains as gains
 from .gains import tight_bound as tight_bound
+from .problem import Field as Field
+from .problem import FieldBounds as FieldBounds
 from .problem import Problem as Problem
 from .problem import example as example
 from .problem import load as load
-from .problem.field import FieldBounds as FieldBounds
-from .proof.run import verify as verify
+from .proof import decide as decide
+from .proof import verify as verify
 from .simulation import Ensemble as Ensemble
 from .simulation import Outcome as Outcome
 from .simulation import Trajectory as Trajectory
@@ -21,7 +23,8 @@ from .simulation import simulate as simulate
 from .simulation import to_control as to_control
 from .system import DitherSystem as DitherSystem
 from .system import System as System
-from .transforms.time import contract as contract
-from .transforms.time import dilate as dilate
+from .transforms import clocks as clocks
+from .transforms import contract as contract
+from .transforms import dilate as dilate
 
 __version__: str

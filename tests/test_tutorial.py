@@ -16,6 +16,7 @@ from ptproof.simulation.drawing import BLUE
 from tests.pictures import ink, pixels
 
 TUTORIAL = Path(__file__).resolve().parents[1] / "TUTORIAL.md"
+README = TUTORIAL.with_name("README.md")
 BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 STATUS = re.compile(r"  # exit status (\d)$")
 
@@ -29,8 +30,8 @@ class Step:
     kind: str
 
 
-def steps(language):
-    blocks = BLOCK.findall(TUTORIAL.read_text("utf-8"))
+def steps(language, page=TUTORIAL):
+    blocks = BLOCK.findall(page.read_text("utf-8"))
     for i, (kind, code) in enumerate(blocks):
         if kind == language:
             after = blocks[i + 1] if i + 1 < len(blocks) and blocks[i + 1][0] in ("text", "math") else ("", "")
@@ -88,6 +89,12 @@ def test_the_commands(tmp_path):
         assert "The average as printed, without the factor 1/2" in (tmp_path / name).read_text("utf-8")
     assert pixels(tmp_path / "path.png").shape == (960, 1200, 3)
     assert 0.005 < ink(tmp_path / "path.png", BLUE) < 0.2
+
+
+def test_the_python_of_the_readme(capsys):
+    (step,) = steps("python", README)
+    exec(compile(step.code, "README", "exec"), {})
+    assert_shown(step.shown, capsys.readouterr().out)
 
 
 def test_the_notebook(tmp_path, monkeypatch):

@@ -1,3 +1,4 @@
+from . import clocks as clocks
 from .clocks import CLOCKS as CLOCKS
 from .clocks import CappedClock as CappedClock
 from .clocks import Clock as Clock
