@@ -53,7 +53,7 @@ def run_one(claim: Claim) -> Evidence:
         evidence = _examined(claim)
     except Exception as error:
         evidence = Evidence("crash", Verdict.UNDECIDED, f"{type(error).__name__}: {error}")
-    return replace(evidence, certifies=None, seconds=time.perf_counter() - start)
+    return replace(evidence, certifies=None, found={}, suspect=None, seconds=time.perf_counter() - start)
 
 
 def _examined(claim: Claim) -> Evidence:
