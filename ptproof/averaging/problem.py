@@ -21,7 +21,11 @@ MU = sp.Symbol("mu", positive=True)
 
 @dataclass(frozen=True)
 class FastStates:
-    """μ dz/dτ = rate(x, z), with the quasi-steady state z = l(x) where the author gives it."""
+    """μ dz/dτ = rate(x, z), with the quasi-steady state z = l(x) where the author gives it.
+
+    >>> x, z = sp.symbols("x z", real=True)
+    >>> filtered = FastStates((z,), (x**2 - z,))
+    """
 
     state: tuple[sp.Symbol, ...]
     rate: tuple[sp.Expr, ...]

@@ -19,7 +19,17 @@ from flint import arb
 from ptproof.balls.rounding import up
 from ptproof.balls.tape import Tape, Undefined, compile_tape
 
-__all__ = ["BALLS", "Undefined", "ball_from", "enclose", "enclosure_text", "interval", "precision", "separated"]
+__all__ = [
+    "BALLS",
+    "Undefined",
+    "ball_from",
+    "enclose",
+    "enclosure_text",
+    "fraction",
+    "interval",
+    "precision",
+    "separated",
+]
 
 
 @contextmanager
@@ -245,6 +255,12 @@ def separated(
             if first < second:
                 return -1
     return None
+
+
+def fraction(ball: arb) -> sp.Rational:
+    """The number that an exact ball is."""
+    value = ball.fmpq()
+    return sp.Rational(int(value.p), int(value.q))
 
 
 def enclosure_text(ball: arb, digits: int = 8) -> str:

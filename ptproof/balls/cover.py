@@ -11,7 +11,7 @@ from typing import Any, TypeAlias
 import sympy as sp
 from flint import arb
 
-from ptproof.balls.ball import BALLS, ball_from, enclose, enclosure_text, precision
+from ptproof.balls.ball import BALLS, ball_from, enclose, enclosure_text, fraction, precision
 from ptproof.balls.boxes import Side, Sides, halves, middle, widest, widths
 from ptproof.balls.jet import Bound, upper_bound
 from ptproof.balls.rounding import down, up
@@ -132,14 +132,9 @@ class _Start:
     def exact_point(self, point: Sequence[arb]) -> dict[sp.Symbol, sp.Expr]:
         """The exact coordinates of a point whose balls are ends of the start or exact themselves."""
         return {
-            symbol: self.exact[id(ball)] if id(ball) in self.exact else _rational(ball)
+            symbol: self.exact[id(ball)] if id(ball) in self.exact else fraction(ball)
             for symbol, ball in zip(self.symbols, point, strict=True)
         }
-
-
-def _rational(ball: arb) -> sp.Rational:
-    fraction = ball.fmpq()
-    return sp.Rational(int(fraction.p), int(fraction.q))
 
 
 def _first_of(tape: Tape) -> Function:

@@ -22,7 +22,11 @@ NAMES = ("a1", "a2", "b1", "b2")
 
 @dataclass(frozen=True)
 class Range:
-    """A rigorous enclosure of a constant; an end that is not known is None."""
+    """A rigorous enclosure of a constant; an end that is not known is None.
+
+    >>> print(Range(1 / 3, 0.5), Range(2.0))
+    [0.3333333, 0.5] [2, …]
+    """
 
     lower: float | None = None
     upper: float | None = None

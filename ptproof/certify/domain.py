@@ -21,6 +21,11 @@ class Domain:
     ------
     InputError
         If a radius is not an exact real number, negative, or not larger than the inner one.
+
+    Examples
+    --------
+    >>> print(Domain(), Domain(outer=sp.sqrt(2)), sep="; ")
+    the whole space; the ball ‖x − x*‖ ≤ sqrt(2)
     """
 
     inner: sp.Expr = sp.S.Zero

@@ -12,7 +12,7 @@ from typing import Any
 import sympy as sp
 from flint import arb
 
-from ptproof.balls.ball import ball_from, enclose, enclosure_text, separated
+from ptproof.balls.ball import ball_from, enclose, enclosure_text, fraction, separated
 from ptproof.balls.growth import Exponent, Growth, coordinates
 from ptproof.balls.growths import GROWTHS
 from ptproof.balls.tape import Undefined
@@ -171,7 +171,7 @@ class Prosecutor:
         if place.is_limit:
             if not value_is_zero_or_less:
                 return None
-            u = [_fraction(entry) for entry in place.box.face.cube_point(place.point[1:])]
+            u = [fraction(entry) for entry in place.box.face.cube_point(place.point[1:])]
             outward = place.box.outer
             if not slope and (found := self.not_lower_on_ray(u, outward=outward)):
                 return found
@@ -206,11 +206,6 @@ def _head(output: Any, reach: arb) -> tuple[Exponent, int, bool]:
     degree, head = growth.head()
     finite = all(c.low.is_finite() and c.high.is_finite() for c in growth.terms.values())
     return degree, 1 if head.low > 0 else -1 if head.high < 0 else 0, finite
-
-
-def _fraction(ball: arb) -> sp.Rational:
-    value = ball.fmpq()
-    return sp.Rational(int(value.p), int(value.q))
 
 
 def _shown(value: sp.Expr) -> str:

@@ -11,8 +11,6 @@ import click
 if TYPE_CHECKING:
     from ptproof.averaging import Average
 
-_STYLES = {"proved": "green", "refuted": "bold red", "undecided": "yellow"}
-
 
 @dataclass(frozen=True)
 class Outcome:
@@ -94,8 +92,9 @@ def _reason(found: Average) -> str:
 
 def _show(outcome: Outcome) -> None:
     from rich.console import Console
-    from rich.table import Table
     from rich.text import Text
+
+    from ptproof.commands.terminal import COLOURS, plain_table
 
     console, data = Console(), outcome.data
     if data["average"] is not None:
@@ -110,13 +109,11 @@ def _show(outcome: Outcome) -> None:
         console.print(Text(f"coefficients that do not vanish: {shown or 'none'}{more}"))
     else:
         console.print(Text("There is no average.", style="bold red"))
-    table = Table(box=None, pad_edge=False)
-    for column in ("assumption", "verdict", "detail"):
-        table.add_column(column, overflow="fold")
-    for letter, entry in data["assumptions"].items():
-        verdict = entry["verdict"]
-        table.add_row(letter, Text(verdict, style=_STYLES.get(verdict, "")), Text(entry["detail"], style="dim"))
-    console.print(table)
+    rows = [
+        (letter, Text(entry["verdict"], style=COLOURS[entry["verdict"]]), Text(entry["detail"], style="dim"))
+        for letter, entry in data["assumptions"].items()
+    ]
+    console.print(plain_table(("assumption", "verdict", "detail"), rows))
     for caveat in outcome.caveats:
         console.print(Text(f"The average holds if this does, which was not shown: {caveat}", style="yellow"))
     _show_expected(console, data["expected"])
@@ -125,10 +122,12 @@ def _show(outcome: Outcome) -> None:
 def _show_expected(console: Any, expected: dict[str, Any] | None) -> None:
     from rich.text import Text
 
+    from ptproof.commands.terminal import COLOURS
+
     if expected is None:
         return
     verdict = expected["verdict"]
-    console.print(Text(f"the expected average: {verdict}", style=_STYLES.get(verdict, "")))
+    console.print(Text(f"the expected average: {verdict}", style=COLOURS[verdict]))
     if expected["witness"]:
         witness = expected["witness"]
         values = ", ".join(f"{name} = {value}" for name, value in witness["values"].items())

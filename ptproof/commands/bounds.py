@@ -10,8 +10,6 @@ import click
 if TYPE_CHECKING:
     from ptproof.certify import FieldCertificate
 
-_STYLES = {"proved": "green", "refuted": "bold red", "undecided": "yellow"}
-
 
 class _WithExpression(click.Command):
     """A command whose argument may begin with a minus sign."""
@@ -66,16 +64,18 @@ def bounds(
     \b
     Example:  ptproof bounds "5/2 + cos(2*pi/3*x1)/2 - (x1**2 + x2**2)/2" --vars x1,x2 --kappa 1
     """
+    from ptproof.proof.verdict import Verdict
+
     certificate = _certificate(timeout, expression, names, source, kappa, radius, annulus, rtol)
     if plot is not None:
         _draw(certificate, plot)
     if as_json:
-        if str(certificate.verdict) == "undecided":
+        if certificate.verdict is Verdict.UNDECIDED:
             click.echo(f"ptproof: {certificate.summary}", err=True)
         click.echo(json.dumps(certificate.to_json(), indent=2, ensure_ascii=False))
     else:
         _show(certificate)
-    return 0 if str(certificate.verdict) == "proved" else 1
+    return 0 if certificate.verdict is Verdict.PROVED else 1
 
 
 def _certificate(seconds: float, *data: Any) -> FieldCertificate:
@@ -146,29 +146,25 @@ def _draw(certificate: FieldCertificate, path: str) -> None:
 
 def _show(certificate: FieldCertificate) -> None:
     from rich.console import Console
-    from rich.table import Table
     from rich.text import Text
 
+    from ptproof.commands.terminal import COLOURS, plain_table
+    from ptproof.proof.verdict import Verdict
+
     console = Console()
-    verdict = str(certificate.verdict)
     head, _, *lines = str(certificate).splitlines()
     console.print(Text(head))
-    console.print(Text(certificate.summary, style=_STYLES[verdict]))
+    console.print(Text(certificate.summary, style=COLOURS[str(certificate.verdict)]))
     rows = certificate.rows()
     for line in lines[: len(lines) - len(rows)]:
         console.print(Text(line))
     if not rows:
         return
-    table = Table(box=None, pad_edge=False)
-    for column in ("constant", "meaning", "enclosure"):
-        table.add_column(column, overflow="fold")
-    for row in rows:
-        table.add_row(*(Text(cell) for cell in row))
-    console.print(table)
+    console.print(plain_table(("constant", "meaning", "enclosure"), rows))
     shown = certificate.smaller or certificate
-    if str(shown.verdict) == "undecided" and shown is not certificate:
-        console.print(Text(shown.summary, style=_STYLES["undecided"]))
-    if str(shown.verdict) == "proved":
+    if shown.verdict is Verdict.UNDECIDED and shown is not certificate:
+        console.print(Text(shown.summary, style=COLOURS["undecided"]))
+    if shown.verdict is Verdict.PROVED:
         found, where = shown.field_bounds(), "" if shown is certificate else f" on {shown.domain.readable}"
         text = ", ".join(f"{name} = {float(getattr(found, name)):.9g}" for name in ("a1", "a2", "b1", "b2"))
         console.print(Text(f"constants that certainly hold{where}: {text}", style="bold"))

@@ -43,17 +43,13 @@ def coverage(paper: str, paths: tuple[str, ...], as_json: bool) -> int:
 
 def _show(found: Coverage) -> None:
     from rich.console import Console
-    from rich.table import Table
     from rich.text import Text
 
+    from ptproof.commands.terminal import plain_table
+
     console = Console()
-    table = Table(box=None, pad_edge=False)
-    table.add_column("equation", overflow="fold")
-    table.add_column("covered by", overflow="fold", style="dim")
-    for label, ids in found.covered:
-        table.add_row(Text(label, style="green"), Text(", ".join(ids)))
-    for label in found.missing:
-        table.add_row(Text(label, style="bold red"), Text("nothing", style="red"))
-    console.print(table)
+    rows = [(Text(label, style="green"), Text(", ".join(ids), style="dim")) for label, ids in found.covered]
+    rows += [(Text(label, style="bold red"), Text("nothing", style="red")) for label in found.missing]
+    console.print(plain_table(("equation", "covered by"), rows))
     total = len(found.covered) + len(found.missing)
     console.print(f"{len(found.covered)} of {total} labelled equations are covered, {len(found.missing)} missing")
