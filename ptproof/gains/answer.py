@@ -9,7 +9,7 @@ from typing import Any
 
 from ptproof.gains.data import GainData
 from ptproof.gains.entries import ENTRIES
-from ptproof.gains.numbers import NotApplicable, Quantity
+from ptproof.gains.numbers import NotApplicable, Quantity, Unlimited
 
 
 @dataclass(frozen=True)
@@ -22,11 +22,14 @@ class Gains:
         Section to key to :class:`Quantity` or None.
     why
         ``"section.key"`` to the reason, for every None.
+    unlimited
+        Those of them that are thresholds above every value.
     """
 
     data: GainData
     values: Mapping[str, Mapping[str, Quantity | None]]
     why: Mapping[str, str]
+    unlimited: frozenset[str] = frozenset()
 
     def __getitem__(self, key: str) -> Quantity | None:
         section, name = key.split(".")
@@ -60,6 +63,7 @@ def gains(data: GainData) -> Gains:
     (16, 2)
     """
     why: dict[str, str] = {}
+    unlimited: set[str] = set()
     values: dict[str, Mapping[str, Quantity | None]] = {}
     for section, entries in ENTRIES.items():
         found: dict[str, Quantity | None] = {}
@@ -69,5 +73,7 @@ def gains(data: GainData) -> Gains:
             except NotApplicable as reason:
                 found[key] = None
                 why[f"{section}.{key}"] = str(reason)
+                if isinstance(reason, Unlimited):
+                    unlimited.add(f"{section}.{key}")
         values[section] = MappingProxyType(found)
-    return Gains(data, MappingProxyType(values), MappingProxyType(why))
+    return Gains(data, MappingProxyType(values), MappingProxyType(why), frozenset(unlimited))

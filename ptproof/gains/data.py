@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
 from functools import cached_property
 
 import sympy as sp
@@ -14,6 +15,7 @@ from ptproof.problem.field import FieldBounds
 
 _LARGEST_KAPPA = 1000
 _POSITIVE = ("k", "T", "nu_min", "V0", "x0_norm", "residual", "omega", "mu", "exponent")
+_NUMBERS = (*_POSITIVE, "drift_norm", "drift_bound", "t0", "tau_star")
 
 
 @dataclass(frozen=True)
@@ -75,7 +77,7 @@ class GainData:
             raise InputError("kappa must be a number here; symbolic formulas are in ptproof.comparison")
         if self.bounds.kappa > _LARGEST_KAPPA:
             raise InputError(f"kappa must be at most {_LARGEST_KAPPA}, got {short(self.bounds.kappa)}")
-        for name in (*_POSITIVE, "drift_norm", "drift_bound", "t0", "tau_star"):
+        for name in _NUMBERS:
             value = getattr(self, name)
             if value is None:
                 continue
@@ -113,6 +115,12 @@ class GainData:
         if missing := [name for name in names if getattr(self, name) is None]:
             raise NotApplicable(f"needs {' and '.join(missing)}")
         return tuple(getattr(self, name) for name in names)
+
+    @property
+    def numbers(self) -> Mapping[str, sp.Expr]:
+        """The numbers that are known, by their names, with the constants of the field."""
+        known = {name: getattr(self, name) for name in _NUMBERS if getattr(self, name) is not None}
+        return known | {item.name: getattr(self.bounds, item.name) for item in fields(self.bounds)}
 
     @cached_property
     def horizon(self) -> Horizon:

@@ -12,7 +12,7 @@ import sympy as sp
 
 from ptproof.gains import nonvanishing, vanishing
 from ptproof.gains.data import GainData
-from ptproof.gains.numbers import NotApplicable, sign, times_exponential
+from ptproof.gains.numbers import NotApplicable, Unlimited, sign, times_exponential
 from ptproof.gains.vanishing import Chain
 
 Formula: TypeAlias = Callable[..., sp.Expr]
@@ -57,10 +57,11 @@ def _quadratic(data: GainData) -> None:
         raise NotApplicable("for kappa = 1 only: with kappa >= 2 the average decays like a power of tau")
 
 
-def _higher(data: GainData, chain: Chain) -> None:
+def _higher(data: GainData, chain: Chain, *, threshold: bool = False) -> None:
     _along_gradient(data)
     if data.bounds.kappa == 1:
-        raise NotApplicable("for kappa = 1 the bound is finite for every V0 and T")
+        unlimited = threshold and (chain == "split" or data.unit.is_printed)
+        raise (Unlimited if unlimited else NotApplicable)("for kappa = 1 the bound is finite for every V0 and T")
     _known_chain(data, chain)
 
 
@@ -136,21 +137,18 @@ def _at_tau_star(data: GainData) -> sp.Expr:
 @_entry("critical.V0_threshold", "safe V₀ below", chain="split")
 @_entry("critical.V0_threshold_printed", "safe V₀ below, as printed", chain="printed")
 def _V0_threshold(data: GainData, chain: Chain) -> sp.Expr:
-    _higher(data, chain)
+    _higher(data, chain, threshold=True)
     value = vanishing.critical_value(data, chain)
     if value is None:
-        raise NotApplicable("no threshold: the bound decreases from the start, for every V0")
+        raise Unlimited("no threshold: the bound decreases from the start, for every V0")
     return value
 
 
 @_entry("critical.T_threshold", "safe T below", chain="split")
 @_entry("critical.T_threshold_printed", "safe T below, as printed", chain="printed")
 def _T_threshold(data: GainData, chain: Chain) -> sp.Expr:
-    _higher(data, chain)
-    value = vanishing.critical_horizon(data, chain, data.start_value)
-    if value is None:
-        raise NotApplicable("no threshold: the guarantee holds for every T")
-    return value
+    _higher(data, chain, threshold=True)
+    return vanishing.critical_horizon(data, chain)
 
 
 @_entry("critical.escape_time_split", "the sharper bound escapes at τ", chain="split")

@@ -19,6 +19,10 @@ class NotApplicable(InputError):
     """A formula does not apply to these data, or a number that it needs is missing; the text says why."""
 
 
+class Unlimited(NotApplicable):
+    """There is no such threshold because the bound holds for every value: it counts as infinite."""
+
+
 def sign(expression: sp.Expr) -> int:
     """The exact sign (−1, 0, 1) of a number; see :func:`ptproof.proof.signs.sign_of`.
 

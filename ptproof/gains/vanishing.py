@@ -16,7 +16,7 @@ import sympy as sp
 
 from ptproof.comparison import DilatedBound
 from ptproof.gains.data import GainData
-from ptproof.gains.numbers import sign, times_exponential
+from ptproof.gains.numbers import Unlimited, sign, times_exponential
 from ptproof.problem.field import FieldBounds
 
 Chain = Literal["printed", "split"]
@@ -116,13 +116,12 @@ def critical_value(data: GainData, chain: Chain, T: sp.Expr | None = None) -> sp
     return (data.bounds.sigma * T * factor) ** (-1 / data.bounds.sigma)
 
 
-def critical_horizon(data: GainData, chain: Chain, initial: sp.Expr) -> sp.Expr | None:
-    """The T below which the guarantee holds for V₀ = ``initial`` and this drift, whatever k > 0 (κ ≥ 2)."""
+def critical_horizon(data: GainData, chain: Chain) -> sp.Expr:
+    """The T below which the guarantee holds for this drift and V₀ (κ ≥ 2); see :class:`Unlimited`."""
     factor = threshold_factor(data, chain)
     if factor is None:
-        return None
-    sigma = data.bounds.sigma
-    return initial ** (-sigma) / (sigma * factor)
+        raise Unlimited("no threshold: the guarantee holds for every T")
+    return data.start_value ** (-data.bounds.sigma) / (data.bounds.sigma * factor)
 
 
 def growth(data: GainData, elapsed: sp.Expr, chain: Chain) -> sp.Expr:

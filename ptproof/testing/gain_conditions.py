@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import fields
 from typing import TYPE_CHECKING
 
 import sympy as sp
@@ -23,20 +22,6 @@ __unittest = True
 SECONDS = 60.0
 _RELATION = re.compile(r"^([^<>=]+)(<=|>=|<|>)([^<>=]+)$")
 _KEY = re.compile(r"\b([a-z_]+)\.([A-Za-z]\w*)")
-_NUMBERS = (
-    "k",
-    "T",
-    "nu_min",
-    "drift_norm",
-    "drift_bound",
-    "V0",
-    "x0_norm",
-    "t0",
-    "tau_star",
-    "residual",
-    "omega",
-    "mu",
-)
 
 
 @assertion
@@ -96,7 +81,7 @@ def _decide(asked: GainData | Problem, condition: str, left: str, symbol: str, r
         key = f"{section}.{name}"
         if found is not None:
             keys[key] = found.exact
-        elif _unlimited(data, key):
+        elif key in answer.unlimited:
             keys[key] = sp.oo
         else:
             return lines(f"the condition {condition} could not be decided: undecided",
@@ -138,40 +123,17 @@ def _answer(asked: GainData | Problem) -> tuple[Gains | None, str]:
     return found.answer, ""
 
 
-def _unlimited(data: GainData, key: str) -> bool:
-    """Whether a threshold is missing because every value is below it."""
-    from ptproof.gains import vanishing
-    from ptproof.gains.numbers import NotApplicable
-
-    section, _, name = key.partition(".")
-    if section != "critical" or not name.startswith(("V0_threshold", "T_threshold")):
-        return False
-    if data.drift_bound is not None and data.drift_norm is None:
-        return False
-    if data.bounds.kappa == 1:
-        return True
-    try:
-        return vanishing.threshold_factor(data, "printed" if name.endswith("printed") else "split") is None
-    except NotApplicable:
-        return False
-
-
 def _value(text: str, data: GainData, keys: Mapping[str, sp.Expr]) -> sp.Expr:
     """A side of the condition: its keys are masked by names that the parser can read."""
     from ptproof.reading.expressions import parse
 
-    masks = {key: sp.Symbol(key.replace(".", "__"), real=True) for key in keys}
-    masked = _KEY.sub(lambda m: masks[f"{m[1]}.{m[2]}"].name, text)
-    values = {masks[key]: value for key, value in keys.items()}
-    names = {mask.name: mask for mask in masks.values()}
-    for name in _NUMBERS:
-        if getattr(data, name) is not None:
-            names[name] = sp.Symbol(name, real=True)
-            values[names[name]] = getattr(data, name)
-    for item in fields(data.bounds):
-        names[item.name] = sp.Symbol(item.name, real=True)
-        values[names[item.name]] = getattr(data.bounds, item.name)
-    value = parse(masked, names, where="condition").subs(values, simultaneous=True)
+    masks = {key: key.replace(".", "__") for key in keys}
+    masked = _KEY.sub(lambda found: masks[found[0]], text)
+    known = {**data.numbers, **{masks[key]: value for key, value in keys.items()}}
+    names = {name: sp.Symbol(name, real=True) for name in known}
+    value = parse(masked, names, where="condition").subs(
+        {names[name]: value for name, value in known.items()}, simultaneous=True
+    )
     if value.has(sp.oo, -sp.oo, sp.nan, sp.zoo) and value is not sp.oo:
         raise InputError(f"condition: {text.strip()} has no finite value")
     return value

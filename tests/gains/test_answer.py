@@ -182,6 +182,14 @@ def test_a_gain_above_twice_the_norm_has_no_threshold():
     assert "no threshold" in answer.why["critical.V0_threshold"]
 
 
+def test_a_threshold_above_every_value_is_told_from_one_that_is_not_known():
+    free = gains(GainData(TWO, k=4, T=1, drift_norm=R(19, 10)))
+    assert {"critical.V0_threshold", "critical.T_threshold"} <= free.unlimited
+    other = gains(GainData(ONE, k=4, T=1, drift_norm=R(1), clock="tangent"))
+    assert other.unlimited == {"critical.V0_threshold", "critical.T_threshold"}
+    assert gains(GainData(TWO, k=1, drift_norm=R(5))).unlimited == frozenset()
+
+
 @pytest.mark.parametrize(
     ("matrix", "gain"),
     [
