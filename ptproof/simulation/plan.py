@@ -125,8 +125,9 @@ class Plan:
 
     def distance(self, x: Array) -> Array:
         """The distance of the watched states from the center, for x (n × …)."""
-        if x.ndim == 1:
-            return np.asarray(math.dist([x[i] for i in self.watched], self.center))
+        if x.size == len(x):  # one state, for which NumPy takes longer than the distance
+            found = math.dist([float(x[i].item()) for i in self.watched], self.center)
+            return np.full(x.shape[1:], found)
         with np.errstate(all="ignore"):
             squares = [(x[i] - center) ** 2 for i, center in zip(self.watched, self.center, strict=True)]
             return np.asarray(np.sqrt(sum(squares[1:], squares[0])))

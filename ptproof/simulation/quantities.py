@@ -68,7 +68,7 @@ def _select(conditions: list[Any], choices: list[Any], default: Any = np.nan) ->
 def time_map(expression: sp.Expr, variable: sp.Symbol) -> Callable[[Array, Mapping[str, Any]], Array]:
     """``expression`` for arrays of ``variable``, given the parameters of a clock by name."""
     symbols = (parameters.t0, parameters.T, parameters.nu_min, parameters.exponent, parameters.gain)
-    function = sp.lambdify([variable, *symbols], expression, modules=[{"select": _select}, "numpy"])
+    function = sp.lambdify([variable, *symbols], expression, modules=[{"select": _select}, "numpy"], cse=True)
 
     def evaluate(times: Array, table: Mapping[str, Any]) -> Array:
         values = [table.get(symbol.name, 1.0) for symbol in symbols]

@@ -56,6 +56,12 @@ class Question:
             return example(self.target)
         return self.target if isinstance(self.target, Problem) else None
 
+    @property
+    def plain(self) -> bool:
+        """Whether it is a problem with its own numbers, so that it need be prepared once only."""
+        changes = (self.initial, self.parameters, self.span, self.until)
+        return self.problem is not None and all(change is None for change in changes)
+
     def setup(self) -> Setup:
         """The system with its parameters, initial states and times by name.
 

@@ -6,6 +6,7 @@ import math
 import time as clock
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any, Unpack
 
 import numpy as np
@@ -60,7 +61,8 @@ def simulate(
     >>> simulate("vanishing", "asymptotic", frame="tau", model="average", samples=10)
     Trajectory(x1, x2; 11 samples to t = 1, reached T, final distance 3.05549)
     """
-    job = _job(*asked(target, _chosen(seeker, frame, options)))
+    question, settings = asked(target, _chosen(seeker, frame, options))
+    job = (_once if question.plain else _job)(question, settings)
     begin = clock.perf_counter()
     run = engine_named(job.engine).trajectory(job.plan, job.batch)
     return _trajectory(job, run, clock.perf_counter() - begin)
@@ -177,6 +179,7 @@ def _job(
     return _Job(setup, table, batch, plan, engine, about)
 
 
+_once = lru_cache(maxsize=64)(_job)
 _POSITIVE = tuple(name.name for name in vars(loop_parameters).values() if getattr(name, "is_positive", False))
 
 
@@ -235,5 +238,5 @@ def _trajectory(job: _Job, run: Any, seconds: float) -> Trajectory:
     return Trajectory(
         t, run.x, job.states, stop.outcome, float(job.plan.distance(run.x[:, -1])), stop.message, tau,
         None if setup.field_at is None else setup.field_at(position),
-        {} if setup.inputs_at is None else setup.inputs_at(t, run.x, values), job.about, seconds, stop.limit,
+        {} if setup.inputs_at is None else setup.inputs_at(t, run.x, values), dict(job.about), seconds, stop.limit,
     )  # fmt: skip

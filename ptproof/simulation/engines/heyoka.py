@@ -98,25 +98,24 @@ class _Way:
         """Integrate through ``grid``, whose first time is the solver's; why it stopped before, if it did."""
         import heyoka as hy
 
-        while len(grid) > 1:
-            outcome, _, _, steps, _, states = solver.propagate_grid(grid, max_steps=min(_STEPS_A_CALL, self.steps))
+        while True:
+            outcome, steps, rows = _go(solver, grid, min(_STEPS_A_CALL, self.steps))
             self.steps -= steps
-            rows = states[1:].T
             inside = self.plan.distance(rows) <= self.plan.radius
             good = len(inside) if inside.all() else int(np.argmin(inside))
             if good:
                 self.samples.add(grid[1 : good + 1], rows[:, :good])
+            if good == len(grid) - 1:
+                return None
             if good < len(inside) and np.isfinite(rows[:, good]).all():
                 self.samples.add(grid[good + 1 : good + 2], rows[:, good : good + 1])
                 return self.plan.escaped
             if good < len(inside) or outcome == hy.taylor_outcome.err_nf_state:
                 return self._to_the_border(solver, float(grid[good + 1]))
-            grid = np.concatenate([[solver.time], grid[len(states) :]])
-            if len(grid) > 1 and (limit := self._spent()):
+            grid = np.concatenate([[solver.time], grid[good + 1 :]])
+            if limit := self._spent():
                 self.samples.add(grid[:1], solver.state.reshape(-1, 1).copy())
-                end = float(self.samples.member.edges[-1, 0])
-                return self.plan.at_limit(limit, float(solver.time), end)
-        return None
+                return self.plan.at_limit(limit, float(solver.time), float(self.samples.member.edges[-1, 0]))
 
     def _spent(self) -> Limit | None:
         if self.steps <= 0:
@@ -136,6 +135,18 @@ class _Way:
         if time > self.samples.time:
             self.samples.add(np.array([time]), x[:, None])
         return self.plan.broken(self.samples.member.initial[:, 0], x, "the state is not finite any more")
+
+
+def _go(solver: Any, grid: Array, most: int) -> tuple[Any, int, Array]:
+    """How up to ``most`` steps through ``grid`` ended, their number, and the states (n × …) at the times reached."""
+    import heyoka as hy
+
+    if len(grid) > 2:
+        outcome, _, _, steps, _, states = solver.propagate_grid(grid, max_steps=most)
+        return outcome, steps, states[1:].T
+    outcome, _, _, steps, _, _ = solver.propagate_until(float(grid[1]), max_steps=most)
+    rows = solver.state.reshape(-1, 1).copy()
+    return outcome, steps, rows if outcome == hy.taylor_outcome.time_limit else rows[:, :0]
 
 
 class _Taylor:
