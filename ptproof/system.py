@@ -55,6 +55,14 @@ class System:
     ------
     InputError
         If the lengths differ, a state stands twice, time is a state, or ``parameters`` misses a symbol.
+
+    Examples
+    --------
+    >>> t, x = sp.symbols("t x", real=True)
+    >>> k = sp.Symbol("k", positive=True)
+    >>> decay = System(t, (x,), (-k * x,))
+    >>> decay.parameters, decay.with_values({k: 2}).rhs
+    ((k,), (-2*x,))
     """
 
     time: sp.Symbol
@@ -193,6 +201,14 @@ class DitherSystem:
         u₁ … u_N: N expressions in ``phase``, and in ``time`` where an amplitude varies slowly.
     period
         The common period of the dithers in ``phase``.
+
+    Examples
+    --------
+    >>> tau, theta, x = sp.symbols("tau theta x", real=True)
+    >>> omega, k = sp.symbols("omega k", positive=True)
+    >>> F = sp.Function("F", real=True)(x)
+    >>> DitherSystem(tau, theta, omega, (x,), (0,), ((1,), (k * F,)), (sp.cos(theta), sp.sin(theta))).fields
+    ((1,), (k*F(x),))
     """
 
     time: sp.Symbol

@@ -48,3 +48,9 @@ def test_python_m_ptproof_is_the_command() -> None:
     command = [sys.executable, "-m", "ptproof", "--version"]
     done = subprocess.run(command, capture_output=True, text=True, check=True, timeout=60)
     assert done.stdout.startswith("ptproof, version")
+
+
+@pytest.mark.parametrize("room", ["ptproof", "ptproof.testing"])
+def test_every_public_name_has_an_example(room: str) -> None:
+    face = importlib.import_module(room)
+    assert [name for name in dir(face) if ">>>" not in (getattr(face, name).__doc__ or "")] == []

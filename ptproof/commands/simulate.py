@@ -25,9 +25,15 @@ if TYPE_CHECKING:
     "--seeker", type=click.Choice(seekers_of("simulate")),
     help="Left out: the one whose tables the problem has, such as saturated for [saturation]; pt where it has none.",
 )  # fmt: skip
-@click.option("--frame", type=click.Choice(["t", "tau"]), default="t", show_default=True)
+@click.option("--frame", type=click.Choice(["t", "tau"]), default="t", show_default=True, help="The time to run in.")
 @click.option("--engine", type=click.Choice(names()), help="Left out: chosen to fit.")
-@click.option("--model", type=click.Choice(["closed loop", "reduced model", "average"]), default="closed loop")
+@click.option(
+    "--model",
+    type=click.Choice(["closed loop", "reduced model", "average"]),
+    default="closed loop",
+    show_default=True,
+    help="What is run.",
+)
 @click.option("--rtol", default="1e-8", show_default=True, metavar="NUMBER", help="The error asked for.")
 @click.option("--until", metavar="TIME", help="Another end than the prescribed time.")
 @click.option("--ensemble", type=click.IntRange(1, 10_000_000), metavar="N", help="N members with random headings.")
@@ -35,7 +41,7 @@ if TYPE_CHECKING:
     "--vary", multiple=True, metavar="NAME=LOW:HIGH",
     help="What differs in an ensemble instead of theta; may be repeated.",
 )  # fmt: skip
-@click.option("--seed", type=click.IntRange(0), default=0, show_default=True)
+@click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Of what differs in an ensemble.")
 @click.option("--workers", type=click.IntRange(1, 1024), default=1, show_default=True, help="Threads for an ensemble.")
 @options.cluster
 @click.option("--time-limit", type=float, default=60.0, show_default=True, help="Seconds for each run.")

@@ -109,6 +109,13 @@ class Field:
         If the lengths differ, a coordinate is not an exact real number, F has other symbols or is not defined at
         the source, or κ is not a positive integer. That x* is a maximum is not checked here but proved by
         :func:`ptproof.certify.certify_field`.
+
+    Examples
+    --------
+    >>> x, y = sp.symbols("x y", real=True)
+    >>> hill = Field((x, y), 3 - x**2 - (y - 1) ** 2, (0, 1), 1)
+    >>> hill.peak, hill.gradient.T
+    (3, Matrix([[-2*x, 2 - 2*y]]))
     """
 
     variables: tuple[sp.Symbol, ...]

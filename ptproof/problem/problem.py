@@ -39,6 +39,13 @@ class Problem:
     ------
     InputError
         For data that don't fit together, naming the key at fault.
+
+    Examples
+    --------
+    >>> import ptproof
+    >>> problem = ptproof.example("vanishing")
+    >>> problem.peak, problem.tuning.k
+    (3, 9/5)
     """
 
     field: Field

@@ -43,7 +43,11 @@ class _Tables:
 
 @lru_cache(maxsize=8)
 def example(name: str) -> Problem:
-    """One of the paper's examples (Section 7): ``vanishing``, ``nonvanishing`` or ``saturated``, with exact numbers."""
+    """One of the paper's examples (Section 7): ``vanishing``, ``nonvanishing`` or ``saturated``, with exact numbers.
+
+    >>> example("nonvanishing").tuning.nu_min
+    3/10
+    """
     if name not in EXAMPLES:
         raise InputError(f"{name!r} is not an example{hint(name, EXAMPLES)}; the examples are {', '.join(EXAMPLES)}")
     text = resources.files("ptproof.problem").joinpath("examples", f"{name}.toml").read_text("utf-8")
@@ -63,6 +67,12 @@ def load(path: str | Path) -> Problem:
     ------
     InputError
         Naming the file and the key, and what would be right.
+
+    Examples
+    --------
+    >>> file = resources.files("ptproof.problem").joinpath("examples", "vanishing.toml")
+    >>> load(str(file)).tuning.k
+    9/5
     """
     return read(read_file(path, "a seeking problem"), str(path), name=Path(path).stem)
 

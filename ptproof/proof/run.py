@@ -139,6 +139,17 @@ def verify(
     ------
     InputError
         For a number of workers below 1, a time limit that is not positive, or a selection that is empty.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from ptproof.proof import load
+    >>> lines = "import sympy as sp; from ptproof.proof import claim, eq, exact; x = sp.Symbol('x', real=True)"
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     _ = Path(folder, "claims.py").write_text(f"{lines}; one = claim('sum', 'A sum', eq(x + x, 2 * x))(exact)")
+    ...     verify(load([folder]), workers=1).summary()["proved"]
+    1
     """
     claims = derivation.select(select)
     if not claims:

@@ -21,7 +21,11 @@ Array = npt.NDArray[np.float64]
 
 
 class Outcome(enum.StrEnum):
-    """How a run ended. Outcomes are values; a run that goes wrong raises nothing."""
+    """How a run ended. Outcomes are values; a run that goes wrong raises nothing.
+
+    >>> Outcome("reached T") is Outcome.REACHED
+    True
+    """
 
     REACHED = "reached T"
     ESCAPED = "escaped"

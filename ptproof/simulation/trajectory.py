@@ -43,6 +43,13 @@ class Trajectory:
         Everything that repeats the run: seeker, frame, engine, tolerances, parameters.
     seconds
         The wall time of the integration.
+
+    Examples
+    --------
+    >>> import ptproof
+    >>> run = ptproof.simulate("vanishing")
+    >>> print(run.outcome, round(run.final_distance, 3), run["u1"].shape == run.t.shape)
+    reached T 0.179 True
     """
 
     t: Array
@@ -128,6 +135,13 @@ class Ensemble:
         What differed, by name: N values each.
     states, settings, seconds
         As for :class:`Trajectory`.
+
+    Examples
+    --------
+    >>> import ptproof
+    >>> many = ptproof.ensemble("vanishing", 5, model="average")
+    >>> many.size, dict(many.counts)
+    (5, {'reached T': 5})
     """
 
     t: Array

@@ -48,6 +48,16 @@ def assert_average(
         and a witness), or anything is undecided.
     InputError, TypeError
         For bad use, such as another number of entries or an unknown letter.
+
+    Examples
+    --------
+    >>> from ptproof import System
+    >>> from ptproof.testing import assert_average
+    >>> tau, x = sp.symbols("tau x", real=True)
+    >>> k, omega = sp.symbols("k omega", positive=True)
+    >>> F = sp.Function("F", real=True)(x)
+    >>> rate = sp.sqrt(omega) * (sp.cos(omega * tau) + k * F * sp.sin(omega * tau))
+    >>> assert_average(System(tau, (x,), (rate,)), ["k/2*Derivative(F(x), x)"], omega=omega)
     """
     from ptproof.averaging import AveragingRefused, AveragingUndecided, study
     from ptproof.averaging.problem import DitherProblem

@@ -54,6 +54,17 @@ def assert_converges_to_average(
         If the gap falls more slowly, with the gap at each ω; or if a run does not get to the end: undecided.
     InputError, TypeError
         If states, parameters or values don't fit.
+
+    Examples
+    --------
+    >>> import sympy as sp
+    >>> from ptproof import System, average, split_dithers
+    >>> from ptproof.testing import assert_converges_to_average
+    >>> tau, x = sp.symbols("tau x", real=True)
+    >>> omega = sp.Symbol("omega", positive=True)
+    >>> seeker = System(tau, (x,), (sp.sqrt(omega) * (sp.cos(omega * tau) - x**2 * sp.sin(omega * tau)),))
+    >>> averaged = average(split_dithers(seeker, omega))
+    >>> assert_converges_to_average(seeker, averaged, initial=[1], end=1, omega=omega, omegas=(100, 400, 1600))
     """
     from ptproof.averaging import Correction
     from ptproof.simulation import Settings

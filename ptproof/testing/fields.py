@@ -51,6 +51,12 @@ def assert_field_bounds(
         is undecided, as where a claimed constant lies inside the enclosure of the best one.
     InputError, TypeError
         For data that make no sense.
+
+    Examples
+    --------
+    >>> from ptproof.testing import assert_field_bounds
+    >>> x, y = sp.symbols("x y", real=True)
+    >>> assert_field_bounds(3 - x**2 - 2 * y**2, variables=[x, y], source=[0, 0], a1="2.1", a2="0.9")
     """
     from ptproof.certify import certify_field
 

@@ -48,6 +48,13 @@ def assert_gain_condition(data: GainData | Problem, condition: str, *, seconds: 
         does not apply to these data.
     InputError, TypeError
         For a condition that cannot be read, or a name that is unknown or not given in ``data``.
+
+    Examples
+    --------
+    >>> from ptproof import FieldBounds, GainData
+    >>> from ptproof.testing import assert_gain_condition
+    >>> data = GainData(FieldBounds(1, 1, 1, 2, 2), drift_norm=1, k=3)
+    >>> assert_gain_condition(data, "k > asymptotic.k_min")
     """
     from ptproof.gains import GainData
     from ptproof.problem import Problem

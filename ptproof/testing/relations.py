@@ -41,6 +41,13 @@ def assert_identity(left: Any, right: Any, *, given: Any = (), seconds: float = 
         If the difference does not have the normal form 0: refuted with a witness, or undecided.
     InputError, TypeError
         For sides that are not exact expressions of the same shape.
+
+    Examples
+    --------
+    >>> from ptproof.testing import assert_identity, eq
+    >>> x, y = sp.symbols("x y", real=True)
+    >>> assert_identity(sp.cos(2 * x), 1 - 2 * sp.sin(x) ** 2)
+    >>> assert_identity(x**4, y**2, given=eq(y, x**2))
     """
     sides = side(left, "left"), side(right, "right")
     goal = Goal("assert_identity", Relation(sides[0], "=", sides[1]), assumptions(given))
@@ -65,6 +72,13 @@ def assert_inequality(statement: Any, *, given: Any = (), seconds: float = SECON
         If it is refuted, with a witness, or undecided.
     InputError, TypeError
         For something that is not a relation, among it one that has been evaluated to true or false.
+
+    Examples
+    --------
+    >>> from ptproof.testing import assert_inequality, ge, le
+    >>> x, y = sp.symbols("x y", real=True)
+    >>> assert_inequality(le(2 * x * y, x**2 + y**2))
+    >>> assert_inequality(ge(x**3, 1), given=ge(x, 1))
     """
     goal = Goal("assert_inequality", relation(statement, "statement"), assumptions(given))
     return _reason(goal, seconds, "the relation does not hold", "the relation could not be decided")

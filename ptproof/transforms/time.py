@@ -25,6 +25,13 @@ def dilate(system: System, clock: Clock | CappedClock, gain: sp.Symbol | None = 
 
     An undefined function of time, such as a drift f(t, x), is taken at the same instant: f(a⁻¹(τ), x). A symbol
     ``gain`` in the system stands for dτ/dt; what it multiplies loses it before anything is put in.
+
+    >>> from ptproof.transforms import prescribed_time_clock
+    >>> t, tau, x = sp.symbols("t tau x", real=True)
+    >>> T = sp.Symbol("T", positive=True)
+    >>> clock = prescribed_time_clock(t, tau, start=0, horizon=T)
+    >>> dilate(System(t, (x,), (-x / (1 - t / T) ** 2,)), clock).rhs
+    (-x,)
     """
     if system.time != clock.t:
         raise InputError(f"{system.name}: runs in {system.time}, but {clock.name} dilates {clock.t}")
@@ -38,7 +45,15 @@ def dilate(system: System, clock: Clock | CappedClock, gain: sp.Symbol | None = 
 
 
 def contract(system: System, clock: Clock | CappedClock) -> System:
-    """The system in the clock's original time: dx/dt = (dτ/dt) · rhs(a(t), x)."""
+    """The system in the clock's original time: dx/dt = (dτ/dt) · rhs(a(t), x).
+
+    >>> from ptproof.transforms import prescribed_time_clock
+    >>> t, tau, x = sp.symbols("t tau x", real=True)
+    >>> T = sp.Symbol("T", positive=True)
+    >>> clock = prescribed_time_clock(t, tau, start=0, horizon=T)
+    >>> contract(System(tau, (x,), (-x,)), clock).rhs
+    (-T**2*x/(T - t)**2,)
+    """
     if system.time != clock.tau:
         raise InputError(f"{system.name}: runs in {system.time}, but {clock.name} contracts {clock.tau}")
     undone = clock.pieces[0].to_tau.has(sp.exp, sp.log)

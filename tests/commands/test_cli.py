@@ -120,3 +120,12 @@ def test_help_does_not_import_the_engines() -> None:
 def test_a_command_is_a_module_that_says_so_in_its_first_line(name: str) -> None:
     module = importlib.import_module(f"ptproof.commands.{name}")
     assert (name in commands()) == isinstance(getattr(module, name, None), click.Command)
+
+
+@pytest.mark.parametrize("name", commands())
+def test_every_command_explains_itself_and_its_options(name: str, ptproof: Run) -> None:
+    done = ptproof(name, "--help")
+    assert done.returncode == 0
+    context = click.Context(command := getattr(importlib.import_module(f"ptproof.commands.{name}"), name))
+    assert command.help
+    assert all(option.help for option in command.get_params(context) if isinstance(option, click.Option))
