@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -76,19 +77,15 @@ def bounded_in_time(
     return Evidence(ENGINE, Verdict.UNDECIDED, detail)
 
 
+@dataclass(frozen=True)
 class _Tame:
     """Decides by structure; True is a proof."""
 
-    def __init__(
-        self,
-        time: sp.Symbol,
-        states: frozenset[sp.Symbol],
-        start: sp.Expr | None,
-        domain: Sequence[Relation],
-        assumed: set[type],
-    ) -> None:
-        self.time, self.states, self.start = time, states, start
-        self.domain, self.assumed = tuple(domain), assumed
+    time: sp.Symbol
+    states: frozenset[sp.Symbol]
+    start: sp.Expr | None
+    domain: Sequence[Relation]
+    assumed: set[type]
 
     def __call__(self, node: sp.Expr) -> bool:
         if self.time not in node.free_symbols:
@@ -106,7 +103,7 @@ class _Tame:
             return self.rational(sp.Mul(*scalar)) and all(self(factor) for factor in rest)
         if node.is_Pow:
             return self.power(node)
-        if isinstance(node, sp.sin | sp.cos | sp.tanh | sp.atan) and self.affine(node.args[0]) is not None:
+        if isinstance(node, sp.sin | sp.cos | sp.tanh | sp.atan) and self.is_affine(node.args[0]):
             return True
         if isinstance(node, sp.exp) and self.decays(node.args[0]):
             return True
@@ -142,12 +139,10 @@ class _Tame:
             for sign in ((1, -1) if node.exp.is_integer else (1,))
         )
 
-    def affine(self, argument: sp.Expr) -> tuple[sp.Expr, sp.Expr] | None:
-        """(rate, rest) of rate·time + rest, with a rate that is constant."""
+    def is_affine(self, argument: sp.Expr) -> bool:
+        """Whether it is rate·time + rest, with a rate that is constant."""
         rate = sp.diff(argument, self.time)
-        if rate.free_symbols & (self.states | {self.time}) or rate.atoms(AppliedUndef):
-            return None
-        return rate, sp.expand(argument - rate * self.time)
+        return not (rate.free_symbols & (self.states | {self.time}) or rate.atoms(AppliedUndef))
 
     def decays(self, argument: sp.Expr) -> bool:
         if self.start is None or not argument.is_polynomial(self.time) or argument.atoms(AppliedUndef):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -49,12 +50,11 @@ def quasi_steady_state(fast: FastStates, domain: Sequence[Relation] = ()) -> Qua
     values = fast.quasi_steady_state
     if values is not None and not _vanishes(fast, values):
         return result(None, Verdict.REFUTED, f"{list(values)} does not make the fast rates vanish")
-    try:
-        affine, shown = reduction.solve_quasi_steady_state(fast.rate, fast.state) if _affine(fast) else (None, False)
-    except InputError:
-        affine, shown = None, False
-    if affine is not None and shown:
-        return result(values or affine, Verdict.PROVED, "the rates are affine in the fast states, and regular")
+    if _affine(fast):
+        with contextlib.suppress(InputError):
+            affine, shown = reduction.solve_quasi_steady_state(fast.rate, fast.state)
+            if shown:
+                return result(values or affine, Verdict.PROVED, "the rates are affine in the fast states, and regular")
     found, reason = _cascade(fast, domain)
     if found is not None:
         return result(values or found, Verdict.PROVED, reason)

@@ -52,51 +52,47 @@ class RadiusSearch:
         inner = self.inner
         ceiling = LARGEST_RADIUS if math.isinf(bad) else sp.Rational(bad)
         tried = 0
-        good: sp.Expr | None = None
+
+        def fails(start: sp.Expr, end: sp.Expr) -> bool:
+            nonlocal ceiling, tried
+            tried += 1
+            # The first trial also prepares what all of them use.
+            obstacle = self.obstacle(start, end, 1 / 2 if tried == 1 else 1 / 4)
+            if obstacle is not None:
+                ceiling = min(end, obstacle)
+            return obstacle is not None
+
         trial = sp.Integer(1)
         if not inner < trial < ceiling:
             trial = _short_between(inner, ceiling if inner == 0 else min(ceiling, 2 * inner))
-        while good is None and tried < 40:
-            tried += 1
-            obstacle = self.obstacle(inner, trial)
-            if obstacle is None:
-                good = trial
-            else:
-                ceiling = min(trial, obstacle)
-                trial = _short_between(inner, ceiling)
-        if good is None:
-            return None, f"No smaller ball was certified, down to radius {float(trial):.3g}"
-        failed = not math.isinf(bad) or tried > 1
+        while fails(inner, trial):
+            trial = _short_between(inner, ceiling)
+            if tried == 40:
+                return None, f"No smaller ball was certified, down to radius {float(trial):.3g}"
+        good, failed = trial, not math.isinf(bad) or tried > 1
         while not failed and good < LARGEST_RADIUS:
-            tried += 1
-            obstacle = self.obstacle(good, 2 * good)
-            if obstacle is None:
-                good = 2 * good
-            else:
-                failed, ceiling = True, min(2 * good, obstacle)
+            failed = fails(good, 2 * good)
+            good = good if failed else 2 * good
         while failed and ceiling - good > RADIUS_RTOL * good and time.perf_counter() < self.deadline:
-            tried += 1
             middle = _short_between(good, ceiling)
-            obstacle = self.obstacle(good, middle)
-            if obstacle is None:
-                good = middle
-            else:
-                ceiling = min(middle, obstacle)
+            good = good if fails(good, middle) else middle
         if not failed:
             return good, f"the largest that was tried, by {tried} doublings"
         return good, f"the largest found by {tried} certified trials; radius {_brief(ceiling)} was not certified"
 
-    def obstacle(self, inner: sp.Expr, outer: sp.Expr) -> sp.Expr | None:
+    def obstacle(self, inner: sp.Expr, outer: sp.Expr, share: float) -> sp.Expr | None:
         """None if both quotients are certainly positive and finite between two radii, else where that may end.
+
+        It may take this ``share`` of the time that is left.
 
         That is the distance of a witness where one is found, or ``outer``.
         """
         shell = Domain(inner, outer)
         boxes: list[Box] = list(start_boxes(self.quotients, shell))
-        share = time.perf_counter() + max(0.0, self.deadline - time.perf_counter()) / 4
+        deadline = time.perf_counter() + share * max(0.0, self.deadline - time.perf_counter())
         radial, slope, value = self.evaluators
         for evaluators in ((slope, radial), (value,)):
-            place = positive_everywhere(evaluators, boxes, deadline=share)
+            place = positive_everywhere(evaluators, boxes, deadline=deadline)
             if place is None:
                 continue
             if not place.is_limit:
