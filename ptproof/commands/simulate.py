@@ -175,9 +175,16 @@ def _text(data: dict[str, Any], result: Any) -> str:
         spread = ", ".join(f"{name} {value:.6g}" for name, value in data["distance"].items() if value is not None)
         return f"{head}\n{data['N']} trajectories: {counts}\nfinal distance from the source: {spread}"
     final = data["final"]
-    rows = [head, f"{data['outcome']} at t = {final['t']:.6g}"]
+    rows = [
+        head,
+        f"{f'stopped by {limit}' if (limit := data['limit']) else data['outcome']} at t = {_shown(final['t'])}",
+    ]
     if data["message"]:
         rows.append(data["message"])
-    rows.append("x = (" + ", ".join(f"{value:.6g}" for value in final["x"]) + ")")
-    rows.append(f"field {final['field']:.6g}, distance from the source {final['distance']:.6g}")
+    rows.append(f"x = ({', '.join(map(_shown, final['x']))})")
+    rows.append(f"field {_shown(final['field'])}, distance from the source {_shown(final['distance'])}")
     return "\n".join(rows)
+
+
+def _shown(value: float | None) -> str:
+    return "not finite" if value is None else f"{value:.6g}"

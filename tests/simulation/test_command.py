@@ -136,6 +136,15 @@ def test_plots_are_the_same_bytes_each_time(call, tmp_path, suffix, saved):
         assert {name: share for name, share in lines_shown(files[0], figure).items() if share < 0.25} == {}
 
 
+def test_people_are_told_of_an_escape_and_of_a_limit(call, tmp_path):
+    (tmp_path / "p.toml").write_text(ESCAPES)
+    done = call(str(tmp_path / "p.toml"), "--seeker", "asymptotic", "--model", "average")
+    assert (done.exit_code, done.stderr) == (1, "")
+    assert "escaped at t = " in done.stdout
+    (tmp_path / "p.toml").write_text(ESCAPES.replace("-10", "0"))
+    assert "stopped by nu_end at t = " in call(str(tmp_path / "p.toml"), "--model", "average").stdout
+
+
 def test_people_get_sentences(call):
     text = call("vanishing").stdout
     assert "reached T at t = 1" in text
