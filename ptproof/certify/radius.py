@@ -83,9 +83,8 @@ class RadiusSearch:
     def obstacle(self, inner: sp.Expr, outer: sp.Expr, share: float) -> sp.Expr | None:
         """None if both quotients are certainly positive and finite between two radii, else where that may end.
 
-        It may take this ``share`` of the time that is left.
-
-        That is the distance of a witness where one is found, or ``outer``.
+        That is the distance of a witness where one is found, or ``outer``. It may take this ``share`` of the time that
+        is left.
         """
         shell = Domain(inner, outer)
         boxes: list[Box] = list(start_boxes(self.quotients, shell))
