@@ -27,10 +27,12 @@ COORDINATES = ("full", "reduced")
 
 
 @lru_cache(maxsize=64)
-def states_of(variables: tuple[sp.Symbol, ...], name: str = "the field") -> Letters:
+def states_of(variables: tuple[sp.Symbol, ...]) -> Letters:
     """The states' letters; theta, z and u2 give way (theta_, …) where a coordinate has that name."""
     if len(variables) != 2:
-        raise InputError(f"{name}: a unicycle moves in the plane, but the field has {len(variables)} variables")
+        raise InputError(
+            f"field.variables: a unicycle moves in the plane, but the field has {len(variables)} variables"
+        )
     taken = {symbol.name for symbol in variables}
 
     def letter(name: str) -> sp.Symbol:

@@ -120,7 +120,7 @@ class Problem:
     @property
     def states(self) -> Letters:
         """The letters of the closed loops' states; theta, z and u2 give way to a coordinate of that name."""
-        return loops.states_of(self.variables, self.name)
+        return loops.states_of(self.variables)
 
     @cached_property
     def default_seeker(self) -> str:

@@ -140,3 +140,10 @@ def test_a_problem_is_meant_for_the_seeker_whose_tables_it_has():
     assert [example(name).default_seeker for name in ("vanishing", "saturated")] == ["pt", "saturated"]
     assert replace(example("saturated"), name="mine").default_seeker == "saturated"
     assert list(SEEKERS)[:2] == ["pt", "asymptotic"]
+
+
+def test_a_late_start_and_a_short_time_overflow_nothing():
+    problem = with_clock("saturated", "exponential", t0=sp.Integer(100), T=TENTH)
+    ends = [simulate(problem, frame=frame, samples=10) for frame in ("t", "tau")]
+    assert all(str(run.outcome) == "reached T" for run in ends)
+    assert np.max(np.abs(ends[0].x[:2, -1] - ends[1].x[:2, -1])) < 1e-6

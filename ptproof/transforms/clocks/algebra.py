@@ -14,7 +14,11 @@ from ptproof.proof.statement import Relation, ge, gt
 def factored(expression: sp.Expr) -> sp.Expr:
     """``sp.factor`` with the same signs in every run: left alone, it takes the symbols in the order of their hashes."""
     if not expression.is_rational_function():
-        return sp.factor(expression)
+        found = sp.factor(expression)
+        if not found.has(sp.exp):
+            return found
+        # One exponential: the numbers of two whose exponents cancel may be too large and too small.
+        return sp.powsimp(found).replace(sp.exp, lambda exponent: sp.exp(sp.factor(sp.together(exponent))))
     return sp.factor(expression, *sorted(expression.free_symbols, key=lambda symbol: symbol.name))
 
 
