@@ -10,6 +10,7 @@ grid weights are upper bounds too. Near the source ∇F is written by the Hessia
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any, TypeAlias
 
@@ -110,9 +111,10 @@ class RadialEnvelope:
 
     def shell(self, r: float) -> int:
         """The index of a shell with b_index ≤ r ≤ b_(index + 1)."""
-        if r <= 0:
+        ratio = r / self.radius
+        if ratio == 0:  # which may also be too small for a float
             return -_DEEPEST
-        index = max(-_DEEPEST, math.floor(math.log(r / self.radius) / math.log(_RATIO)))
+        index = max(-_DEEPEST, math.floor(math.log(ratio) / math.log(_RATIO)))
         while index > -_DEEPEST and self.boundary(index) > r:
             index -= 1
         while self.boundary(index + 1) < r:
@@ -169,10 +171,10 @@ class RadialEnvelope:
         """What a point certainly reaches, −inf where the field has no value."""
         r, u = middle.sides[0][0], middle.direction()
         try:
-            g = self._both.run([c + r * ui for c, ui in zip(self._source, u, strict=True)], BALLS)
+            values = self._both.run([c + r * ui for c, ui in zip(self._source, u, strict=True)], BALLS)
         except Undefined:
             return -math.inf
-        return down(_pair(u, M, g, self.dimension) / r)
+        return down(_pair(u, M, values[: self.dimension]) / r)
 
     def _at_most(self, box: Box, near: bool, M: _Matrix) -> float:
         """An upper bound of u·M∇F/r on the box: the least of three enclosures; inf where the field has no value."""
@@ -185,7 +187,7 @@ class RadialEnvelope:
             try:
                 values = self._both.run([c + xi for c, xi in zip(self._source, x, strict=True)], BALLS)
                 g, H = values[:n], _square(values[n:], n)
-                result = up(_pair(u, M, g, n) / r)
+                result = up(_pair(u, M, g) / r)
                 result = min(result, up(self._mean_value(box, M, u, x, g, H)))
             except Undefined:
                 pass
@@ -195,11 +197,11 @@ class RadialEnvelope:
                 H = _square(self._hessian.run([c + r * ui for c, ui in zip(self._source, u, strict=True)], BALLS), n)
             except Undefined:
                 return result
-            A = [[sum((M[i][m] * H[m][j] for m in range(1, n)), M[i][0] * H[0][j]) for j in range(n)] for i in range(n)]
-            common = sum((A[i][i].mid() for i in range(1, n)), A[0][0].mid()) / n  # u·u = 1 takes it out exactly
+            A = [_apply(H, row) for row in M]  # H is symmetric
+            common = sum((A[i][i].mid() for i in range(n)), arb(0)) / n  # u·u = 1 takes it out exactly
             for i in range(n):
                 A[i][i] = A[i][i] - common
-            result = min(result, up(common + _pair(u, A, u, n)))
+            result = min(result, up(common + _pair(u, A, u)))
         return result
 
     def _mean_value(self, box: Box, M: _Matrix, u: list[Any], x: list[Any], g: list[Any], H: _Matrix) -> Any:
@@ -208,21 +210,16 @@ class RadialEnvelope:
         rm, um = middle.sides[0][0], middle.direction()
         m = [rm * ui for ui in um]
         gm = self._both.run([c + mi for c, mi in zip(self._source, m, strict=True)], BALLS)[:n]
-        centred = _pair(um, M, gm, n) / rm
+        centred = _pair(um, M, gm) / rm
         # A chord of the box keeps its directions, a convex cone, but comes closer to the source than its ends.
-        nearest = (low * sum((a * b for a, b in zip(u, um, strict=True)), arb(0))).lower()
+        nearest = (low * _dot(u, um)).lower()
         if not nearest > 0:
             return arb(math.inf)
         r = interval(nearest, high)
-        radial = _pair(u, M, g, n) / r
-        backward = [sum((M[i][j] * u[i] for i in range(1, n)), M[0][j] * u[0]) for j in range(n)]  # Mᵀu
-        total = centred
-        for j in range(n):
-            forward = sum((M[j][i] * g[i] for i in range(1, n)), M[j][0] * g[0])
-            curved = sum((H[j][i] * backward[i] for i in range(1, n)), H[j][0] * backward[0])
-            slope = (forward / r + curved - 2 * radial * u[j]) / r
-            total = total + slope * (x[j] - m[j])
-        return total
+        radial = _pair(u, M, g) / r
+        forward, curved = _apply(M, g), _apply(H, _apply(_transposed(M), u))
+        slope = [(forward[j] / r + curved[j] - 2 * radial * u[j]) / r for j in range(n)]
+        return centred + _dot(slope, [x[j] - m[j] for j in range(n)])
 
 
 def _middle(box: Box) -> Box:
@@ -231,13 +228,22 @@ def _middle(box: Box) -> Box:
     return box.at((box.sides[0][1] if box.sides[0][0].is_zero() else radius, *rest))
 
 
-def _pair(u: list[Any], M: _Matrix, g: list[Any], n: int) -> Any:
+def _dot(left: Sequence[Any], right: Sequence[Any]) -> Any:
+    first, *rest = (a * b for a, b in zip(left, right, strict=True))
+    return sum(rest, first)
+
+
+def _apply(M: _Matrix, v: Sequence[Any]) -> list[Any]:
+    return [_dot(row, v) for row in M]
+
+
+def _transposed(M: _Matrix) -> _Matrix:
+    return [list(column) for column in zip(*M, strict=True)]
+
+
+def _pair(u: Sequence[Any], M: _Matrix, g: Sequence[Any]) -> Any:
     """u·M·g, by (Mᵀu)·g."""
-    total = None
-    for j in range(n):
-        weight = sum((M[i][j] * u[i] for i in range(1, n)), M[0][j] * u[0])
-        total = weight * g[j] if total is None else total + weight * g[j]
-    return total
+    return _dot(_apply(_transposed(M), u), g)
 
 
 def _square(entries: list[Any], n: int) -> _Matrix:

@@ -88,41 +88,47 @@ def tight_bound(
     (<Verdict.PROVED: 'proved'>, 0.0561)
     """
     started = time.perf_counter()
-    tuning = problem.tuning
-    horizon = horizon_of(tuning)
-    end = tuning.T if until is None else sp.sympify(until)
-    if sign(end) <= 0 or sign(tuning.T - end) < 0 or (tuning.nu_min is None and sign(tuning.T - end) == 0):
-        raise InputError(f"until must lie in (0, T], and below T where nothing clips the gain; got {short(end)}")
+    initial, end = _asked(problem, x0_norm, until)
     if steps < 1:
         raise InputError(f"steps must be positive, got {steps}")
-    initial = distance_from_source(problem) if x0_norm is None else sp.sympify(x0_norm)
-    if not initial.is_number or sign(initial) <= 0:
-        raise InputError(f"the initial distance must be positive, got {short(initial)}")
-    grid = time_grid(horizon, end, steps)
-    solution, reason, distances = None, None, [math.inf]
+    grid = time_grid(horizon_of(problem.tuning), end, steps)
+    distances, reason = [], None
     try:
         solution = UpperSolution(problem, initial, grid)
-        distances = [solution.y]
+        distances.append(solution.y)
+        for left, right in pairwise(grid):
+            late = time.perf_counter() - started > time_limit
+            reason = f"the time limit of {time_limit:g} s" if late else solution.step(left, right)
+            if reason is not None:
+                break
+            distances.append(solution.y)
+        envelope = solution.envelope
+        detail = f"{len(grid) - 1} steps, {envelope.enclosed} shells, {envelope.evaluations} pieces enclosed"
     except NotApplicable as error:
         reason = str(error)
-    for left, right in pairwise(grid):
-        if reason is None and time.perf_counter() - started > time_limit:
-            reason = f"the time limit of {time_limit:g} s"
-        if reason is None and solution is not None:
-            reason = solution.step(left, right)
-        distances.append(solution.y if reason is None and solution is not None else math.inf)
+    distances += [math.inf] * (len(grid) - len(distances))
     seconds = time.perf_counter() - started
-    detail = (
-        f"{len(grid) - 1} steps, {solution.envelope.enclosed} shells, {solution.envelope.evaluations} pieces enclosed"
-        if reason is None and solution is not None
-        else f"given up at {reason}"
-    )
-    evidence = Evidence("arb", Verdict.PROVED if reason is None else Verdict.UNDECIDED, detail, seconds)
-    t0 = float(tuning.t0)
+    evidence = (
+        Evidence("arb", Verdict.PROVED, detail, seconds) if reason is None
+        else Evidence("arb", Verdict.UNDECIDED, f"given up at {reason}", seconds)
+    )  # fmt: skip
+    t0 = float(problem.tuning.t0)
     return BoundCurve(
         tuple(t0 + float(node.elapsed) for node in grid), tuple(t0 + float(node.stretched) for node in grid),
         tuple(distances), initial, evidence,
     )  # fmt: skip
+
+
+def _asked(problem: Problem, x0_norm: sp.Expr | None, until: sp.Expr | None) -> tuple[sp.Expr, sp.Expr]:
+    """The initial distance and the last elapsed time, checked."""
+    tuning = problem.tuning
+    end = tuning.T if until is None else sp.sympify(until)
+    if sign(end) <= 0 or sign(tuning.T - end) < 0 or (tuning.nu_min is None and sign(tuning.T - end) == 0):
+        raise InputError(f"until must lie in (0, T], and below T where nothing clips the gain; got {short(end)}")
+    initial = distance_from_source(problem) if x0_norm is None else sp.sympify(x0_norm)
+    if not initial.is_number or sign(initial) <= 0:
+        raise InputError(f"the initial distance must be positive, got {short(initial)}")
+    return initial, end
 
 
 def distance_from_source(problem: Problem) -> sp.Expr:

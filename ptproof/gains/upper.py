@@ -22,6 +22,7 @@ from ptproof.problem.model import TIME
 from ptproof.proof.signs import vanishes
 
 _FALL = 1.25  # of w = dt/dτ over one step, at most
+_TINY = 1e-300  # no bound is taken below this, where floats lose their digits
 _GROWTH = 1000.0  # a bound that exceeds this many times the initial distance is given up
 
 
@@ -110,7 +111,7 @@ class UpperSolution:
                 if moved > self.limit:
                     return f"{_GROWTH:g} times the initial distance"
                 if moved < reach:
-                    self.y = moved
+                    self.y = max(moved, _TINY)
                     return None
                 reach = moved
             return "a bound that grows too fast for the step"

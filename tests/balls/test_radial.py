@@ -77,3 +77,10 @@ def test_other_dimensions(dimension):
     envelope = RadialEnvelope(variables, field, (sp.S.Zero,) * dimension, sp.Integer(2), None, 1.0, (1.0,))
     for index in (-160, -40, 0):
         assert -1 <= envelope.rate(index, 1.0, 1.0) <= -0.9
+
+
+@pytest.mark.parametrize("radius", [0.0, 5e-324])
+def test_what_is_too_near_for_a_float_lies_in_the_innermost_ball(radius):
+    x = sp.Symbol("x", real=True)
+    envelope = RadialEnvelope((x,), -(x**2), (sp.S.Zero,), sp.Integer(2), None, 2.0, (1.0,))
+    assert envelope.boundary(envelope.shell(radius)) == 0

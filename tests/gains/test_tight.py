@@ -82,6 +82,14 @@ def test_the_bound_is_proved_and_tight_for_every_clock(clock):
     assert worst <= found.final <= 4 * worst
 
 
+def test_a_bound_below_all_floats_is_still_a_bound():
+    base = example("saturated")
+    tuning = dataclasses.replace(base.tuning, clock="exponential", nu_min=R(1, 8))
+    found = tight_bound(dataclasses.replace(base, tuning=tuning), steps=40)
+    assert found.evidence.verdict is Verdict.PROVED
+    assert found.final == 1e-300
+
+
 def test_the_grid_is_finer_where_the_gain_grows_fast():
     horizon = Horizon(R(1), R(1, 5), unit_clock("exponential"))
     nodes = time_grid(horizon, R(1), 40)
