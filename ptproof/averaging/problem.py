@@ -11,7 +11,7 @@ from sympy.core.function import AppliedUndef
 
 from ptproof.errors import InputError
 from ptproof.proof.statement import Relation
-from ptproof.system import DitherSystem, System
+from ptproof.system import DitherSystem
 
 TIME = sp.Symbol("tau", real=True)
 PHASE = sp.Symbol("theta", real=True)
@@ -100,15 +100,6 @@ class DitherProblem:
         for symbol, (low, high) in self.region.items():
             relations += [Relation(low, "<=", symbol), Relation(symbol, "<=", high)]
         return tuple(relations)
-
-    @property
-    def full_system(self) -> System:
-        """Slow and fast states together, with μ: the equation that is simulated."""
-        slow = self.system.to_system()
-        if self.fast is None:
-            return slow
-        rates = tuple(entry / MU for entry in self.fast.rate)
-        return System(slow.time, (*slow.state, *self.fast.state), (*slow.rhs, *rates), name=self.system.name)
 
     def reduced(self, steady: tuple[sp.Expr, ...]) -> DitherSystem:
         """The dither system with the fast states replaced by their quasi-steady state."""

@@ -35,7 +35,6 @@ class CoverResult:
     holds: bool | None
     detail: str
     boxes: int
-    seconds: float
     point: Mapping[sp.Symbol, sp.Expr] | None = None
     value: str | None = None
 
@@ -54,10 +53,8 @@ def holds_on_box(
     ----------
     expression
         As for :func:`ptproof.balls.ball.enclose`.
-    relation
-        One of ``<``, ``<=``, ``>``, ``>=``.
-    box
-        For every free symbol its exact smallest and largest value.
+    relation, box
+        One of ``<``, ``<=``, ``>``, ``>=``; for every free symbol its exact smallest and largest value.
     max_boxes, seconds
         Where to give up.
 
@@ -69,10 +66,8 @@ def holds_on_box(
 
     Raises
     ------
-    InputError
-        For an unknown relation, a symbol without a range, or an empty range.
-    Undefined
-        Where the expression contains something that has no enclosure anywhere.
+    InputError, Undefined
+        For an unknown relation or a missing or empty range; for what has no enclosure anywhere.
 
     Examples
     --------
@@ -93,17 +88,16 @@ def holds_on_box(
         search = Search(lambda sides, _: _look(function, sides, strict), [start.sides], depth_first=True)
         search.run(lambda: search.point is not None, deadline=began + seconds, most=max_boxes)
         point = None if search.point is None else start.exact_point(search.point)
-    spent = time.perf_counter() - began
     if point is not None:
         where = ", ".join(f"{symbol} = {value}" for symbol, value in point.items())
         value = enclosure_text(enclose(expression, point, bits=BITS))
-        return CoverResult(False, f"{expression} {relation} 0 fails at {where}", search.looks, spent, point, value)
+        return CoverResult(False, f"{expression} {relation} 0 fails at {where}", search.looks, point, value)
     if search.left:
         place = _place(start.symbols, search.next or start.sides)
-        detail = f"{search.looks} boxes in {spent:.1f} s, {search.left} left; resisting: {place}"
-        return CoverResult(None, detail, search.looks, spent)
+        detail = f"{search.looks} boxes in {time.perf_counter() - began:.1f} s, {search.left} left; resisting: {place}"
+        return CoverResult(None, detail, search.looks)
     detail = f"a cover of {search.looks} boxes, each with the right sign at {BITS} bits"
-    return CoverResult(True, detail, search.looks, spent)
+    return CoverResult(True, detail, search.looks)
 
 
 @dataclass(frozen=True)
