@@ -53,6 +53,7 @@ def run(command, folder):
     environment = {name: value for name, value in os.environ.items() if not name.startswith(("PYTEST_", "COLUMNS"))}
     environment["PATH"] = f"{Path(sys.executable).parent}{os.pathsep}{environment['PATH']}"
     environment["COLUMNS"] = "120"
+    environment["PYTEST_ADDOPTS"] = "-p no:hypothesispytest"  # seconds of imports that nothing here needs
     return subprocess.run(command, shell=True, cwd=folder, env=environment, capture_output=True, text=True, check=False)
 
 

@@ -71,8 +71,12 @@ def derivation(pytester):
     return folder
 
 
+# Hypothesis would be rewritten and imported again by each run within this process, which takes seconds.
+LIGHT = ("-p", "no:cacheprovider", "-p", "no:hypothesispytest")
+
+
 def run(pytester, *arguments):
-    return pytester.runpytest_inprocess("-p", "no:cacheprovider", *arguments)
+    return pytester.runpytest_inprocess(*LIGHT, *arguments)
 
 
 def test_each_claim_is_an_item_that_passes_when_it_comes_out_as_expected(pytester, derivation):
@@ -111,7 +115,7 @@ def test_claims_are_selected_by_id_label_and_node(pytester, derivation, selectio
 
 
 def test_it_is_the_same_under_xdist(pytester, derivation):
-    pytester.runpytest_subprocess("--ptproof", "-n", "2", derivation).assert_outcomes(passed=4)
+    pytester.runpytest_subprocess(*LIGHT, "--ptproof", "-n", "2", derivation).assert_outcomes(passed=4)
 
 
 def test_what_is_not_as_expected_fails_with_the_reason(pytester, derivation):

@@ -81,7 +81,7 @@ def test_in_a_notebook_the_last_frame_is_the_users():
 
 def test_under_pytest_the_last_entry_is_the_users(pytester):
     pytester.makepyfile(FAILING.replace("def check", "def test_it"))
-    result = pytester.runpytest_inprocess("-q", "-p", "no:cacheprovider", "-p", "no:xdist")
+    result = pytester.runpytest_inprocess("-q", "-p", "no:cacheprovider", "-p", "no:xdist", "-p", "no:hypothesispytest")
     result.assert_outcomes(failed=1)
     text = result.stdout.str()
     result.stdout.fnmatch_lines([">*assert_identity(x, -x)  # the user's line", "*.py:5: AssertionError"])
