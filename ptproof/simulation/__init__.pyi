@@ -4,12 +4,12 @@ from .blocks import to_control as to_control
 from .order import GapOrder as GapOrder
 from .order import gap_order as gap_order
 from .order import hover_radius as hover_radius
-from .plan import Limit as Limit
-from .plan import Outcome as Outcome
-from .plan import Settings as Settings
 from .question import Question as Question
 from .run import ensemble as ensemble
 from .run import simulate as simulate
+from .settings import Limit as Limit
+from .settings import Outcome as Outcome
+from .settings import Settings as Settings
 from .trajectory import Ensemble as Ensemble
 from .trajectory import Trajectory as Trajectory
 from .translate import to_function as to_function

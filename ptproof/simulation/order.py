@@ -15,8 +15,9 @@ from ptproof.averaging.correction import Correction, first_correction
 from ptproof.errors import InputError
 from ptproof.simulation.drawing import BLUE, RED, new_figure
 from ptproof.simulation.numbers import as_float, by_name
-from ptproof.simulation.plan import Array, Outcome, Settings
+from ptproof.simulation.plan import Array
 from ptproof.simulation.run import simulate
+from ptproof.simulation.settings import Outcome, Settings
 from ptproof.simulation.trajectory import Trajectory
 from ptproof.system import DitherSystem, System
 

@@ -10,7 +10,7 @@ from typing import Any, TypedDict
 from ptproof.errors import InputError
 from ptproof.problem import Problem, example
 from ptproof.simulation.numbers import as_float, by_name
-from ptproof.simulation.plan import Settings
+from ptproof.simulation.settings import Settings
 from ptproof.simulation.setup import Setup, from_problem, from_system
 from ptproof.system import System
 

@@ -16,8 +16,9 @@ from ptproof.problem import Problem
 from ptproof.problem import parameters as loop_parameters
 from ptproof.simulation.engines import engine_named, fitting
 from ptproof.simulation.ensembles import Progress, members, run_blocks
-from ptproof.simulation.plan import Array, Batch, Limit, Outcome, Plan, Settings, Stop, Work
+from ptproof.simulation.plan import Array, Batch, Plan, Work
 from ptproof.simulation.question import Options, Question, asked
+from ptproof.simulation.settings import Limit, Outcome, Settings, Stop
 from ptproof.simulation.setup import Setup, completed_parameters, with_filter
 from ptproof.simulation.trajectory import Ensemble, Trajectory
 from ptproof.system import System

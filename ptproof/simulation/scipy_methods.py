@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import time as clock
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
@@ -13,7 +12,8 @@ import numpy as np
 import sympy as sp
 
 from ptproof.errors import InputError
-from ptproof.simulation.plan import Batch, Finals, Limit, Plan, Run, Samples, Work, one_by_one
+from ptproof.simulation.plan import Batch, Finals, Plan, Run, Samples, Work, one_by_one
+from ptproof.simulation.settings import Budget, Limit
 from ptproof.system import System
 
 _EXTRA = {"sign": lambda value: math.copysign(1.0, value) if value else 0.0}
@@ -45,20 +45,20 @@ class SciPy:
         return False
 
     def trajectory(self, plan: Plan, member: Batch) -> Run:
-        """One run with samples; the right-hand side is called at most four times a step that the limit allows."""
+        """One run with samples; four calls of the right-hand side count as a step."""
         from scipy.integrate import solve_ivp
 
         settings = plan.settings
         function, values = lambdified(plan.system), member.parameters[:, 0].tolist()
-        deadline, calls = clock.monotonic() + settings.time_limit, 0
+        budget, calls = Budget(settings), 0
 
         def rhs(time: float, x: Any) -> Any:
             nonlocal calls
             calls += 1
-            if calls > 4 * settings.max_steps:
-                raise _Stopped(Limit.STEPS, time)
-            if calls % 256 == 0 and clock.monotonic() > deadline:
-                raise _Stopped(Limit.TIME, time)
+            if calls % 256 == 0:
+                budget.steps -= 64
+                if limit := budget.spent:
+                    raise _Stopped(limit, time)
             try:
                 return function(time, x.tolist(), values)
             except (OverflowError, ZeroDivisionError, ValueError):

@@ -12,7 +12,8 @@ import numpy as np
 
 from ptproof.errors import InputError
 from ptproof.simulation.drawing import BLUE, RED, new_figure, png
-from ptproof.simulation.plan import Array, Limit, Outcome
+from ptproof.simulation.plan import Array
+from ptproof.simulation.settings import Limit, Outcome
 
 
 @dataclass(frozen=True)

@@ -9,8 +9,8 @@ import numpy as np
 import sympy as sp
 
 from ptproof.problem import Problem
-from ptproof.simulation.plan import Outcome
 from ptproof.simulation.run import simulate
+from ptproof.simulation.settings import Outcome
 from ptproof.simulation.trajectory import Trajectory
 
 _RTOL = 1e-11  # where a bound is attained exactly, a coarser run would seem to violate it

@@ -7,14 +7,14 @@ until they succeed or can't be told apart.
 
 from __future__ import annotations
 
-import time as clock
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
-from ptproof.simulation.plan import Array, Batch, Finals, Limit, Outcome, Plan, Run, Samples, Stop, Work, one_by_one
+from ptproof.simulation.plan import Array, Batch, Finals, Plan, Run, Samples, Work, one_by_one
+from ptproof.simulation.settings import Budget, Outcome, Stop
 from ptproof.simulation.translate import casadi_expressions
 from ptproof.system import System
 
@@ -49,23 +49,13 @@ def local_tolerances(plan: Plan) -> tuple[float, float]:
     return max(settings.rtol / 50 * plan.tightening, 1e-14), max(settings.absolute / 50, 1e-18)
 
 
-@dataclass
+@dataclass(frozen=True)
 class _Solver:
     """The integrators of one plan for one parameter vector, and what is left of the limits on their work."""
 
     plan: Plan
     parameters: list[float]
-
-    def __post_init__(self) -> None:
-        self.deadline = clock.monotonic() + self.plan.settings.time_limit
-        self.steps = self.plan.settings.max_steps
-
-    @property
-    def spent(self) -> Limit | None:
-        """The limit that is met, if any."""
-        if self.steps <= 0:
-            return Limit.STEPS
-        return Limit.TIME if clock.monotonic() > self.deadline else None
+    budget: Budget
 
     def __call__(self, x: Array, grid: Array, max_steps: int = _STEPS_A_CALL) -> Array | None:
         """The states at ``grid[1:]``, evenly spaced, from ``x`` at ``grid[0]``; None where they can't be had."""
@@ -74,9 +64,9 @@ class _Solver:
         try:
             result = np.array(run(x0=x, p=[*self.parameters, grid[0], grid[-1] - grid[0]])["xf"])
         except RuntimeError:
-            self.steps -= run.stats()["nsteps"]
+            self.budget.steps -= run.stats()["nsteps"]
             return None
-        self.steps -= run.stats()["nsteps"]
+        self.budget.steps -= run.stats()["nsteps"]
         return result if np.isfinite(result).all() else None
 
 
@@ -89,7 +79,7 @@ class _CVODES:
 
     def trajectory(self, plan: Plan, member: Batch) -> Run:
         """One run with samples: as many as possible in one call, since each call starts the method afresh."""
-        solve, samples = _Solver(plan, member.parameters[:, 0].tolist()), Samples(member)
+        solve, samples = _Solver(plan, member.parameters[:, 0].tolist(), Budget(plan.settings)), Samples(member)
         for grid in member.grids(plan.settings.samples):
             reached, size = 0, len(grid) - 1
             while reached < len(grid) - 1:
@@ -98,10 +88,10 @@ class _CVODES:
                 # The step limit keeps even a hopeless call short.
                 most = min(_STEPS_A_CALL, max(500, _FIRST_STEPS // size))
                 block = None if size == 1 else solve(samples.state, ahead, most)
-                if block is not None and plan.within(block) and solve.steps > 0:
+                if block is not None and plan.within(block) and solve.budget.steps > 0:
                     samples.add(ahead[1:], block)
                     reached, size = reached + size, 2 * size
-                elif size > 1 and solve.spent is None:
+                elif size > 1 and solve.budget.spent is None:
                     size //= 2
                 else:
                     if stop := _advance(solve, samples, float(ahead[1])):
@@ -149,7 +139,7 @@ def _advance(solve: _Solver, samples: Samples, target: float) -> Stop | None:
     begin, time, x, step = samples.time, samples.time, samples.state, target - samples.time
     stop = None
     while time < target:
-        if limit := solve.spent:
+        if limit := solve.budget.spent:
             stop = plan.at_limit(limit, time, last)
             break
         goal = target if time + step >= target else time + step

@@ -11,7 +11,6 @@ from __future__ import annotations
 import copy
 import importlib.util
 import itertools
-import time as clock
 from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -22,7 +21,8 @@ import numpy as np
 from sympy.core.relational import Relational
 
 from ptproof.errors import InputError
-from ptproof.simulation.plan import Array, Batch, Finals, Limit, Outcome, Plan, Run, Samples, Stop, Work
+from ptproof.simulation.plan import Array, Batch, Finals, Plan, Run, Samples, Work
+from ptproof.simulation.settings import Budget, Outcome, Stop
 from ptproof.simulation.smooth import picker
 from ptproof.simulation.taylor_form import equations
 from ptproof.system import System
@@ -83,24 +83,21 @@ def _tolerance(plan: Plan) -> float:
     return next((rung for rung in (1e-5, 1e-7, 1e-9, 1e-11, 1e-13) if rung <= wanted), 2.2e-16)
 
 
-@dataclass
+@dataclass(frozen=True)
 class _Way:
     """One run under way: what it has brought so far, and what is left of the limits on its work."""
 
     plan: Plan
     samples: Samples
-
-    def __post_init__(self) -> None:
-        self.deadline = clock.monotonic() + self.plan.settings.time_limit
-        self.steps = self.plan.settings.max_steps
+    budget: Budget
 
     def along(self, solver: Any, grid: Array) -> Stop | None:
         """Integrate through ``grid``, whose first time is the solver's; why it stopped before, if it did."""
         import heyoka as hy
 
         while True:
-            outcome, steps, rows = _go(solver, grid, min(_STEPS_A_CALL, self.steps))
-            self.steps -= steps
+            outcome, steps, rows = _go(solver, grid, max(1, min(_STEPS_A_CALL, self.budget.steps)))
+            self.budget.steps -= steps
             inside = self.plan.distance(rows) <= self.plan.radius
             good = len(inside) if inside.all() else int(np.argmin(inside))
             if good:
@@ -113,14 +110,9 @@ class _Way:
             if good < len(inside) or outcome == hy.taylor_outcome.err_nf_state:
                 return self._to_the_border(solver, float(grid[good + 1]))
             grid = np.concatenate([[solver.time], grid[good + 1 :]])
-            if limit := self._spent():
+            if limit := self.budget.spent:
                 self.samples.add(grid[:1], solver.state.reshape(-1, 1).copy())
                 return self.plan.at_limit(limit, float(solver.time), float(self.samples.member.edges[-1, 0]))
-
-    def _spent(self) -> Limit | None:
-        if self.steps <= 0:
-            return Limit.STEPS
-        return Limit.TIME if clock.monotonic() > self.deadline else None
 
     def _to_the_border(self, solver: Any, target: float) -> Stop:
         """From the last sample to where the state leaves the ball, or is a number for the last time."""
@@ -171,7 +163,7 @@ class _Taylor:
     def trajectory(self, plan: Plan, member: Batch) -> Run:
         """One run; its samples come from the Taylor series of the steps, in one call for each piece."""
         values = member.parameters[:, 0]
-        way, numbers = _Way(plan, Samples(member)), tuple(values.tolist())
+        way, numbers = _Way(plan, Samples(member), Budget(plan.settings)), tuple(values.tolist())
         ready = _ready(plan.system, plan.conditions, _tolerance(plan))
         for grid in member.grids(plan.settings.samples):
             solver, constants = ready(float(grid[0] + grid[-1]) / 2, numbers)
