@@ -18,9 +18,12 @@ if TYPE_CHECKING:
 @options.derivations
 @click.option("--out", default="reports", show_default=True, metavar="FOLDER", help="Where to write the report.")
 @options.jobs
+@options.cluster
 @options.timeout("one claim")
 @click.option("--no-figures", is_flag=True, help="Leave out the simulations and their figures.")
-def report(paths: tuple[str, ...], out: str, jobs: int | None, timeout: float, no_figures: bool) -> int:
+def report(
+    paths: tuple[str, ...], out: str, jobs: int | None, cluster: str | None, timeout: float, no_figures: bool
+) -> int:
     """Verify the claims below each PATH (the shipped derivation of the paper where left out) and write the report.
 
     Writes index.html, report.md, graph.svg and figures/ into FOLDER. Exit status 1 if a claim did not come out as
@@ -37,8 +40,8 @@ def report(paths: tuple[str, ...], out: str, jobs: int | None, timeout: float, n
 
     place = check_place(out)
     derivation = load(paths)
-    with claim_progress(len(derivation.claims)) as progress:
-        verification = run(derivation, workers=jobs, timeout=timeout, progress=progress)
+    with options.connected(cluster) as client, claim_progress(len(derivation.claims)) as progress:
+        verification = run(derivation, workers=jobs, client=client, timeout=timeout, progress=progress)
     figures, tables, notes = ((), (), ()) if no_figures else _drawn(derivation)
     content = compose(
         verification, derivation, title=title_of(derivation), notation=notation_of(derivation),

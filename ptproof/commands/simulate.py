@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -57,6 +57,7 @@ def simulate(
     The status is 0 if T was reached (by all members of an ensemble), 1 if not or if the field was larger on the way
     than at the stated source, 2 for bad input, such as a stated source that certainly is no maximum of the field.
     """
+    from ptproof.commands.terminal import progress
     from ptproof.problem.doubts import run_doubt, source_doubt
     from ptproof.simulation import Ensemble, Outcome, run
     from ptproof.simulation.quantities import field_function
@@ -68,10 +69,10 @@ def simulate(
         if (certain := source_doubt(target)) is not None:
             raise InputError(certain)
         if ensemble is not None:
-            with options.connected(cluster) as client, _progress(ensemble) as progress:
+            with options.connected(cluster) as client, progress("trajectories", ensemble) as advance:
                 result = run.ensemble(
                     target, ensemble, seed=seed, vary=_ranges(vary), workers=workers, client=client,
-                    progress=progress, **how,
+                    progress=advance, **how,
                 )  # fmt: skip
         elif vary or cluster:
             raise InputError("--vary, --cluster: need --ensemble N, the number of members")
@@ -144,18 +145,6 @@ def _ranges(texts: tuple[str, ...]) -> dict[str, tuple[str, str]] | None:
             raise InputError(f"--vary: expected NAME=LOW:HIGH, such as k=1:2, got {text!r}")
         ranges[name.strip()] = (low, high)
     return ranges or None
-
-
-@contextmanager
-def _progress(total: int) -> Iterator[Callable[[int], None]]:
-    """A progress bar on standard error, and the function to call with newly finished members."""
-    from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
-
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    with Progress(*columns, console=Console(stderr=True), transient=True) as progress:
-        task = progress.add_task("trajectories", total=total)
-        yield lambda done: progress.advance(task, done)
 
 
 def _draw(target: Problem, result: Trajectory | Ensemble, file: str) -> None:

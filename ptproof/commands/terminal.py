@@ -31,22 +31,29 @@ def plain_table(headings: Sequence[str], rows: Iterable[Sequence[str | Text]]) -
 
 
 @contextmanager
+def progress(what: str, total: int) -> Iterator[Callable[..., None]]:
+    """A bar that is gone at the end; gives the function to call with how many are newly done, and words beside it."""
+    bar = Progress(
+        TextColumn("{task.description}"), BarColumn(bar_width=20), MofNCompleteColumn(), TimeElapsedColumn(),
+        TextColumn("{task.fields[words]}"), console=Console(stderr=True), transient=True,
+    )  # fmt: skip
+    with bar:
+        task = bar.add_task(what, total=total, words="")
+        yield lambda done, words="": bar.update(task, advance=done, words=words)
+
+
+@contextmanager
 def claim_progress(total: int) -> Iterator[Callable[[Claim, Evidence], None]]:
     """A bar with the verdicts so far; gives the function to call with each claim that is done."""
     counts = dict.fromkeys(COLOURS, 0)
-    bar = Progress(
-        TextColumn("{task.description}"), BarColumn(bar_width=20), MofNCompleteColumn(), TimeElapsedColumn(),
-        TextColumn("{task.fields[counts]}"), console=Console(stderr=True), transient=True,
-    )  # fmt: skip
-    with bar:
-        task = bar.add_task("verifying", total=total, counts="")
+    with progress("verifying", total) as advance:
 
-        def advance(claim: Claim, evidence: Evidence) -> None:
+        def done(claim: Claim, evidence: Evidence) -> None:
             counts[str(evidence.verdict)] += 1
             shown = "  ".join(f"[{COLOURS[word]}]{number} {word}[/]" for word, number in counts.items() if number)
-            bar.update(task, advance=1, counts=shown)
+            advance(1, shown)
 
-        yield advance
+        yield done
 
 
 def verification_table(verification: Verification) -> None:
