@@ -111,9 +111,9 @@ def _from_problem(name: str, values: dict[str, Any], plot: str | None, as_json: 
     bounds = _declared(problem, values)
     try:
         result = study(problem, bounds=bounds, **values)
+        simulated = worst_distance(problem, result.curve.initial)
     except InputError as error:
         raise InputError(f"{name}: {error}") from None
-    simulated = worst_distance(problem, result.curve.initial)
     if plot is not None:
         from ptproof.gains.plot import plot_gains
 

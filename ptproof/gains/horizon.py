@@ -11,7 +11,7 @@ from ptproof.errors import InputError
 from ptproof.gains.numbers import NotApplicable, sign
 from ptproof.problem.model import Tuning
 from ptproof.proof.signs import sign_of, vanishes
-from ptproof.transforms.clocks.algebra import settle
+from ptproof.transforms.clocks.algebra import is_nonnegative, settle
 from ptproof.transforms.clocks.cap import CappedClock, capped
 from ptproof.transforms.clocks.clock import Clock, Piece
 from ptproof.transforms.clocks.named import named_clock
@@ -40,11 +40,20 @@ class Horizon:
         ν_min ∈ (0, 1]; None is no cap.
     clock
         On [0, 1): a clock of the prescribed time T is this one with both times in units of T.
+
+    Raises
+    ------
+    InputError
+        Unless the clock's rate is shown never to fall, on which turning points, bounds and grids rest.
     """
 
     T: sp.Expr
     nu_min: sp.Expr | None = None
     clock: Clock = field(default_factory=unit_clock)
+
+    def __post_init__(self) -> None:
+        if not _increases(self.clock):
+            raise InputError(f"{self.clock.name}: it does not hold, or cannot be shown, that its rate never falls")
 
     @property
     def uncapped(self) -> Horizon:
@@ -148,7 +157,7 @@ def horizon_of(tuning: Tuning) -> Horizon:
 
 @lru_cache
 def powers(clock: Clock) -> tuple[sp.Expr, sp.Expr] | None:
-    """(p, q) with K = ν^(−p)·exp(q(1/ν − 1)) on [0, 1), p, q ≥ 0; None for a clock whose rate is none of these.
+    """(p, q) with K = ν^(−p)·exp(q(1/ν − 1)) on [0, 1), p, q ≥ 0 and not both 0; None for any other rate.
 
     It is read from ν·K'/K = −p − q/ν, which fixes K up to the factor K(1) = 1.
     """
@@ -158,7 +167,8 @@ def powers(clock: Clock) -> tuple[sp.Expr, sp.Expr] | None:
     q = sp.cancel(q * _NU)
     if not (vanishes(slope + p + q / _NU) and vanishes(K.subs(_NU, 1) - 1)) or q.has(_NU):
         return None
-    return (p, q) if all((sign_of(value) or 0) >= 0 for value in (p, q)) else None
+    signs = {sign_of(p), sign_of(q)}
+    return (p, q) if signs <= {0, 1} and 1 in signs else None
 
 
 def instant(clock: Clock, rate: sp.Expr) -> sp.Expr:
@@ -180,9 +190,25 @@ def instant(clock: Clock, rate: sp.Expr) -> sp.Expr:
             return 1 - rate ** (-1 / p)
         inverse = 1 + sp.log(rate) / q if p == 0 else p / q * sp.LambertW(q / p * (rate * sp.exp(q)) ** (1 / p))
         return 1 - 1 / inverse
-    parabola = sp.cancel(1 / clock.rate_back)
-    if parabola.is_polynomial(clock.tau) and sp.degree(parabola, clock.tau) == 2:
-        a, b, c = sp.Poly(parabola, clock.tau).all_coeffs()
-        if all((sign_of(value) or 0) >= 0 for value in (a, b)):
-            return clock.to_t.subs(clock.tau, (sp.sqrt(b**2 - 4 * a * (c - rate)) - b) / (2 * a))
+    if (parabola := _parabola(clock)) is not None:
+        a, b, c = parabola
+        return clock.to_t.subs(clock.tau, (sp.sqrt(b**2 - 4 * a * (c - rate)) - b) / (2 * a))
     raise NotApplicable(f"the instant at which the gain of the {clock.name} is {rate} has no closed form here")
+
+
+@lru_cache
+def _parabola(clock: Clock) -> tuple[sp.Expr, ...] | None:
+    """a, b ≥ 0 and c with K = aτ² + bτ + c, if K is such a parabola."""
+    rate = sp.cancel(1 / clock.rate_back)
+    if not rate.is_polynomial(clock.tau) or sp.degree(rate, clock.tau) != 2:
+        return None
+    a, b, c = sp.Poly(rate, clock.tau).all_coeffs()
+    return (a, b, c) if all(sign_of(value) in (0, 1) for value in (a, b)) else None
+
+
+@lru_cache
+def _increases(clock: Clock) -> bool:
+    """Whether it is shown that K never falls."""
+    if powers(clock) is not None or _parabola(clock) is not None:
+        return True
+    return is_nonnegative(clock.on_interval(sp.diff(clock.rate, clock.t)))

@@ -15,6 +15,7 @@ from ptproof.gains.data import largest_singular_value, smallest_eigenvalue, symm
 from ptproof.gains.horizon import Horizon, instant, unit_clock
 from ptproof.gains.numbers import NotApplicable, Quantity, sign
 from ptproof.problem.field import FieldBounds
+from ptproof.transforms.clocks import Clock
 
 R = sp.Rational
 ONE = FieldBounds(1, R(3, 2), R(1, 2), R(1, 2), R(13, 4))
@@ -104,6 +105,13 @@ def test_the_turning_point_is_where_the_gain_has_the_wanted_rate(clock):
     for rate in (R(5, 4), R(7), R(900)):
         found = 1 - instant(unit_clock(clock, exponent), rate)
         assert gain(clock, float(found)) == pytest.approx(float(rate), rel=1e-9)
+
+
+def test_a_clock_whose_rate_falls_is_refused():
+    t, tau = sp.symbols("t tau", real=True)
+    slowing = Clock(t, tau, 2 * t - t**2, 1 - sp.sqrt(1 - tau), sp.S.Zero, sp.S.One, "slowing clock")
+    with pytest.raises(InputError, match="its rate never falls"):
+        Horizon(R(1), R(1, 2), slowing)
 
 
 @pytest.mark.parametrize("clock", [name for name in CLOCKS if name != "paper"])
