@@ -20,6 +20,7 @@ from ptproof.proof.statement import (
     All,
     Assumption,
     Exists,
+    ForAll,
     Implication,
     Prose,
     Relation,
@@ -104,6 +105,9 @@ class Claim:
         for used in (*self.uses, *([self.corrects] if self.corrects is not None else [])):
             if not isinstance(used, Claim):
                 raise InputError(f"claim {self.id}: `uses` and `corrects` take claims, got {used!r}")
+        for given in self.assumptions:
+            if not isinstance(given, Relation | ForAll):
+                raise InputError(f"claim {self.id}: `given` takes relations such as ge(x, 0), got {given!r}")
 
     @property
     def kind(self) -> str:
@@ -162,7 +166,7 @@ def claim(
 
     def make(prove: Proof) -> Claim:
         return Claim(
-            id, title, states, prove, tuple(given), tuple(uses), tuple(labels), Verdict(expected),
+            id, title, states, prove, tuple(given), tuple(uses), _labels(id, labels), Verdict(expected),
             inspect.cleandoc(prove.__doc__ or ""), section, corrects, place,
         )  # fmt: skip
 
@@ -179,7 +183,13 @@ def definition(
 ) -> Definition:
     """A displayed definition; ``section`` is taken from the module that calls, where left out."""
     section = section or _section_of_caller(inspect.currentframe())
-    return Definition(id, title, tuple(labels), states, inspect.cleandoc(prose), section)
+    return Definition(id, title, _labels(id, labels), states, inspect.cleandoc(prose), section)
+
+
+def _labels(id: str, labels: Iterable[str]) -> tuple[str, ...]:
+    if isinstance(labels, str):
+        raise InputError(f"{id}: `labels` takes a list of labels, got the text {labels!r}")
+    return tuple(labels)
 
 
 def facts_of(used: Claim) -> tuple[Implication, ...]:

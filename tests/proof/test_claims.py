@@ -184,3 +184,15 @@ def test_selection_brings_what_it_uses(tmp_path: Path) -> None:
         "c = claim('gamma', 'three', eq(x, x))(exact)\n",
     )
     assert [item.id for item in load([folder]).select("beta")] == ["alpha", "beta"]
+
+
+@pytest.mark.parametrize(
+    ("options", "word"),
+    [
+        ({"labels": "eq:a"}, "`labels` takes a list of labels, got the text 'eq:a'"),
+        ({"given": [3]}, "`given` takes relations"),
+    ],
+)
+def test_what_would_be_read_otherwise_is_refused(options: dict[str, object], word: str) -> None:
+    with pytest.raises(InputError, match=word):
+        claim("a", "A claim", eq(sp.Integer(1), 1), **options)(exact)
