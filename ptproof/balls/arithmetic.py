@@ -1,15 +1,43 @@
-"""What a kind of number has to offer so that a tape can run on it."""
+"""What a kind of number has to offer so that a tape can run on it, and what follows from its sum and product."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any, Protocol
+from collections.abc import Hashable, Iterable, Sequence
+from typing import Any, Protocol, TypeVar
 
 import flint
+
+Key = TypeVar("Key", bound=Hashable)
 
 
 class Undefined(ArithmeticError):
     """An expression has no finite real enclosure there: a singularity in reach, or a function not supported."""
+
+
+def collected(items: Iterable[tuple[Key, Any]]) -> dict[Key, Any]:
+    """The sums of the numbers that stand at the same key."""
+    sums: dict[Key, Any] = {}
+    for key, value in items:
+        sums[key] = sums[key] + value if key in sums else value
+    return sums
+
+
+class Ring:
+    """Differences and the operations from the right, for numbers with ``+`` and ``*`` (also by balls) and ``-``."""
+
+    __slots__ = ()
+
+    def __radd__(self: Any, other: Any) -> Any:
+        return self + other
+
+    def __rmul__(self: Any, other: Any) -> Any:
+        return self * other
+
+    def __sub__(self: Any, other: Any) -> Any:
+        return self + (-other)
+
+    def __rsub__(self: Any, other: Any) -> Any:
+        return (-self) + other
 
 
 class Arithmetic(Protocol):

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from functools import lru_cache
+from functools import lru_cache, reduce
 from itertools import pairwise
 from typing import Any
 
@@ -61,10 +61,7 @@ class _Balls:
         return value
 
     def call(self, name: str, value: Any) -> Any:
-        result = getattr(value, name)()
-        if not result.is_finite():
-            raise Undefined(f"{name} has no finite value there")
-        return result
+        return _finite(getattr(value, name)(), name)
 
     def integer_power(self, base: Any, exponent: int) -> Any:
         if exponent < 0:
@@ -72,12 +69,12 @@ class _Balls:
         if exponent < 2:
             return base if exponent == 1 else arb(1)
         if base.rel_accuracy_bits() > 20:
-            return _binary_power(base, exponent)
+            return base**exponent
         # The library's own power is not defined on balls that contain zero, and a product forgets the sign:
         # go by the ends, between which the power is monotone.
         if exponent % 2 or base > 0 or base < 0:
-            return interval(_binary_power(base.lower(), exponent), _binary_power(base.upper(), exponent))
-        top = _finite(_binary_power(base.abs_upper(), exponent), "a power")
+            return interval(base.lower() ** exponent, base.upper() ** exponent)
+        top = _finite(base.abs_upper() ** exponent, "a power")
         return interval(0, top).nonnegative_part() if top > 0 else arb(0)
 
     def root(self, base: Any, numerator: int, denominator: int, nonnegative: bool) -> Any:
@@ -123,14 +120,8 @@ class _Balls:
             raise Undefined("the angle of a point that may be the origin")
         return _finite(arb.atan2(y, x), "an angle")
 
-    def hull(self, values: Sequence[Any]) -> Any:
-        total = values[0]
-        for value in values[1:]:
-            total = total.union(value)
-        return total
-
     def either(self, values: Sequence[Any]) -> Any:
-        return self.hull(values)
+        return reduce(arb.union, values)
 
     def order(self, value: Any) -> int | None:
         if value > 0:
@@ -138,17 +129,6 @@ class _Balls:
         if value < 0:
             return -1
         return 0 if value.is_zero() else None
-
-
-def _binary_power(base: Any, exponent: int) -> Any:
-    result, factor = None, base
-    while exponent:
-        if exponent & 1:
-            result = factor if result is None else result * factor
-        exponent >>= 1
-        if exponent:
-            factor = factor * factor
-    return arb(1) if result is None else result
 
 
 BALLS = _Balls()

@@ -11,11 +11,13 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, reduce
+from itertools import combinations_with_replacement
 from typing import Any
 
 from flint import arb, fmpq
 
+from ptproof.balls.arithmetic import Ring, collected
 from ptproof.balls.ball import interval
 from ptproof.balls.tape import Undefined
 
@@ -35,10 +37,7 @@ class Span:
 
     def __mul__(self, other: Span) -> Span:
         ends = [_times(a, b) for a in (self.low, self.high) for b in (other.low, other.high)]
-        low, high = ends[0], ends[0]
-        for end in ends[1:]:
-            low, high = low.min(end), high.max(end)
-        return Span(low, high)
+        return Span(reduce(arb.min, ends), reduce(arb.max, ends))
 
     def square(self) -> Span:
         """The interval of the squares."""
@@ -50,6 +49,10 @@ class Span:
     def hull(self, other: Span) -> Span:
         """The interval that contains both."""
         return Span(self.low.min(other.low), self.high.max(other.high))
+
+    def common(self, other: Span) -> Span:
+        """The interval of what both contain."""
+        return Span(self.low.max(other.low), self.high.min(other.high))
 
     @property
     def is_zero(self) -> bool:
@@ -86,7 +89,7 @@ def power_of(base: arb, exponent: Exponent) -> arb:
 
 
 @dataclass(frozen=True)
-class Growth:
+class Growth(Ring):
     """Σ terms[e]·rᵉ for r ≥ 1/``reach``, ``reach`` an exact number in (0, 1].
 
     ``bounds`` gives an interval of all values that is known otherwise, for instance that a square is not negative; it
@@ -106,44 +109,23 @@ class Growth:
         return other if isinstance(other, Growth) else self.make({0: span(other)})
 
     def __add__(self, other: Any) -> Growth:
-        terms = dict(self.terms)
         lifted = self.lift(other)
-        for exponent, value in lifted.terms.items():
-            terms[exponent] = terms[exponent] + value if exponent in terms else value
-        return self.make(terms, lambda: self.range() + lifted.range())
-
-    __radd__ = __add__
+        terms = collected((*self.terms.items(), *lifted.terms.items()))
+        return self.make(terms, lambda: self.range + lifted.range)
 
     def __neg__(self) -> Growth:
-        return self.make({exponent: -value for exponent, value in self.terms.items()}, lambda: -self.range())
-
-    def __sub__(self, other: Any) -> Growth:
-        return self + (-self.lift(other))
-
-    def __rsub__(self, other: Any) -> Growth:
-        return (-self) + other
+        return self.make({exponent: -value for exponent, value in self.terms.items()}, lambda: -self.range)
 
     def __mul__(self, other: Any) -> Growth:
-        terms: dict[Exponent, Span] = {}
         lifted = self.lift(other)
-        for e, a in self.terms.items():
-            for f, b in lifted.terms.items():
-                product = a * b
-                terms[e + f] = terms[e + f] + product if e + f in terms else product
-        return self.make(terms, lambda: self.range() * lifted.range())
-
-    __rmul__ = __mul__
+        products = ((e + f, a * b) for e, a in self.terms.items() for f, b in lifted.terms.items())
+        return self.make(collected(products), lambda: self.range * lifted.range)
 
     def square(self) -> Growth:
         """The square, which knows that the squares of the terms are not negative."""
-        terms: dict[Exponent, Span] = {}
-        items = list(self.terms.items())
-        two = Span(arb(2), arb(2))
-        for index, (e, a) in enumerate(items):
-            for f, b in items[index:]:
-                product = a.square() if e == f else two * a * b
-                terms[e + f] = terms[e + f] + product if e + f in terms else product
-        return self.make(terms, lambda: self.range().square())
+        pairs, two = combinations_with_replacement(self.terms.items(), 2), Span(arb(2), arb(2))
+        products = ((e + f, a.square() if e == f else two * a * b) for (e, a), (f, b) in pairs)
+        return self.make(collected(products), lambda: self.range.square())
 
     def head(self) -> tuple[Exponent, Span]:
         """(d, h) with f = rᵈ·h: the largest exponent, and the interval of what remains."""
@@ -152,32 +134,25 @@ class Growth:
         degree = max(self.terms)
         total = Span(arb(0), arb(0))
         for exponent, value in self.terms.items():
-            total = total + value * Span(power_of(arb(0), degree - exponent), self._reach(degree - exponent))
+            falls = degree - exponent
+            total = total + value * Span(power_of(arb(0), falls), power_of(self.reach, falls))
         return degree, total
 
-    def _reach(self, exponent: Exponent) -> arb:
-        return power_of(self.reach, exponent)
-
+    @cached_property
     def range(self) -> Span:
         """The interval of all values; its ends may be infinite."""
-        return self._range
-
-    @cached_property
-    def _range(self) -> Span:
         total = Span(arb(0), arb(0))
         for exponent, value in self.terms.items():
-            near = self._reach(-exponent)
+            near = power_of(self.reach, -exponent)
             powers = Span(near, INFINITY) if exponent > 0 else Span(arb(0) if exponent < 0 else near, near)
             total = total + value * powers
         degree, head = self.head()
+        least = power_of(self.reach, -degree)
         if head.low > 0 and degree > 0:
-            total = Span(total.low.max(head.low * self._reach(-degree)), total.high)
+            total = total.common(Span(head.low * least, INFINITY))
         if head.high < 0 and degree > 0:
-            total = Span(total.low, total.high.min(head.high * self._reach(-degree)))
-        if self.bounds is None:
-            return total
-        known = self.bounds()
-        return Span(total.low.max(known.low), total.high.min(known.high))
+            total = total.common(Span(-INFINITY, head.high * least))
+        return total if self.bounds is None else total.common(self.bounds())
 
 
 def coordinates(directions: Sequence[arb], reach: arb) -> list[Growth]:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from fractions import Fraction
+from functools import reduce
 from typing import Any
 
 from flint import arb, fmpq
@@ -30,7 +32,7 @@ class _Growths(Lifted):
         if name in ("sinh", "cosh"):
             rising, falling = _exponential(value), _exponential(-value)
             return (rising + falling if name == "cosh" else rising - falling) * (arb(1) / 2)
-        values = value.range()
+        values = value.range
         if values.low.is_finite() and values.high.is_finite():
             return value.lift(BALLS.call(name, values.ball()))
         if name in ("sin", "cos"):
@@ -61,7 +63,7 @@ class _Growths(Lifted):
         part = Fraction(rest, denominator)
         if head.low > 0 and head.high.is_finite():
             first = base.make({degree * part: Span(power_of(head.low, part), power_of(head.high, part))})
-        elif nonnegative or base.range().low >= 0:
+        elif nonnegative or base.range.low >= 0:
             # A concave power of a sum is at most the sum of the powers.
             first = base.make(
                 {e * part: Span(arb(0), power_of(c.high.max(-c.low), part)) for e, c in base.terms.items()}
@@ -71,7 +73,7 @@ class _Growths(Lifted):
         return self.integer_power(base, whole) * first if whole else first
 
     def absolute(self, value: Any) -> Any:
-        values = value.range()
+        values = value.range
         if values.low >= 0 or values.high <= 0:
             return value if values.low >= 0 else -value
         return value.make({e: Span(arb(0), c.high.max(-c.low)) for e, c in value.terms.items()})
@@ -97,14 +99,11 @@ class _Growths(Lifted):
         zero = Span(arb(0), arb(0))
         terms = {}
         for exponent in set().union(*(value.terms for value in lifted)):
-            first, *rest = (value.terms.get(exponent, zero) for value in lifted)
-            for other in rest:
-                first = first.hull(other)
-            terms[exponent] = first
+            terms[exponent] = reduce(Span.hull, (value.terms.get(exponent, zero) for value in lifted))
         return model.make(terms)
 
     def order(self, value: Any) -> int | None:
-        values = value.range()
+        values = value.range
         return 1 if values.low > 0 else -1 if values.high < 0 else None
 
 
@@ -114,7 +113,7 @@ def _inverse(value: Any) -> Any:
     degree, head = value.head()
     if (head.low > 0 or head.high < 0) and head.low.is_finite() and head.high.is_finite():
         return value.make({-degree: Span(1 / head.high, 1 / head.low)})
-    values = value.range()
+    values = value.range
     if values.low > 0:
         return value.make({0: Span(1 / values.high if values.high.is_finite() else arb(0), 1 / values.low)})
     if values.high < 0:
@@ -124,7 +123,7 @@ def _inverse(value: Any) -> Any:
 
 def _exponential(value: Growth) -> Growth:
     degree, head = value.head()
-    values = value.range()
+    values = value.range
     if degree > 0 and head.high < 0:
         # exp(-c rᵈ) ≤ C r^(-FAST), C the largest r^FAST exp(-c rᵈ), which is at r₀ once r₀ is past its peak.
         rate, near = -head.high, 1 / value.reach
@@ -135,10 +134,7 @@ def _exponential(value: Growth) -> Growth:
     if degree > 0 and head.low > 0:
         # exp(g) ≥ gᵐ/m! for g ≥ 0.
         count = int(FAST / degree) + 1
-        factorial = arb(1)
-        for factor in range(2, count + 1):
-            factorial = factorial * factor
-        return value.make({degree * count: Span((head.low**count / factorial).lower(), INFINITY)})
+        return value.make({degree * count: Span((head.low**count / math.factorial(count)).lower(), INFINITY)})
     low = values.low.exp().lower() if values.low.is_finite() else arb(0)
     high = values.high.exp().upper() if values.high.is_finite() else INFINITY
     return value.make({0: Span(low.max(arb(0)), high)})
@@ -153,7 +149,7 @@ def _logarithm(value: Growth) -> Growth:
     if head.low > 0 and head.high.is_finite():
         slow = Span(weight, weight) * Span(arb(0), steep.upper())
         return value.make({0: Span(head.low.log(), head.high.log())}) + value.make({Fraction(1, 2): slow})
-    values = value.range()
+    values = value.range
     size = sum((c.high.max(-c.low) * power_of(value.reach, degree - e) for e, c in value.terms.items()), arb(0))
     if not (values.low > 0 and degree >= 0 and size.is_finite()):
         raise Undefined("a logarithm of something that may not be positive")

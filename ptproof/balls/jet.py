@@ -13,6 +13,7 @@ from typing import Any
 
 from flint import arb
 
+from ptproof.balls.arithmetic import Ring
 from ptproof.balls.ball import BALLS, interval
 from ptproof.balls.boxes import Side, middle
 from ptproof.balls.lifted import Lifted
@@ -21,7 +22,7 @@ from ptproof.balls.tape import Undefined
 Slopes = tuple[arb | None, ...]
 
 
-class Jet:
+class Jet(Ring):
     """A ball and the balls of its partial derivatives (None where a derivative is exactly zero)."""
 
     __slots__ = ("slopes", "value")
@@ -37,16 +38,8 @@ class Jet:
             return Jet(self.value + other.value, slopes)
         return Jet(self.value + other, self.slopes)
 
-    __radd__ = __add__
-
     def __neg__(self) -> Jet:
         return Jet(-self.value, tuple(None if a is None else -a for a in self.slopes))
-
-    def __sub__(self, other: Any) -> Jet:
-        return self + (-other)
-
-    def __rsub__(self, other: Any) -> Jet:
-        return (-self) + other
 
     def __mul__(self, other: Any) -> Jet:
         u = self.value
@@ -58,8 +51,6 @@ class Jet:
             )
             return Jet(_product(u, v), slopes)
         return self.scaled(_product(u, other) if isinstance(other, arb) else u * other, other)
-
-    __rmul__ = __mul__
 
     def scaled(self, value: arb, factor: arb) -> Jet:
         """The jet of a function of this one: its value, and its derivative as factor."""
@@ -152,10 +143,10 @@ class _Jets(Lifted):
         n = next(len(value.slopes) for value in values if isinstance(value, Jet))
         rows = [value.slopes if isinstance(value, Jet) else (None,) * n for value in values]
         slopes = tuple(
-            None if all(a is None for a in column) else BALLS.hull([arb(0) if a is None else a for a in column])
+            None if all(a is None for a in column) else BALLS.either([arb(0) if a is None else a for a in column])
             for column in zip(*rows, strict=True)
         )
-        return Jet(BALLS.hull([_value(value) for value in values]), slopes)
+        return Jet(BALLS.either([_value(value) for value in values]), slopes)
 
     def order(self, value: Any) -> int | None:
         return BALLS.order(_value(value))

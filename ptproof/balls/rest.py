@@ -44,12 +44,12 @@ def line_bound(term: sp.Expr, offsets: Sequence[sp.Symbol]) -> LineBound | None:
     tape = compile_tape([term], [variable])
     reach = arb(1) / LINE
     try:
-        near = BALLS.hull([arb(0), *(tape.run([interval(k, k + 1)], BALLS)[0] for k in range(-LINE, LINE))])
+        near = BALLS.either([arb(0), *(tape.run([interval(k, k + 1)], BALLS)[0] for k in range(-LINE, LINE))])
         sides = [tape.run(coordinates([arb(sign)], reach), GROWTHS)[0] for sign in (1, -1)]
         growths = [Growth({}, reach).lift(side) for side in sides]
         degree = max((exponent for growth in growths for exponent in growth.terms), default=0)
         if degree <= 0:
-            near = BALLS.hull([near, *(growth.range().ball() for growth in growths)])
+            near = BALLS.either([near, *(growth.range.ball() for growth in growths)])
             return LineBound(offsets.index(variable), near, arb(0), 0)
         size = arb(0)
         for growth in growths:

@@ -6,8 +6,10 @@ power series of balls (a Taylor form with an enclosed remainder).
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache, partial, reduce
 from typing import Any
 
 import flint
@@ -27,6 +29,9 @@ METHODS: Mapping[Any, str] = {
 }  # fmt: skip
 """The functions of one argument, and their names in :meth:`Arithmetic.call`."""
 
+_SIMPLE: Mapping[Any, str] = {
+    sp.Add: "add", sp.Mul: "mul", sp.Abs: "absolute", sp.sign: "sign", sp.floor: "floor", sp.atan2: "angle",
+}  # fmt: skip
 _CONSTANTS: Mapping[Any, Callable[[], flint.arb]] = {
     sp.pi: flint.arb.pi,
     sp.E: flint.arb.const_e,
@@ -63,7 +68,7 @@ def nonnegative_by_form(expression: sp.Expr) -> bool:
 
 @dataclass(frozen=True)
 class Condition:
-    """A three-valued condition: ``kind`` is and, or, not, a relation with 0 of ``tape``, true or false."""
+    """A three-valued condition: ``kind`` is a relation with 0 of ``tape``, or and, or, not of ``parts``."""
 
     kind: str
     parts: tuple[Condition, ...] = ()
@@ -71,14 +76,12 @@ class Condition:
 
     def decide(self, values: Sequence[Any], arithmetic: Arithmetic) -> bool | None:
         """True or False where it is certain at ``values``, else None."""
-        if self.kind in ("true", "false"):
-            return self.kind == "true"
         if self.tape is not None:
             try:
                 sign = arithmetic.order(self.tape.run(values, arithmetic)[0])
             except Undefined:
                 return None
-            return None if sign is None else _RELATIONS[self.kind](sign)
+            return None if sign is None else _RELATIONS[self.kind](sign, 0)
         found = [part.decide(values, arithmetic) for part in self.parts]
         if self.kind == "not":
             return None if found[0] is None else not found[0]
@@ -88,14 +91,9 @@ class Condition:
         return None if None in found else not stop
 
 
-_RELATIONS: Mapping[str, Callable[[int], bool]] = {
-    "<": lambda sign: sign < 0,
-    "<=": lambda sign: sign <= 0,
-    ">": lambda sign: sign > 0,
-    ">=": lambda sign: sign >= 0,
-    "==": lambda sign: sign == 0,
-    "!=": lambda sign: sign != 0,
-}
+_RELATIONS: Mapping[str, Callable[[int, int], bool]] = {
+    "<": operator.lt, "<=": operator.le, ">": operator.gt, ">=": operator.ge, "==": operator.eq, "!=": operator.ne,
+}  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -115,15 +113,9 @@ class Tape:
         push = slots.append
         for operation, args, extra in self.code:
             if operation == "add":
-                total = slots[args[0]]
-                for index in args[1:]:
-                    total = total + slots[index]
-                push(total)
+                push(reduce(operator.add, [slots[index] for index in args]))
             elif operation == "mul":
-                total = slots[args[0]]
-                for index in args[1:]:
-                    total = total * slots[index]
-                push(total)
+                push(reduce(operator.mul, [slots[index] for index in args]))
             elif operation == "pow":
                 push(arithmetic.integer_power(slots[args[0]], extra))
             elif operation == "const":
@@ -139,16 +131,9 @@ class Tape:
         return [slots[index] for index in self.outputs]
 
 
-_CACHE: dict[tuple[sp.Expr, int], flint.arb] = {}
-
-
+@lru_cache(maxsize=10_000)
 def _constant(value: sp.Expr, bits: int) -> flint.arb:
-    ball = _CACHE.get((value, bits))
-    if ball is None:
-        if len(_CACHE) > 10_000:
-            _CACHE.clear()
-        ball = _CACHE[value, bits] = number(value)
-    return ball
+    return number(value)
 
 
 def _piecewise(branches: Sequence[tuple[Tape, Condition]], values: Sequence[Any], arithmetic: Arithmetic) -> Any:
@@ -201,23 +186,15 @@ class _Builder:
             raise Undefined(f"the floating-point number {node} in an exact expression; write a fraction")
         if isinstance(node, sp.Rational) or node in _CONSTANTS:
             return self.emit("const", extra=node)
-        if isinstance(node, sp.Add):
-            return self.emit("add", *map(self.visit, node.args))
-        if isinstance(node, sp.Mul):
-            return self.emit("mul", *map(self.visit, node.args))
         if isinstance(node, sp.Pow):
             return self.build_power(node)
         if node.func in METHODS and len(node.args) == 1:
             return self.emit("call", self.visit(node.args[0]), extra=METHODS[node.func])
-        simple = {sp.Abs: "absolute", sp.sign: "sign", sp.floor: "floor", sp.atan2: "angle"}
-        if node.func in simple:
-            return self.emit(simple[node.func], *map(self.visit, node.args))
+        if node.func in _SIMPLE:
+            return self.emit(_SIMPLE[node.func], *map(self.visit, node.args))
         if isinstance(node, sp.Max | sp.Min):
             operation = "maximum" if isinstance(node, sp.Max) else "minimum"
-            result, *rest = map(self.visit, node.args)
-            for index in rest:
-                result = self.emit(operation, result, index)
-            return result
+            return reduce(partial(self.emit, operation), map(self.visit, node.args))
         if isinstance(node, sp.Mod):
             dividend, divisor = node.args
             return self.visit(dividend - divisor * sp.floor(dividend / divisor))
@@ -249,11 +226,9 @@ class _Builder:
 
     def condition(self, node: Any) -> Condition:
         if node == sp.true or node == sp.false:
-            return Condition("true" if node == sp.true else "false")
+            return Condition("and" if node == sp.true else "or")  # of nothing
         if isinstance(node, sp.And | sp.Or | sp.Not):
-            kind = {sp.And: "and", sp.Or: "or", sp.Not: "not"}[node.func]
-            return Condition(kind, tuple(map(self.condition, node.args)))
-        kinds = {sp.Lt: "<", sp.Le: "<=", sp.Gt: ">", sp.Ge: ">=", sp.Eq: "==", sp.Ne: "!="}
-        if node.func in kinds and not any(side.is_infinite for side in node.args):
-            return Condition(kinds[node.func], tape=compile_tape([node.lhs - node.rhs], self.symbols))
+            return Condition(node.func.__name__.lower(), tuple(map(self.condition, node.args)))
+        if isinstance(node, sp.core.relational.Relational) and not any(side.is_infinite for side in node.args):
+            return Condition(node.rel_op, tape=compile_tape([node.lhs - node.rhs], self.symbols))
         raise Undefined(f"no enclosure for the condition {node}")

@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
+from operator import add
 from typing import Any
 
 from flint import arb, arb_series
 
+from ptproof.balls.arithmetic import Ring, collected
 from ptproof.balls.ball import BALLS
 from ptproof.balls.lifted import Lifted
 from ptproof.balls.series import SERIES, series_length
@@ -18,7 +20,7 @@ Exponents = tuple[int, ...]
 
 
 @dataclass(frozen=True)
-class Taylor:
+class Taylor(Ring):
     """A polynomial in ``dimension`` variables, with balls as coefficients, cut off above total degree ``order``."""
 
     terms: Mapping[Exponents, arb]
@@ -35,35 +37,22 @@ class Taylor:
         return self.make({self.origin: value})
 
     def __add__(self, other: Any) -> Taylor:
-        terms = dict(self.terms)
-        for key, value in (other if isinstance(other, Taylor) else self.constant(other)).terms.items():
-            terms[key] = terms[key] + value if key in terms else value
-        return self.make(terms)
-
-    __radd__ = __add__
+        added = other if isinstance(other, Taylor) else self.constant(other)
+        return self.make(collected((*self.terms.items(), *added.terms.items())))
 
     def __neg__(self) -> Taylor:
         return self.make({key: -value for key, value in self.terms.items()})
 
-    def __sub__(self, other: Any) -> Taylor:
-        return self + (-other)
-
-    def __rsub__(self, other: Any) -> Taylor:
-        return (-self) + other
-
     def __mul__(self, other: Any) -> Taylor:
         if not isinstance(other, Taylor):
             return self.make({key: value * other for key, value in self.terms.items()})
-        terms: dict[Exponents, arb] = {}
-        for e, a in self.terms.items():
-            room = self.order - sum(e)
-            for f, b in other.terms.items():
-                if sum(f) <= room:
-                    key = tuple(i + j for i, j in zip(e, f, strict=True))
-                    terms[key] = terms[key] + a * b if key in terms else a * b
-        return self.make(terms)
-
-    __rmul__ = __mul__
+        products = (
+            (tuple(map(add, e, f)), a * b)
+            for e, a in self.terms.items()
+            for f, b in other.terms.items()
+            if sum(e) + sum(f) <= self.order
+        )
+        return self.make(collected(products))
 
     @property
     def origin(self) -> Exponents:

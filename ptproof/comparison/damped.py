@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from functools import cached_property
 
 import sympy as sp
 
-from ptproof.comparison.power import holds, power_bound
+from ptproof.comparison.power import PowerBound, holds, sympify_members
 from ptproof.errors import InputError
 
 
@@ -31,26 +32,28 @@ class DampedBound:
     damping: sp.Expr
     power: sp.Expr
     input: sp.Expr
-    transient: sp.Expr = field(init=False)
-    rest: sp.Expr = field(init=False)
 
     def __post_init__(self) -> None:
-        for name in ("start", "initial", "damping", "power", "input"):
-            object.__setattr__(self, name, sp.sympify(getattr(self, name)))
+        sympify_members(self)
         if self.damping.is_positive is False or self.initial.is_positive is False:
             raise InputError(f"comparison: damping {self.damping} and initial {self.initial} must be positive")
         if self.input.is_negative or (self.power - 1).is_negative:
             raise InputError(f"comparison: the input {self.input} must be ≥ 0 and the power {self.power} ≥ 1")
-        result = power_bound(
-            time=self.time, rate=-self.damping, power=self.power, initial=self.initial, start=self.start,
-            integral=-self.damping * (self.time - self.start),
-        )  # fmt: skip
-        object.__setattr__(self, "transient", result.bound)
-        object.__setattr__(self, "rest", (self.input / self.damping) ** (1 / self.power))
+        _ = self.transient  # which is checked as it is made
         if self.input != 0:  # in the letter r for the power
             ratio, r = sp.symbols("ratio r", positive=True)
-            rest = ratio ** (1 / r)
-            holds(rest**r - ratio, "the rest point balances damping and input")
+            holds((ratio ** (1 / r)) ** r - ratio, "the rest point balances damping and input")
+
+    @cached_property
+    def transient(self) -> sp.Expr:
+        """w(τ)."""
+        integral = -self.damping * (self.time - self.start)
+        return PowerBound(self.time, self.start, self.initial, -self.damping, self.power, integral).bound
+
+    @property
+    def rest(self) -> sp.Expr:
+        """u* = (ζ/h)^(1/r)."""
+        return (self.input / self.damping) ** (1 / self.power)
 
     @property
     def bound(self) -> sp.Expr:
@@ -79,8 +82,7 @@ class LinearBound:
     convolution: sp.Expr
 
     def __post_init__(self) -> None:
-        for name in ("start", "initial", "damping", "input", "convolution"):
-            object.__setattr__(self, name, sp.sympify(getattr(self, name)))
+        sympify_members(self)
         difference = sp.diff(self.convolution, self.time) + self.damping * self.convolution - self.input
         holds(difference, "the convolution solves its equation")
         holds(self.convolution.subs(self.time, self.start), "the convolution starts at zero")

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from functools import cached_property
 
 import sympy as sp
 
-from ptproof.comparison.power import PowerBound, holds
+from ptproof.comparison.power import PowerBound, holds, sympify_members
 from ptproof.errors import InputError
 
 _ELAPSED = sp.Symbol("s", nonnegative=True)
@@ -32,37 +33,30 @@ class DilatedBound:
     growth: sp.Expr
     decay: sp.Expr
     sigma: sp.Expr
-    result: PowerBound = field(init=False)
 
     def __post_init__(self) -> None:
-        for name in ("start", "initial", "horizon", "growth", "decay", "sigma"):
-            object.__setattr__(self, name, sp.sympify(getattr(self, name)))
+        sympify_members(self)
         for name in ("horizon", "decay", "initial"):
             if getattr(self, name).is_positive is False:
                 raise InputError(f"comparison: {name} = {getattr(self, name)} is not positive")
         if self.growth.is_negative or self.sigma.is_negative:
             raise InputError(f"comparison: growth = {self.growth} and sigma = {self.sigma} must not be negative")
-        s, T = self.time - self.start, self.horizon
-        rate = self.growth / (1 + s / T) ** 2 - self.decay
-        integral = self.growth * T * s / (T + s) - self.decay * s
-        object.__setattr__(
-            self,
-            "result",
-            PowerBound(self.time, self.start, self.initial, rate, 1 + self.sigma, integral),
-        )
+        s, T, denominator = self.time - self.start, self.horizon, self.result.denominator
         if self.sigma != 0:
-            holds(
-                self.result.denominator * (T + s) - self.quadratic.subs(self._elapsed, s),
-                "the denominator is the stated quadratic over T + s",
-            )
+            difference = denominator * (T + s) - self.quadratic.subs(_ELAPSED, s)
+            holds(difference, "the denominator is the stated quadratic over T + s")
             B, R = sp.symbols("B R", real=True)  # in letters: B and the root of the discriminant
             r = 2 * T / (B + R)
             weight = (B**2 - R**2) / (4 * self.decay * T)
             holds(T - B * r + weight * self.decay * r**2, "the escape time is a root of the quadratic")
 
-    @property
-    def _elapsed(self) -> sp.Symbol:
-        return _ELAPSED
+    @cached_property
+    def result(self) -> PowerBound:
+        """The bound as one of a power, with the rate g/(1 + s/T)² − h and its integral A."""
+        s, T = self.time - self.start, self.horizon
+        rate = self.growth / (1 + s / T) ** 2 - self.decay
+        integral = self.growth * T * s / (T + s) - self.decay * s
+        return PowerBound(self.time, self.start, self.initial, rate, 1 + self.sigma, integral)
 
     @property
     def weight(self) -> sp.Expr:
@@ -79,10 +73,6 @@ class DilatedBound:
         return self._linear**2 - 4 * self.weight * self.decay * self.horizon
 
     @property
-    def _root(self) -> sp.Expr:
-        return sp.sqrt(self.discriminant)
-
-    @property
     def bound(self) -> sp.Expr:
         """The upper bound of u as an expression in τ."""
         return self.result.bound
@@ -90,18 +80,17 @@ class DilatedBound:
     @property
     def quadratic(self) -> sp.Expr:
         """T − Bs + Whs² in the symbol ``s`` of elapsed stretched time (σ > 0)."""
-        s = self._elapsed
-        return self.horizon - self._linear * s + self.weight * self.decay * s**2
+        return self.horizon - self._linear * _ELAPSED + self.weight * self.decay * _ELAPSED**2
 
     @property
     def escape_elapsed(self) -> sp.Expr:
         """The first s = τ − t₀ at which the bound is infinite, as a formula; it applies where :attr:`escapes`."""
-        return 2 * self.horizon / (self._linear + self._root)
+        return 2 * self.horizon / (self._linear + sp.sqrt(self.discriminant))
 
     @property
     def excess(self) -> sp.Expr:
         """WT(√g − √h)² − 1: with g > h the bound escapes if this is ≥ 0 and is finite for all time if it is < 0."""
-        return self.weight * self.horizon * (sp.sqrt(self.growth) - sp.sqrt(self.decay)) ** 2 - 1
+        return self.weight * self.largest_integral - 1
 
     @property
     def turning_elapsed(self) -> sp.Expr:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, fields
+from functools import cached_property
+from typing import Any
 
 import sympy as sp
 
@@ -14,6 +16,12 @@ def holds(difference: sp.Expr, what: str) -> None:
     """Raise unless ``difference`` is shown to vanish."""
     if not vanishes(difference):
         raise InputError(f"comparison: it does not hold, or cannot be shown, that {what}")
+
+
+def sympify_members(bound: Any) -> None:
+    """Numbers given to a bound become exact SymPy numbers."""
+    for member in fields(bound):
+        object.__setattr__(bound, member.name, sp.sympify(getattr(bound, member.name)))
 
 
 @dataclass(frozen=True)
@@ -33,10 +41,6 @@ class PowerBound:
         α as an expression in τ (of either sign, continuous), and p.
     integral
         A, with dA/dτ = α and A(start) = 0.
-    denominator
-        1 − σ·initial^σ·A, or 1 when p = 1; the bound is valid on the interval from start on which it stays positive.
-    bound
-        initial·denominator^(−1/σ), or initial·exp(A) when p = 1.
 
     Raises
     ------
@@ -50,26 +54,15 @@ class PowerBound:
     rate: sp.Expr
     power: sp.Expr
     integral: sp.Expr
-    denominator: sp.Expr = field(init=False)
-    bound: sp.Expr = field(init=False)
 
     def __post_init__(self) -> None:
-        for name in ("start", "initial", "rate", "power", "integral"):
-            object.__setattr__(self, name, sp.sympify(getattr(self, name)))
+        sympify_members(self)
         if self.initial.is_positive is False:
             raise InputError(f"comparison: the initial value {self.initial} is not positive")
         sigma = self.sigma
-        linear = sigma == 0
-        denominator = sp.Integer(1) if linear else 1 - sigma * self.initial**sigma * self.integral
-        object.__setattr__(self, "denominator", denominator)
-        object.__setattr__(
-            self,
-            "bound",
-            self.initial * (sp.exp(self.integral) if linear else denominator ** (-1 / sigma)),
-        )
         holds(sp.diff(self.integral, self.time) - self.rate, "the integral's derivative is the rate")
         holds(self.integral.subs(self.time, self.start), "the integral starts at zero")
-        if linear:
+        if sigma == 0:
             holds(sp.diff(self.bound, self.time) - self.rate * self.bound, "the bound solves the equation")
         else:  # in letters: D for the denominator, positive on the domain, and σ for p − 1
             D, V = sp.symbols("D V", positive=True)
@@ -80,16 +73,23 @@ class PowerBound:
                 sp.diff(self.denominator, self.time) + sigma * self.initial**sigma * self.rate,
                 "the denominator's derivative follows from the rate",
             )
-            holds(
-                sp.diff(masked, D) * slope - self.rate * masked ** (1 + exponent),
-                "the bound solves the equation",
-            )
+            holds(sp.diff(masked, D) * slope - self.rate * masked ** (1 + exponent), "the bound solves the equation")
         holds(self.bound.subs(self.time, self.start) - self.initial, "the bound starts at the initial value")
 
     @property
     def sigma(self) -> sp.Expr:
         """p − 1."""
         return sp.cancel(sp.together(self.power - 1))
+
+    @cached_property
+    def denominator(self) -> sp.Expr:
+        """1 − σ·initial^σ·A, or 1 when p = 1; the bound is valid from start on while this stays positive."""
+        return 1 - self.sigma * self.initial**self.sigma * self.integral
+
+    @cached_property
+    def bound(self) -> sp.Expr:
+        """initial·denominator^(−1/σ), or initial·exp(A) when p = 1."""
+        return self.initial * (sp.exp(self.integral) if self.sigma == 0 else self.denominator ** (-1 / self.sigma))
 
 
 def power_bound(

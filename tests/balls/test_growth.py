@@ -52,7 +52,7 @@ def test_growth_encloses_the_values(expression, start):
             upper = sum((c.high * power_of(arb(int(r)), e) for e, c in growth.terms.items()), arb(0))
             assert lower.lower() <= value.upper()
             assert upper.upper() >= value.lower()
-            values = growth.range()
+            values = growth.range
             assert values.low.lower() <= value.upper()
             assert values.high.upper() >= value.lower()
 
