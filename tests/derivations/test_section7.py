@@ -72,6 +72,8 @@ TWINS = [
     (says("7/clipped-gain", eq(clip.gain, sp.Min(1 / R("0.3"), 1 / clip.nu(t - t0) ** 2))), REFUTED),
     (says("7/clipped-gain", eq(clip.gain, sp.Max(1 / R("0.3") ** 2, 1 / clip.nu(t - t0) ** 2))), REFUTED),
     (given("7/clipped-gain", ge(t, t0)), REFUTED),
+    (says("7/clipped-gain-simulated", eq(clip.prescribed_time_gain(clip.clock, R("0.4")), clip.gain)), REFUTED),
+    (says("7/clipped-gain-simulated", eq(clip.prescribed_time_gain(clip.clock, R("0.3")), clip.printed_gain)), REFUTED),
     (given("7/clipped-gain-afterwards", gt(t, t0 + T)), REFUTED),
     (says("7/clipped-gain-finite", le(clip.printed_gain, 1 / R("0.3"))), REFUTED),
     (given("7/clipped-gain-final", ge(t, t0 + R("0.6") * T)), REFUTED),

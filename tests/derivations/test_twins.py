@@ -30,7 +30,7 @@ def short_limits(monkeypatch: pytest.MonkeyPatch) -> None:
 
     A witness is looked for only where something is proved.
     """
-    monkeypatch.setattr(ptproof.proof.engines.reals, "SECONDS", 0.5)
+    monkeypatch.setattr(ptproof.proof.engines.reals, "SECONDS", 2.0)
     monkeypatch.setattr(ptproof.proof.run, "with_witness", lambda goal, evidence: evidence)
 
 
@@ -41,7 +41,7 @@ def test_corrupted_twin_is_not_proved(claim: Claim) -> None:
         found = run_one(twin)
         if found.verdict is Verdict.PROVED:
             # Some changes leave a true statement, such as a bound that is doubled; a false one must not be proved.
-            check = with_witness(twin.goal(), _NOT_TRIED, seconds=0.25)
+            check = with_witness(twin.goal(), _NOT_TRIED, seconds=1.0)
             assert check.verdict is not Verdict.REFUTED, f"proved and false: {word}: {twin.statement}: {check.witness}"
             continue
         killed.append((word, found.verdict))
@@ -58,5 +58,5 @@ def test_exchanged_index_or_dropped_assumption_proves_nothing_false(
     twins = chain(islice(swapped(claim), 1), islice(without_assumptions(claim), 1))
     for word, twin in twins:
         if run_one(twin).verdict is Verdict.PROVED:
-            check = with_witness(twin.goal(), _NOT_TRIED, seconds=0.25)
+            check = with_witness(twin.goal(), _NOT_TRIED, seconds=0.5)
             assert check.verdict is not Verdict.REFUTED, f"proved and false: {word}: {twin.statement}: {check.witness}"
