@@ -48,13 +48,8 @@ class SlowFast:
         """dỹ/dτ̃ = g(x, ỹ + l(x)) with ỹ = z − l(x) and x frozen."""
         if len(deviation) != len(self.fast_state):
             raise InputError(f"{self.name}: {len(self.fast_state)} fast states but {len(deviation)} deviations")
-        moved = dict(
-            zip(
-                self.fast_state,
-                (deviation_ + steady for deviation_, steady in zip(deviation, self.quasi_steady_state, strict=True)),
-                strict=True,
-            )
-        )
+        layers = zip(self.fast_state, deviation, self.quasi_steady_state, strict=True)
+        moved = {symbol: away + steady for symbol, away, steady in layers}
         rhs = tuple(sp.expand(entry.subs(moved, simultaneous=True)) for entry in self.fast_rate)
         return System(fast_time, tuple(deviation), rhs, name=f"boundary layer of {self.name}")
 
@@ -134,5 +129,4 @@ def _is_affine_regular(rates: Sequence[sp.Expr], fast: Sequence[sp.Symbol]) -> b
         matrix, _ = sp.linear_eq_to_matrix(list(rates), list(fast))
     except NonlinearError:
         return False
-    determinant = sp.factor(matrix.det())
-    return bool(determinant.is_nonzero)
+    return bool(sp.factor(matrix.det()).is_nonzero)

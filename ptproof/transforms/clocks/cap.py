@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from operator import attrgetter
 
 import sympy as sp
 from sympy.core.relational import Relational
@@ -62,26 +63,15 @@ class CappedClock:
                 f"given of them"
             )
 
-    @property
-    def t(self) -> sp.Symbol:
-        return self.clock.t
-
-    @property
-    def tau(self) -> sp.Symbol:
-        return self.clock.tau
-
-    @property
-    def start(self) -> sp.Expr:
-        return self.clock.start
+    t = property(attrgetter("clock.t"))
+    tau = property(attrgetter("clock.tau"))
+    start = property(attrgetter("clock.start"))
+    name = property(lambda self: f"capped {self.clock.name}")
 
     @property
     def horizon(self) -> sp.Expr:
         """Infinite: what is capped goes on for all times."""
         return sp.oo
-
-    @property
-    def name(self) -> str:
-        return f"capped {self.clock.name}"
 
     @cached_property
     def corner_tau(self) -> sp.Expr:

@@ -72,13 +72,13 @@ class Clock:
             object.__setattr__(self, field, sp.sympify(getattr(self, field)))
         if not isinstance(self.t, sp.Symbol) or not isinstance(self.tau, sp.Symbol) or self.t == self.tau:
             raise InputError(f"{self.name}: the two times must be distinct symbols")
-        starts = (self.to_tau.subs(self.t, self.start), self.to_t.subs(self.tau, self.start))
-        if not all(vanishes(instant - self.start) for instant in starts):
-            raise InputError(f"{self.name}: it does not hold, or cannot be shown, that both times agree at the start")
-        if not self._is_inverse():
-            raise InputError(f"{self.name}: it does not hold, or cannot be shown, that the inverse undoes the map")
-        if not self._increases():
-            raise InputError(f"{self.name}: it does not hold, or cannot be shown, that the map increases")
+        for what, shown in (
+            ("both times agree at the start", self._agree_at_start),
+            ("the inverse undoes the map", self._is_inverse),
+            ("the map increases", lambda: self._grows() or self._rises_to_the_end()),
+        ):
+            if not shown():
+                raise InputError(f"{self.name}: it does not hold, or cannot be shown, that {what}")
 
     @property
     def nu(self) -> sp.Expr:
@@ -116,11 +116,18 @@ class Clock:
         """An expression in t for t < t₀ + horizon, by the symbol ν > 0: t − t₀ is horizon·(1 − ν)."""
         if self.horizon is sp.oo:
             return expression
-        return settle(expression.subs(self.t, self.start + self.horizon * (1 - sp.Dummy("nu", positive=True))))
+        return settle(expression.subs(self.t, self.instant(sp.Dummy("nu", positive=True))))
 
     def _later(self, expression: sp.Expr) -> sp.Expr:
         """An expression in τ for τ > t₀, by the symbol τ − t₀ > 0."""
         return settle(expression.subs(self.tau, self.start + sp.Dummy("e", positive=True)))
+
+    def _agree_at_start(self) -> bool:
+        starts = (self.to_tau.subs(self.t, self.start), self.to_t.subs(self.tau, self.start))
+        return all(vanishes(instant - self.start) for instant in starts)
+
+    def _grows(self) -> bool:
+        return is_positive(self.on_interval(self.rate))
 
     def _is_inverse(self) -> bool:
         back = self.to_t.subs(self.tau, self.to_tau) - self.t
@@ -133,27 +140,23 @@ class Clock:
         if not (vanishes(self._later(forth)) and vanishes(self._later(rates))):
             return False
         # Injective: then a(a⁻¹(a(t))) = a(t) gives a⁻¹(a(t)) = t, if a⁻¹ stays in the interval.
-        if is_positive(self.on_interval(self.rate)) and self._stays_inside():
+        elapsed = self._later(self.to_t - self.start)
+        left = () if self.horizon is sp.oo else (self.horizon - elapsed,)
+        if self._grows() and all(is_positive(length) for length in (elapsed, *left)):
             return True
         # Onto: then every t is a⁻¹(τ) for some τ, and a⁻¹(a(a⁻¹(τ))) = a⁻¹(τ).
         return self._rises_to_the_end()
 
     def _rises_to_the_end(self) -> bool:
         """Whether a⁻¹ is shown to increase, and to tend to the end of the interval as τ → ∞."""
-        if not is_positive(self._later(self.rate_back)):
-            return False
+        return is_positive(self._later(self.rate_back)) and self.tends_to_the_end()
+
+    def tends_to_the_end(self) -> bool:
+        """Whether a⁻¹ is shown to tend to the end of the interval as τ → ∞."""
         end = limit_at_infinity(self.to_t, self.tau)
-        return end is not None and (end is sp.oo if self.horizon is sp.oo else self._ends_at(end))
-
-    def _ends_at(self, end: sp.Expr) -> bool:
-        return end is not sp.oo and vanishes(end - self.start - self.horizon)
-
-    def _stays_inside(self) -> bool:
-        elapsed = self._later(self.to_t - self.start)
-        return is_positive(elapsed) and (self.horizon is sp.oo or is_positive(self.horizon - elapsed))
-
-    def _increases(self) -> bool:
-        return is_positive(self.on_interval(self.rate)) or self._rises_to_the_end()
+        if end is None or sp.oo in (end, self.horizon):
+            return end is self.horizon
+        return vanishes(end - self.start - self.horizon)
 
     def _repr_latex_(self) -> str:
         return displayed(self.t, self.tau, self.pieces[0])

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import sympy as sp
 
 from ptproof.errors import InputError
 from ptproof.proof.signs import vanishes
 from ptproof.reading.limits import OutOfTime, within
-from ptproof.transforms.clocks.algebra import is_positive, limit_at_infinity
+from ptproof.transforms.clocks.algebra import is_positive
 from ptproof.transforms.clocks.clock import Clock
 from ptproof.transforms.clocks.length import dilated_length
 
@@ -32,30 +30,20 @@ def clock_from_formula(
     wanted = prescribed_time and horizon is not sp.oo
     known = wanted and _refuse_finite(sp.diff(formula, t), t, start, horizon, name)
     candidates = [sp.sympify(inverse)] if inverse is not None else _solutions(formula, t, tau, start, horizon)
-    clock, reason = _first_accepted(t, tau, formula, candidates, start, horizon, name)
-    if clock is None and inverse is not None:
-        raise InputError(reason)
-    if clock is None:
-        found = f" was accepted ({reason})" if reason else f" of {formula} was found"
-        raise InputError(f"{name}: no inverse{found}; give it as an expression in {tau} with inverse=")
-    if wanted and not known:
-        end = limit_at_infinity(clock.to_t, tau)
-        if end is None or end is sp.oo or not vanishes(end - start - horizon):
-            raise InputError(_unknown(sp.diff(formula, t), start, horizon, name))
-    return clock
-
-
-def _first_accepted(
-    t: sp.Symbol, tau: sp.Symbol, formula: sp.Expr, candidates: Sequence[sp.Expr], start: sp.Expr, horizon: sp.Expr,
-    name: str,
-) -> tuple[Clock | None, str]:  # fmt: skip
     reason = ""
     for candidate in candidates:
         try:
-            return Clock(t, tau, formula, candidate, start, horizon, name), ""
+            clock = Clock(t, tau, formula, candidate, start, horizon, name)
         except InputError as error:
             reason = reason or str(error)
-    return None, reason
+            continue
+        if wanted and not known and not clock.tends_to_the_end():
+            raise InputError(_unknown(sp.diff(formula, t), start, horizon, name))
+        return clock
+    if inverse is not None:
+        raise InputError(reason)
+    found = f" was accepted ({reason})" if reason else f" of {formula} was found"
+    raise InputError(f"{name}: no inverse{found}; give it as an expression in {tau} with inverse=")
 
 
 def clock_from_rate(
@@ -106,18 +94,16 @@ def _unknown(rate: sp.Expr, start: sp.Expr, horizon: sp.Expr, name: str) -> str:
 
 def _integral_from_start(rate: sp.Expr, t: sp.Symbol, start: sp.Expr, horizon: sp.Expr, name: str) -> sp.Expr:
     """∫ rate from the start to t, by an antiderivative in ν (or in t − t₀) that is checked."""
-    inside = sp.Dummy("nu", positive=True)
-    finite = horizon is not sp.oo
-    integrand = rate.subs(t, start + (horizon * (1 - inside) if finite else inside)) * (-horizon if finite else 1)
+    elapsed, inside = _views(horizon)[-1]
+    integrand = rate.subs(t, start + elapsed) * sp.diff(elapsed, inside)
     try:
         found = within(SOLVE_SECONDS, lambda: sp.integrate(sp.simplify(integrand), inside))
     except OutOfTime:
         found = sp.Integral(integrand, inside)
     if found.has(sp.Integral, sp.Piecewise) or not vanishes(sp.diff(found, inside) - integrand):
         raise InputError(f"{name}: no antiderivative of {rate} was found; give the map with clock_from_formula")
-    back = 1 - (t - start) / horizon if finite else t - start
-    first = found.subs(inside, 1) if finite else found.subs(inside, 0)
-    return sp.factor_terms(found.subs(inside, back) - first)
+    now, first = (t - start, 0) if horizon is sp.oo else (1 - (t - start) / horizon, 1)
+    return sp.factor_terms(found.subs(inside, now) - found.subs(inside, first))
 
 
 def _solutions(formula: sp.Expr, t: sp.Symbol, tau: sp.Symbol, start: sp.Expr, horizon: sp.Expr) -> list[sp.Expr]:

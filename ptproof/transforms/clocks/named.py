@@ -32,98 +32,67 @@ def prescribed_time_clock(
     t: sp.Symbol, tau: sp.Symbol, *, start: sp.Expr, horizon: sp.Expr, name: str = "prescribed-time clock"
 ) -> Clock:
     """The paper's map τ = t₀ + (t − t₀)/ν with ν = 1 − (t − t₀)/T (eq:tau_to_t, eq:nu, eq:t_to_tau)."""
-    elapsed, stretched = t - start, tau - start
-    return Clock(
-        t, tau,
-        to_tau=start + elapsed / (1 - elapsed / horizon),
-        to_t=start + stretched / (1 + stretched / horizon),
-        start=start, horizon=horizon, name=name,
-    )  # fmt: skip
+    s, e, T = t - start, tau - start, horizon
+    return Clock(t, tau, start + s / (1 - s / T), start + e / (1 + e / T), start, T, name)
 
 
 def identity_clock(t: sp.Symbol, tau: sp.Symbol, *, start: sp.Expr) -> Clock:
     """τ = t: the clock of an asymptotic seeker."""
-    return Clock(t, tau, to_tau=t, to_t=tau, start=start, horizon=sp.oo, name="identity clock")
+    return constant_clock(t, tau, start=start, rate=sp.S.One, name="identity clock")
 
 
 def constant_clock(
     t: sp.Symbol, tau: sp.Symbol, *, start: sp.Expr, rate: sp.Expr, name: str = "constant clock"
 ) -> Clock:
     """dτ/dt = ``rate`` > 0 all the time: the clock of a seeker with a constant gain."""
-    return Clock(
-        t, tau, to_tau=start + rate * (t - start), to_t=start + (tau - start) / rate, start=start, horizon=sp.oo,
-        name=name,
-    )  # fmt: skip
+    return Clock(t, tau, start + rate * (t - start), start + (tau - start) / rate, start, sp.oo, name)
 
 
 def power_clock(
     t: sp.Symbol, tau: sp.Symbol, *, start: sp.Expr, horizon: sp.Expr, order: sp.Expr, name: str = "power clock"
 ) -> Clock:
     """dτ/dt = ν^(−(m+1)) with the ``order`` m > 0, a positive number or symbol; m = 1 is the paper's map."""
-    m = sp.sympify(order)
+    m, T = sp.sympify(order), horizon
     if not m.is_positive or m.has(sp.Float):
         raise InputError(f"{name}: the order must be an exact positive number or a positive symbol, got {m}")
-    nu = 1 - (t - start) / horizon
-    return Clock(
-        t, tau,
-        to_tau=start + horizon / m * (nu ** (-m) - 1),
-        to_t=start + horizon * (1 - (1 + m * (tau - start) / horizon) ** (-1 / m)),
-        start=start, horizon=horizon, name=name,
-    )  # fmt: skip
+    to_tau = start + T / m * ((1 - (t - start) / T) ** (-m) - 1)
+    return Clock(t, tau, to_tau, start + T * (1 - (1 + m * (tau - start) / T) ** (-1 / m)), start, T, name)
 
 
 def logarithmic_clock(
     t: sp.Symbol, tau: sp.Symbol, *, start: sp.Expr, horizon: sp.Expr, name: str = "logarithmic clock"
 ) -> Clock:
     """dτ/dt = 1/ν, the slowest growth of this kind that still reaches τ = ∞; its inverse is an exponential."""
-    return Clock(
-        t, tau,
-        to_tau=start - horizon * sp.log(1 - (t - start) / horizon),
-        to_t=start + horizon * (1 - sp.exp(-(tau - start) / horizon)),
-        start=start, horizon=horizon, name=name,
-    )  # fmt: skip
+    s, e, T = t - start, tau - start, horizon
+    return Clock(t, tau, start - T * sp.log(1 - s / T), start + T * (1 - sp.exp(-e / T)), start, T, name)
 
 
 def exponential_clock(
     t: sp.Symbol, tau: sp.Symbol, *, start: sp.Expr, horizon: sp.Expr, name: str = "exponential clock"
 ) -> Clock:
     """dτ/dt = ν⁻² exp(s/(T − s)), which grows faster than every power of 1/ν."""
-    stretched = (t - start) / (1 - (t - start) / horizon) / horizon
-    logarithm = sp.log(1 + (tau - start) / horizon)
-    return Clock(
-        t, tau,
-        to_tau=start + horizon * (sp.exp(stretched) - 1),
-        to_t=start + horizon * logarithm / (1 + logarithm),
-        start=start, horizon=horizon, name=name,
-    )  # fmt: skip
+    s, T = t - start, horizon
+    logarithm = sp.log(1 + (tau - start) / T)
+    to_tau = start + T * (sp.exp(s / (1 - s / T) / T) - 1)
+    return Clock(t, tau, to_tau, start + T * logarithm / (1 + logarithm), start, T, name)
 
 
 def tangent_clock(
     t: sp.Symbol, tau: sp.Symbol, *, start: sp.Expr, horizon: sp.Expr, name: str = "tangent clock"
 ) -> Clock:
     """dτ/dt = 1 + tan²(πs/(2T))."""
-    scale = 2 * horizon / sp.pi
-    return Clock(
-        t, tau,
-        to_tau=start + scale * sp.tan((t - start) / scale),
-        to_t=start + scale * sp.atan((tau - start) / scale),
-        start=start, horizon=horizon, name=name,
-    )  # fmt: skip
+    s, e, scale = t - start, tau - start, 2 * horizon / sp.pi
+    return Clock(t, tau, start + scale * sp.tan(s / scale), start + scale * sp.atan(e / scale), start, horizon, name)
 
 
 def growing_clock(
     t: sp.Symbol, tau: sp.Symbol, *, start: sp.Expr, growth: sp.Expr, name: str = "growing clock"
 ) -> Clock:
     """dτ/dt = exp(g(t − t₀)) for all t ≥ t₀, with ``growth`` g > 0: an exponential gain on an infinite horizon."""
-    g = sp.sympify(growth)
+    s, e, g = t - start, tau - start, sp.sympify(growth)
     if not g.is_positive:
         raise InputError(f"{name}: the growth must be positive, got {g}")
-    return Clock(
-        t, tau,
-        to_tau=start + (sp.exp(g * (t - start)) - 1) / g,
-        to_t=start + sp.log(1 + g * (tau - start)) / g,
-        start=start, horizon=sp.oo, name=name,
-    )  # fmt: skip
+    return Clock(t, tau, start + (sp.exp(g * s) - 1) / g, start + sp.log(1 + g * e) / g, start, sp.oo, name)
 
 
 # What a problem file may say, and ``exponent`` is the power clock's order.
