@@ -97,9 +97,8 @@ def reduced_loop(field: sp.Expr, drift: Drift, law: Law, states: Letters) -> Sys
     dilated = System(TAU, rotated.state, tuple(sp.expand(entry / GAIN) for entry in rotated.rhs))
     phase = symbols.p0 + symbols.omega * (TAU - symbols.t0)
     solve_state(dilated, p, phase)
-    keep = [index for index, variable in enumerate(rotated.state) if variable != p]
-    rhs = tuple(rotated.rhs[i].subs(p, phase) for i in keep)
-    return System(TIME, tuple(rotated.state[i] for i in keep), rhs, name=rotated.name)
+    rates = {state: rate.subs(p, phase) for state, rate in zip(rotated.state, rotated.rhs, strict=True) if state != p}
+    return System(TIME, tuple(rates), tuple(rates.values()), name=rotated.name)
 
 
 def in_frame(system: System, clock: Clock | CappedClock, frame: str) -> System:

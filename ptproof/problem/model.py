@@ -21,6 +21,7 @@ class parameters:
     """The symbols of the symbolic closed loops; ``p0`` is the constant θ₀ + k z₀ of the reduced coordinates."""
 
     k, omega, mu, T, nu_min, exponent = sp.symbols("k omega mu T nu_min exponent", positive=True)
+    # As the tables of a problem file call them, so that a table's values find their symbols.
     epsilon, level, gain = sp.symbols("epsilon S C", positive=True)
     t0, p0 = sp.symbols("t0 p0", real=True)
 

@@ -8,7 +8,7 @@ import sympy as sp
 
 from ptproof.averaging import average, split_dithers
 from ptproof.errors import InputError
-from ptproof.problem.drift import Drift
+from ptproof.problem.drift import Drift, bounded_drift
 from ptproof.problem.field import Field
 from ptproof.problem.loops import FRAMES, check_word, in_frame, reduced_loop, states_of
 from ptproof.problem.model import GAIN, TAU, TIME, parameters
@@ -17,7 +17,6 @@ from ptproof.problem.seekers.seeker import Law, Seeker
 from ptproof.system import DitherSystem, System, substitute
 from ptproof.transforms.clocks import CappedClock, Clock
 from ptproof.transforms.reduction import split
-from ptproof.transforms.states import change_variable, solve_state
 
 
 def _check(seeker: Seeker, frame: str) -> None:
@@ -45,13 +44,10 @@ def generic_dithers(law: Law) -> tuple[DitherSystem, System]:
     position = states.position
     F = sp.Function("F", real=True)(*position)
     g = tuple(sp.Function(name, real=True)(TAU, *position) for name in ("g1", "g2"))
-    k, omega, mu, p0 = parameters.k, parameters.omega, parameters.mu, parameters.p0
-    loop = law(F, g, sp.S.One, states)
-    loop = System(TAU, loop.state, tuple(entry.subs(TIME, TAU) for entry in loop.rhs), name=loop.name)
-    p, turn = sp.Symbol("p", real=True), k * states.filter
-    turned = change_variable(loop, states.heading, p, states.heading + turn, p - turn)
-    turned = solve_state(turned, p, p0 + omega * TAU)
-    dithers = split_dithers(split(turned, [states.filter], mu).reduced_model(), omega)
+    loop = reduced_loop(F, bounded_drift(g), law, states)
+    now = {GAIN: 1, parameters.t0: 0, TIME: TAU}
+    in_tau = System(TAU, loop.state, tuple(entry.subs(now) for entry in loop.rhs), name=loop.name)
+    dithers = split_dithers(split(in_tau, [states.filter], parameters.mu).reduced_model(), parameters.omega)
     return dithers, average(dithers)
 
 

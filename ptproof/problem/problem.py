@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from types import MappingProxyType
@@ -148,19 +148,10 @@ class Problem:
     @cached_property
     def values(self) -> Mapping[sp.Symbol, sp.Expr]:
         """The exact value of each parameter symbol of the symbolic closed loops."""
-        tuning, symbols = self.tuning, parameters
-        values = {
-            symbols.k: tuning.k, symbols.omega: tuning.omega, symbols.mu: tuning.mu, symbols.T: tuning.T,
-            symbols.t0: tuning.t0, symbols.p0: self.initial.theta + tuning.k * self.measured,
-        }  # fmt: skip
-        if tuning.nu_min is not None:
-            values[symbols.nu_min] = tuning.nu_min
-        if tuning.exponent is not None:
-            values[symbols.exponent] = tuning.exponent
-        if (saturation := self.saturation) is not None:
-            values |= {
-                symbols.epsilon: saturation.epsilon, symbols.level: saturation.level, symbols.gain: saturation.gain,
-            }  # fmt: skip
+        tables = [vars(table) for table in (self.tuning, self.saturation) if table is not None]
+        given = [(name, value) for table in tables for name, value in table.items() if value is not None]
+        values = {getattr(parameters, name): value for name, value in given if hasattr(parameters, name)}
+        values[parameters.p0] = self.initial.theta + self.tuning.k * self.measured
         return MappingProxyType(values)
 
     def closed_loop(
@@ -187,18 +178,14 @@ class Problem:
         InputError
             For a word that is not one of these, a field that is not planar, or a seeker whose table is missing.
         """
-        clock = self.seeker_clock(seeker)
-        system = loops.closed_loop(self.field, self.drift, self.seeker(seeker), clock, frame, coordinates)
-        return self._finished(system, symbolic, f"{seeker} seeker of {self.name} in {frame}")
+        return self._derived("", loops.closed_loop, seeker, frame, symbolic, coordinates)
 
     def reduced_model(self, seeker: str = "pt", frame: str = "t", *, symbolic: bool = False) -> System:
         """The reduced model (eq:reduced_model_tau): the closed loop with z at its quasi-steady state F(x).
 
         Arguments and errors as for :meth:`closed_loop`; states (x₁, x₂), parameter p₀ included.
         """
-        clock = self.seeker_clock(seeker)
-        system = models.reduced_model(self.field, self.drift, self.seeker(seeker), clock, frame)
-        return self._finished(system, symbolic, f"reduced model of the {seeker} seeker of {self.name} in {frame}")
+        return self._derived("reduced model of the ", models.reduced_model, seeker, frame, symbolic)
 
     def averaged(self, seeker: str = "pt", frame: str = "t", *, symbolic: bool = False) -> System:
         """The Lie bracket average (eq:lie_bracket_system_real in τ, eq:LBA_reduced_model_t in t); states (x₁, x₂).
@@ -206,9 +193,12 @@ class Problem:
         It is derived once from an undefined field and drift, through reduction, dithers and brackets, and then the
         problem's own are put in. Arguments and errors as for :meth:`closed_loop`.
         """
-        clock = self.seeker_clock(seeker)
-        system = models.averaged_system(self.field, self.drift, self.seeker(seeker), clock, frame)
-        return self._finished(system, symbolic, f"average of the {seeker} seeker of {self.name} in {frame}")
+        return self._derived("average of the ", models.averaged_system, seeker, frame, symbolic)
 
-    def _finished(self, system: System, symbolic: bool, name: str) -> System:
+    def _derived(
+        self, what: str, derive: Callable[..., System], seeker: str, frame: str, symbolic: bool, *more: str
+    ) -> System:
+        clock = self.seeker_clock(seeker)
+        system = derive(self.field, self.drift, self.seeker(seeker), clock, frame, *more)
+        name = f"{what}{seeker} seeker of {self.name} in {frame}"
         return system if symbolic else replace(system.with_values(self.values), name=name)

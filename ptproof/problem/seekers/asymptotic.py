@@ -7,8 +7,8 @@ from collections.abc import Mapping, Sequence
 import sympy as sp
 
 from ptproof.problem.drift import Drift
-from ptproof.problem.model import TIME, parameters
-from ptproof.problem.seekers.law import Letters, feedback, letters, unicycle
+from ptproof.problem.model import TIME
+from ptproof.problem.seekers.law import TUNED, Letters, feedback, letters, unicycle
 from ptproof.problem.seekers.seeker import Seeker
 from ptproof.system import System
 
@@ -28,15 +28,12 @@ def asymptotic_seeker(
 
 def loop(field: sp.Expr, drift: Drift | Sequence[sp.Expr], gain: sp.Expr, states: Letters) -> System:
     """Its closed loop with the gain K in the letters of a problem."""
-    symbols = parameters
-    return asymptotic_seeker(
-        field, drift, k=symbols.k, omega=symbols.omega, mu=symbols.mu, time=TIME, gain=gain, states=states
-    )
+    return asymptotic_seeker(field, drift, **TUNED, time=TIME, gain=gain, states=states)
 
 
 def inputs(field: sp.Expr, gain: sp.Expr, states: Letters) -> Mapping[str, sp.Expr]:
     """Forward and angular velocity."""
-    law = feedback(field, states.filter, parameters.k, parameters.omega, parameters.mu, gain)
+    law = feedback(field, states.filter, **TUNED, gain=gain)
     return {"u1": law.forward, "u2": law.angular}
 
 

@@ -11,7 +11,10 @@ import sympy as sp
 
 from ptproof.errors import InputError
 from ptproof.problem.drift import Drift
+from ptproof.problem.model import parameters
 from ptproof.system import System
+
+TUNED = {"k": parameters.k, "omega": parameters.omega, "mu": parameters.mu}
 
 
 @dataclass(frozen=True)
@@ -50,11 +53,6 @@ def unicycle(time: sp.Symbol, drift: Drift | Sequence[sp.Expr], law: Feedback, s
     rate = tuple(drift.rate if isinstance(drift, Drift) else drift)
     if len(rate) != 2:
         raise InputError(f"{name}: a unicycle moves in the plane, but the drift has {len(rate)} entries")
-    x1, x2 = states.position
-    rhs = (
-        rate[0] + law.forward * sp.cos(states.heading),
-        rate[1] + law.forward * sp.sin(states.heading),
-        law.angular,
-        law.filter_rate,
-    )
-    return System(time, (x1, x2, states.heading, states.filter), rhs, name=name)
+    velocity = (rate[0] + law.forward * sp.cos(states.heading), rate[1] + law.forward * sp.sin(states.heading))
+    state = (*states.position, states.heading, states.filter)
+    return System(time, state, (*velocity, law.angular, law.filter_rate), name=name)

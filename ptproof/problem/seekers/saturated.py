@@ -8,7 +8,7 @@ import sympy as sp
 
 from ptproof.problem.drift import Drift, no_drift
 from ptproof.problem.model import TIME, parameters
-from ptproof.problem.seekers.law import Letters, feedback, letters, unicycle
+from ptproof.problem.seekers.law import TUNED, Letters, feedback, letters, unicycle
 from ptproof.problem.seekers.seeker import Seeker
 from ptproof.system import System
 
@@ -38,17 +38,13 @@ def saturated_seeker(
 
 def loop(field: sp.Expr, drift: Drift | Sequence[sp.Expr], gain: sp.Expr, states: Letters) -> System:
     """Its closed loop with the gain C in the letters of a problem."""
-    symbols = parameters
-    return saturated_seeker(
-        field, k=symbols.k, omega=symbols.omega, mu=symbols.mu, epsilon=symbols.epsilon, level=symbols.level,
-        gain=gain, time=TIME, drift=drift, states=states,
-    )  # fmt: skip
+    limits = {"epsilon": parameters.epsilon, "level": parameters.level}
+    return saturated_seeker(field, **TUNED, **limits, gain=gain, time=TIME, drift=drift, states=states)
 
 
 def inputs(field: sp.Expr, gain: sp.Expr, states: Letters) -> Mapping[str, sp.Expr]:
     """Forward velocity and angular acceleration."""
-    closed = loop(field, no_drift(), gain, states)
-    acceleration = closed.rhs[closed.state.index(states.angular_velocity)]
+    _, _, _, acceleration, _ = loop(field, no_drift(), gain, states).rhs
     return {"u1": gain * sp.sqrt(parameters.omega), "a": acceleration}
 
 
