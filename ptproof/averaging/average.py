@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
 
 import sympy as sp
 
-from ptproof.averaging.brackets import SparseField, Vector, dense, sparse_bracket, tidy
+from ptproof.averaging.brackets import SparseField, Vector, sparse_bracket, tidy
 from ptproof.averaging.coefficients import Coefficients, v_matrix
 from ptproof.averaging.refusal import AveragingRefused
 from ptproof.system import DitherSystem, System
@@ -78,29 +78,29 @@ def derive(system: DitherSystem) -> Derived:
     v = v_matrix(system)
     fields = [SparseField(entries, system.state) for entries in system.fields]
     brackets: dict[Pair, Vector] = {}
-    n = len(system.state)
-    sums: dict[int, list[sp.Expr]] = {}
+    sums: list[list[sp.Expr]] = [[] for _ in system.state]
     for (j, i), value in v.items():
         if value == 0 or not (fields[i - 1].entries and fields[j - 1].entries):
             continue
         bracket = sparse_bracket(fields[i - 1], fields[j - 1])
-        brackets[i, j] = dense(bracket.entries, n)
+        brackets[i, j] = tuple(bracket.entries.get(row, sp.S.Zero) for row in range(len(system.state)))
         for row, entry in bracket.entries.items():
-            sums.setdefault(row, []).append(value * entry)
-    rhs = []
-    for row, drift in enumerate(system.drift):
-        terms = sums.get(row, [])
-        rhs.append(drift + (tidy(sp.Add(*terms)) if len(terms) > 1 else sp.Add(*terms)))
-    averaged = System(system.time, system.state, tuple(rhs), name=f"average of {system.name}")
+            sums[row].append(value * entry)
+    added = (tidy(sp.Add(*terms)) if len(terms) > 1 else sp.Add(*terms) for terms in sums)
+    rhs = tuple(map(operator.add, system.drift, added))
+    averaged = System(system.time, system.state, rhs, name=f"average of {system.name}")
     return Derived(system, averaged, v, brackets)
+
+
+def parts(system: DitherSystem) -> list[tuple[str, Vector]]:
+    """The drift and the fields, with what people call them."""
+    return [("drift", system.drift), *((f"field {i}", entries) for i, entries in enumerate(system.fields, start=1))]
 
 
 def check_form(system: DitherSystem) -> None:
     """Refuse what is not of the form drift + √ω Σ field · dither with the frequency in √ω and the phase only."""
-    places: list[tuple[str, Any]] = [("drift", system.drift)]
-    places += [(f"field {i}", entries) for i, entries in enumerate(system.fields, start=1)]
-    places += [(f"dither {i}", (entry,)) for i, entry in enumerate(system.dithers, start=1)]
-    for place, entries in places:
+    dithers = [(f"dither {i}", (entry,)) for i, entry in enumerate(system.dithers, start=1)]
+    for place, entries in [*parts(system), *dithers]:
         free = set().union(*(entry.free_symbols for entry in entries))
         if system.omega in free:
             raise AveragingRefused(

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 import sympy as sp
 
-from ptproof.averaging.fast import SAMPLES, masked_functions
+from ptproof.averaging.fast import masked_functions, sample_points
 from ptproof.averaging.problem import FastStates
 from ptproof.proof.engines.reals import follows
 from ptproof.proof.signs import sign_of
@@ -70,7 +70,7 @@ def _lyapunov(fast: FastStates, steady: Sequence[sp.Expr], domain: Sequence[Rela
     rates = [rate.subs(moved, simultaneous=True) for rate in fast.rate]
     product, _ = masked_functions(sp.expand(sum(y * rate for y, rate in zip(deviation, rates, strict=True))))
     squared = sum(y**2 for y in deviation)
-    scales = [sp.S.One, *sorted(product.free_symbols & _positive(product), key=str)]
+    scales = [sp.S.One, *sorted((symbol for symbol in product.free_symbols if symbol.is_positive), key=str)]
     end = time.perf_counter() + _BUDGET
     for power in (1, 2, 3):
         for scale, rate in itertools.product(scales, _RATES):
@@ -82,25 +82,17 @@ def _lyapunov(fast: FastStates, steady: Sequence[sp.Expr], domain: Sequence[Rela
     return None
 
 
-def _positive(expression: sp.Expr) -> set[sp.Symbol]:
-    return {symbol for symbol in expression.free_symbols if symbol.is_positive}
-
-
 def _unstable(
     matrix: sp.Matrix, fast: FastStates, steady: Sequence[sp.Expr], *, affine: bool
 ) -> tuple[str, Witness] | None:
     there = dict(zip(fast.state, steady, strict=True))
     local = matrix.applyfunc(lambda entry: sp.expand(masked_functions(entry.subs(there, simultaneous=True))[0]))
-    symbols = sorted(local.free_symbols, key=lambda symbol: symbol.name)
-    samples = [[v for v in SAMPLES if not (symbol.is_positive and v <= 0)] for symbol in symbols]
-    for values in itertools.islice(itertools.product(*samples), 64):
-        point = dict(zip(symbols, values, strict=True))
+    for point in sample_points(local.free_symbols):
         numbers = local.subs(point)
         signs = {sign_of(minor) for minor in routh_column(numbers)}
-        if None in signs or signs == {1}:
+        # A vanishing real part leaves a nonlinear boundary layer open.
+        if None in signs or signs == {1} or (not affine and 0 in signs):
             continue
-        if not affine and 0 in signs:
-            continue  # a vanishing real part leaves a nonlinear boundary layer open
         names = {str(symbol): str(value) for symbol, value in point.items()}
         eigenvalues = ", ".join(str(value) for value in numbers.eigenvals()) if numbers.rows <= 2 else str(numbers)
         detail = f"the boundary layer is not asymptotically stable: its linear part has the eigenvalues {eigenvalues}"

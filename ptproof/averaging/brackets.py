@@ -51,15 +51,8 @@ class SparseField:
 def sparse_bracket(f: SparseField, g: SparseField) -> SparseField:
     """[f, g] = (∂g/∂x) f − (∂f/∂x) g, as :func:`ptproof.system.lie_bracket`, touching nonzero entries only."""
     forward, backward = g.along(f), f.along(g)
-    entries = [
-        forward.get(row, sp.S.Zero) - backward.get(row, sp.S.Zero) if row in forward or row in backward else sp.S.Zero
-        for row in range(len(f.state))
-    ]
+    entries = [forward.get(row, sp.S.Zero) - backward.get(row, sp.S.Zero) for row in range(len(f.state))]
     return SparseField([tidy(entry) if entry != 0 else entry for entry in entries], f.state)
-
-
-def dense(entries: Mapping[int, sp.Expr], count: int) -> Vector:
-    return tuple(entries.get(row, sp.S.Zero) for row in range(count))
 
 
 def tidy(expression: sp.Expr) -> sp.Expr:

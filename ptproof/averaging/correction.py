@@ -11,16 +11,14 @@ from typing import Any
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ptproof.averaging.average import derive
-from ptproof.averaging.brackets import SparseField, sparse_bracket, tidy
+from ptproof.averaging.average import derive, parts
+from ptproof.averaging.brackets import SparseField, Vector, sparse_bracket, tidy
 from ptproof.averaging.coefficients import signals, tidy_constant
 from ptproof.averaging.signal import Signal
 from ptproof.proof.engines.smoothness import smoothness
 from ptproof.proof.statement import Relation
 from ptproof.proof.verdict import Evidence, Verdict
 from ptproof.system import DitherSystem, System
-
-Vector = tuple[sp.Expr, ...]
 
 
 @dataclass(frozen=True)
@@ -84,9 +82,8 @@ class Correction:
         This is one order more than the average itself needs; where it is not proved, neither is the order 1/ω.
         """
         system = self.system
-        groups = [("drift", 2, system.drift)]
-        groups += [(f"field {i}", 3, entries) for i, entries in enumerate(system.fields, start=1)]
-        for place, order, entries in groups:
+        for place, entries in parts(system):
+            order = 2 if place == "drift" else 3
             for entry in entries:
                 assumed = dict.fromkeys(entry.atoms(AppliedUndef), sp.oo)
                 evidence = smoothness(entry, (system.time, *system.state), order, assumed, domain)

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import contextlib
 import itertools
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from ptproof.averaging.brackets import Vector
 from ptproof.averaging.problem import FastStates
 from ptproof.errors import InputError
 from ptproof.proof.algebra import NotAlgebraic
@@ -21,19 +21,13 @@ from ptproof.transforms import reduction
 
 ENGINE = "quasi-steady state"
 _SECONDS = 3.0
-SAMPLES = (sp.S.Zero, sp.S.One, sp.Rational(-3, 2), sp.Integer(3))
+_SAMPLES = (sp.S.Zero, sp.S.One, sp.Rational(-3, 2), sp.Integer(3))
 
 
-@dataclass(frozen=True)
-class QuasiSteadyState:
-    """z = l(x), or None where none is known, and what is known about its being unique."""
-
-    values: tuple[sp.Expr, ...] | None
-    unique: Evidence
-
-
-def quasi_steady_state(fast: FastStates, domain: Sequence[Relation] = ()) -> QuasiSteadyState:
+def quasi_steady_state(fast: FastStates, domain: Sequence[Relation] = ()) -> tuple[Vector | None, Evidence]:
     """Solve 0 = g(x, z) for z, or check the solution that the author gives (ass:singular_ass, F).
+
+    Returns z = l(x), None where none is known, and what is known about its being ``unique``.
 
     Affine rates are solved by linear algebra; others one after the other where each has one new fast state, by
     the linear factors of the rate; the rest is left to SymPy's solver and checked. ``unique`` is proved where
@@ -43,9 +37,8 @@ def quasi_steady_state(fast: FastStates, domain: Sequence[Relation] = ()) -> Qua
 
     def result(
         values: Sequence[sp.Expr] | None, verdict: Verdict, detail: str, witness: Witness | None = None
-    ) -> QuasiSteadyState:
-        evidence = Evidence(ENGINE, verdict, detail, witness=witness)
-        return QuasiSteadyState(None if values is None else tuple(values), evidence)
+    ) -> tuple[Vector | None, Evidence]:
+        return None if values is None else tuple(values), Evidence(ENGINE, verdict, detail, witness=witness)
 
     values = fast.quasi_steady_state
     if values is not None and not _vanishes(fast, values):
@@ -138,6 +131,13 @@ def _only_root(rate: sp.Expr, symbol: sp.Symbol, domain: Sequence[Relation]) -> 
     return roots[0].xreplace(back)
 
 
+def sample_points(symbols: set[sp.Symbol]) -> Iterator[dict[sp.Symbol, sp.Expr]]:
+    """Exact values for all the symbols at once, which respect that one is positive; not too many."""
+    ordered = sorted(symbols, key=lambda symbol: symbol.name)
+    samples = [[value for value in _SAMPLES if not (symbol.is_positive and value <= 0)] for symbol in ordered]
+    return (dict(zip(ordered, values, strict=True)) for values in itertools.islice(itertools.product(*samples), 64))
+
+
 def masked_functions(expression: sp.Expr) -> tuple[sp.Expr, dict[sp.Symbol, sp.Expr]]:
     """Undefined functions as real symbols, which they may be at any one point, and the way back."""
     found = sorted(expression.atoms(AppliedUndef), key=str)
@@ -154,11 +154,7 @@ def _count(fast: FastStates) -> tuple[str, Witness] | None:
     numerator = sp.fraction(sp.together(masked))[0]
     if not numerator.is_polynomial(symbol):
         return None
-    others = sorted(numerator.free_symbols - {symbol}, key=lambda entry: entry.name)
-    for values in itertools.islice(itertools.product(SAMPLES, repeat=len(others)), 64):
-        there = dict(zip(others, values, strict=True))
-        if any(entry.is_positive and value <= 0 for entry, value in there.items()):
-            continue
+    for there in sample_points(numerator.free_symbols - {symbol}):
         polynomial = numerator.subs(there)
         if symbol not in polynomial.free_symbols:
             continue

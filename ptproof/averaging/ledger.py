@@ -11,31 +11,20 @@ from typing import Any
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ptproof.averaging.average import check_form
+from ptproof.averaging.average import check_form, parts
 from ptproof.averaging.boundary import boundary_layer_stability
 from ptproof.averaging.bounded import bounded_in_time
+from ptproof.averaging.brackets import Vector
 from ptproof.averaging.coefficients import signals
-from ptproof.averaging.fast import QuasiSteadyState, quasi_steady_state
+from ptproof.averaging.fast import quasi_steady_state
 from ptproof.averaging.problem import DitherProblem, FastStates
 from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided
 from ptproof.errors import InputError
 from ptproof.proof.engines.smoothness import smoothness
 from ptproof.proof.signs import vanishes
-from ptproof.proof.statement import Relation
 from ptproof.proof.verdict import Evidence, Verdict, Witness
 from ptproof.reading.expressions import parse
 
-LETTERS = ("A", "B", "C", "D", "E", "F", "boundary layer")
-MEANING = {
-    "form": "the equation has the form of the theorem",
-    "A": "drift and fields are twice continuously differentiable",
-    "B": "drift, fields and their brackets are bounded in time on compact sets, with derivatives",
-    "C": "the dithers are measurable, bounded, and Lipschitz in slow time",
-    "D": "the dithers have a common period and zero mean",
-    "E": "the fast rates are locally Lipschitz",
-    "F": "the quasi-steady state is unique and twice continuously differentiable",
-    "boundary layer": "the boundary layer is uniformly asymptotically stable",
-}
 _ORDER = {Verdict.REFUTED: 0, Verdict.UNDECIDED: 1, Verdict.PROVED: 2}
 
 
@@ -44,7 +33,7 @@ class Ledger:
     """Letter of the hypothesis → evidence; and the quasi-steady state where there are fast states."""
 
     entries: Mapping[str, Evidence]
-    steady: tuple[sp.Expr, ...] | None
+    steady: Vector | None
 
     @property
     def verdict(self) -> Verdict:
@@ -55,10 +44,17 @@ class Ledger:
         """The letters with this verdict."""
         return tuple(letter for letter, entry in self.entries.items() if entry.verdict is verdict)
 
+    def details(self, verdict: Verdict) -> tuple[str, ...]:
+        """One sentence for each hypothesis with this verdict."""
+        return tuple(f"{letter}: {self.entries[letter].detail}" for letter in self.with_verdict(verdict))
+
     def to_json(self) -> dict[str, Any]:
         return {
             letter: {"verdict": str(entry.verdict), "detail": entry.detail} for letter, entry in self.entries.items()
         }
+
+
+_OF_FAST_STATES = {"E": "smoothness", "F": "quasi-steady state", "boundary layer": "boundary layer"}
 
 
 def examine(problem: DitherProblem) -> Ledger:
@@ -77,41 +73,36 @@ def examine(problem: DitherProblem) -> Ledger:
     >>> examine(DitherProblem(seeker)).with_verdict(Verdict.PROVED)
     ('form', 'A', 'B', 'C', 'D', 'E', 'F', 'boundary layer')
     """
-    steady = None if problem.fast is None else _solve(problem.fast, problem.domain)
-    entries = {
-        "form": _form(problem),
-        "A": _smooth_fields(problem),
-        "B": _bounded_fields(problem),
-        "C": _dithers(problem),
-        "D": _period_and_mean(problem),
-        "E": _lipschitz_rates(problem),
-        "F": _timed(lambda asked: _steady(asked, steady))(problem),
-        "boundary layer": _timed(lambda asked: _boundary_layer(asked, steady))(problem),
-    }
-    return Ledger(entries, None if steady is None else steady.values)
-
-
-def _solve(fast: FastStates, domain: Sequence[Relation]) -> QuasiSteadyState:
-    try:
-        return quasi_steady_state(fast, domain)
-    except Exception as error:
-        unknown = Evidence("crash", Verdict.UNDECIDED, f"{type(error).__name__}: {error}")
-        return QuasiSteadyState(None, unknown)
-
-
-def _timed(judge: Callable[[DitherProblem], Evidence]) -> Callable[[DitherProblem], Evidence]:
-    def timed(problem: DitherProblem) -> Evidence:
-        start = time.perf_counter()
+    judges = {"form": _form, "A": _smooth_fields, "B": _bounded_fields, "C": _dithers, "D": _period_and_mean}
+    entries = {letter: _judged(judge, problem) for letter, judge in judges.items()}
+    fast, steady = problem.fast, None
+    if fast is None:
+        for letter, engine in _OF_FAST_STATES.items():
+            entries[letter] = Evidence(engine, Verdict.PROVED, "there are no fast states")
+    else:
         try:
-            evidence = judge(problem)
-        except Exception as error:  # what fails decides nothing, and the other hypotheses still count
-            evidence = Evidence("crash", Verdict.UNDECIDED, f"{type(error).__name__}: {error}")
-        return replace(evidence, seconds=time.perf_counter() - start)
+            steady, unique = quasi_steady_state(fast, problem.domain)
+        except Exception as error:
+            unique = _crash(error)
+        entries["E"] = _judged(_lipschitz_rates, problem, fast)
+        entries["F"] = _judged(_steady, problem, fast, steady, unique)
+        entries["boundary layer"] = _judged(_boundary_layer, problem, fast, steady)
+    return Ledger(entries, steady)
 
-    return timed
+
+def _judged(judge: Callable[..., Evidence], *arguments: Any) -> Evidence:
+    start = time.perf_counter()
+    try:
+        evidence = judge(*arguments)
+    except Exception as error:  # what fails decides nothing, and the other hypotheses still count
+        evidence = _crash(error)
+    return replace(evidence, seconds=time.perf_counter() - start)
 
 
-@_timed
+def _crash(error: Exception) -> Evidence:
+    return Evidence("crash", Verdict.UNDECIDED, f"{type(error).__name__}: {error}")
+
+
 def _form(problem: DitherProblem) -> Evidence:
     try:
         check_form(problem.system)
@@ -134,10 +125,8 @@ def _states(problem: DitherProblem) -> tuple[sp.Symbol, ...]:
 def _places(problem: DitherProblem) -> Iterator[tuple[str, sp.Expr]]:
     """Every entry of drift and fields that is not a constant, with what people call it; each expression once."""
     seen: set[sp.Expr] = set()
-    groups = [("drift", problem.system.drift)]
-    groups += [(f"field {i}", entries) for i, entries in enumerate(problem.system.fields, start=1)]
     moving = {problem.system.time, *_states(problem)}
-    for name, entries in groups:
+    for name, entries in parts(problem.system):
         for row, entry in enumerate(entries, start=1):
             if entry.free_symbols & moving and entry not in seen:
                 seen.add(entry)
@@ -162,17 +151,16 @@ def _assumed(problem: DitherProblem) -> dict[AppliedUndef, Any]:
 
 
 def _where(problem: DitherProblem) -> str:
-    parts = []
+    ranges = []
     if problem.system.time in {s for _, entry in _places(problem) for s in entry.free_symbols}:
-        parts.append("all times" if problem.start is None else f"{problem.system.time} >= {problem.start}")
-    parts += [f"{symbol} in [{low}, {high}]" for symbol, (low, high) in problem.region.items()]
-    text = f" for {', '.join(parts)}" if parts else ""
+        ranges.append("all times" if problem.start is None else f"{problem.system.time} >= {problem.start}")
+    ranges += [f"{symbol} in [{low}, {high}]" for symbol, (low, high) in problem.region.items()]
+    text = f" for {', '.join(ranges)}" if ranges else ""
     if problem.smooth_functions:
         text += f", with {', '.join(map(str, problem.smooth_functions))} smooth as declared"
     return text
 
 
-@_timed
 def _smooth_fields(problem: DitherProblem) -> Evidence:
     variables = (problem.system.time, *_states(problem))
     found = []
@@ -198,7 +186,6 @@ def _dilation_hint(problem: DitherProblem, entry: sp.Expr, witness: Witness) -> 
     return ""
 
 
-@_timed
 def _bounded_fields(problem: DitherProblem) -> Evidence:
     system, start, domain = problem.system, problem.start, problem.domain
     found = [
@@ -211,7 +198,6 @@ def _bounded_fields(problem: DitherProblem) -> Evidence:
     return evidence
 
 
-@_timed
 def _dithers(problem: DitherProblem) -> Evidence:
     system = problem.system
     found = []
@@ -228,7 +214,6 @@ def _dithers(problem: DitherProblem) -> Evidence:
     return _worst(found, "dithers", detail)
 
 
-@_timed
 def _period_and_mean(problem: DitherProblem) -> Evidence:
     try:
         signals(problem.system)
@@ -240,11 +225,8 @@ def _period_and_mean(problem: DitherProblem) -> Evidence:
     return Evidence("exact integrals", Verdict.PROVED, detail)
 
 
-@_timed
-def _lipschitz_rates(problem: DitherProblem) -> Evidence:
-    if problem.fast is None:
-        return Evidence("smoothness", Verdict.PROVED, "there are no fast states")
-    rates = enumerate(problem.fast.rate, start=1)
+def _lipschitz_rates(problem: DitherProblem, fast: FastStates) -> Evidence:
+    rates = enumerate(fast.rate, start=1)
     found = [(f"fast rate {i}", _lipschitz(rate, _states(problem), problem)) for i, rate in rates]
     return _worst(found, "smoothness", "locally Lipschitz" + _where(problem))
 
@@ -258,14 +240,12 @@ def _lipschitz(rate: sp.Expr, variables: Sequence[sp.Symbol], problem: DitherPro
         if outer.has(node):
             places.append(sp.Dummy("kink", real=True))
             outer = outer.xreplace({node: places[-1]})
-    parts = [outer, *(argument for node in kinks for argument in node.args)]
     domain = problem.domain
-    for part in parts:
-        free = (*variables, *places)
+    for part in (outer, *(argument for node in kinks for argument in node.args)):
         if part.atoms(sp.Abs, sp.Max, sp.Min) and part is not outer:
             evidence = _lipschitz(part, variables, problem)
         else:
-            evidence = smoothness(part, free, 1, _assumed(problem), domain)
+            evidence = smoothness(part, (*variables, *places), 1, _assumed(problem), domain)
         if evidence.verdict is not Verdict.PROVED:
             # Not differentiable is not yet not Lipschitz; a jump is.
             jump = smoothness(rate, variables, 0, _assumed(problem), domain)
@@ -274,23 +254,19 @@ def _lipschitz(rate: sp.Expr, variables: Sequence[sp.Symbol], problem: DitherPro
     return Evidence("smoothness", Verdict.PROVED, "locally Lipschitz")
 
 
-def _steady(problem: DitherProblem, steady: QuasiSteadyState | None) -> Evidence:
-    if steady is None or problem.fast is None:
-        return Evidence("quasi-steady state", Verdict.PROVED, "there are no fast states")
-    if steady.values is None or steady.unique.verdict is Verdict.REFUTED:
-        return steady.unique
-    found = [("uniqueness", steady.unique)]
-    for i, value in enumerate(steady.values, start=1):
+def _steady(problem: DitherProblem, fast: FastStates, steady: Vector | None, unique: Evidence) -> Evidence:
+    if steady is None or unique.verdict is Verdict.REFUTED:
+        return unique
+    found = [("uniqueness", unique)]
+    for i, value in enumerate(steady, start=1):
         smooth = smoothness(value, problem.system.state, 2, _assumed(problem), problem.domain)
         found.append((f"l_{i} = {value}", smooth))
-    values = ", ".join(f"{z} = {value}" for z, value in zip(problem.fast.state, steady.values, strict=True))
-    detail = f"{values} is the only solution ({steady.unique.detail}) and twice continuously differentiable"
+    values = ", ".join(f"{z} = {value}" for z, value in zip(fast.state, steady, strict=True))
+    detail = f"{values} is the only solution ({unique.detail}) and twice continuously differentiable"
     return _worst(found, "quasi-steady state", detail)
 
 
-def _boundary_layer(problem: DitherProblem, steady: QuasiSteadyState | None) -> Evidence:
-    if problem.fast is None or steady is None:
-        return Evidence("boundary layer", Verdict.PROVED, "there are no fast states")
-    if steady.values is None:
+def _boundary_layer(problem: DitherProblem, fast: FastStates, steady: Vector | None) -> Evidence:
+    if steady is None:
         return Evidence("boundary layer", Verdict.UNDECIDED, "no quasi-steady state is known")
-    return boundary_layer_stability(problem.fast, steady.values, problem.domain)
+    return boundary_layer_stability(fast, steady, problem.domain)

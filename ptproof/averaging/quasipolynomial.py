@@ -6,6 +6,7 @@ trusted (SymPy's returns wrong values for some integrals over a full period).
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Any
@@ -107,15 +108,11 @@ def read(expression: sp.Expr, variable: sp.Symbol, where: str) -> QuasiPolynomia
         )
     if isinstance(expression, sp.Mul):
         constant, rest = expression.as_independent(variable, as_Add=False)
-        product = QuasiPolynomial.constant(constant)
-        for factor in sp.Mul.make_args(rest):
-            product = product * read(factor, variable, where)
-        return product
+        factors = (read(factor, variable, where) for factor in sp.Mul.make_args(rest))
+        return math.prod(factors, start=QuasiPolynomial.constant(constant))
     if isinstance(expression, sp.Pow) and expression.exp.is_Integer and 0 < expression.exp <= _HIGHEST_POWER:
-        base, product = read(expression.base, variable, where), QuasiPolynomial.constant(1)
-        for _ in range(int(expression.exp)):
-            product = product * base
-        return product
+        base = read(expression.base, variable, where)
+        return math.prod([base] * int(expression.exp), start=QuasiPolynomial.constant(1))
     if isinstance(expression, sp.sin | sp.cos):
         return _sinusoid(expression, variable, where)
     raise AveragingUndecided(

@@ -8,7 +8,7 @@ from __future__ import annotations
 import sympy as sp
 
 from ptproof.averaging.brackets import tidy
-from ptproof.averaging.quasipolynomial import exact_sign, read
+from ptproof.averaging.quasipolynomial import read
 from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided
 from ptproof.system import DitherSystem, System
 
@@ -66,7 +66,7 @@ def split_dithers(
     order = sorted(columns, key=lambda key: (key[0], key[1]))
     fields = tuple(tuple(tidy(columns[key].get(row, sp.S.Zero)) for row in range(system.dimension)) for key in order)
     dithers = tuple((sp.sin if sine else sp.cos)(rate * theta) for rate, sine in order)
-    period = _common_period([rate for rate, _ in order])
+    period = 2 * sp.pi / sp.gcd_list([rate for rate, _ in order] or [1])
     title = system.name if name is None else name
     result = DitherSystem(system.time, theta, omega, system.state, tuple(drift), fields, dithers, period, name=title)
     _check_recombined(result, system)
@@ -108,13 +108,3 @@ def _of_root(part: sp.Expr, root: sp.Symbol, power: int, rate: sp.Expr, where: s
         shown = rest.subs(root, sp.Symbol("sqrt(omega)"))
         raise AveragingRefused("form", where, f"{kind} must have {wanted}, but there is {shown}")
     return field
-
-
-def _common_period(rates: list[sp.Expr]) -> sp.Expr:
-    if not rates:
-        return 2 * sp.pi
-    common = rates[0]
-    for rate in rates[1:]:
-        common = sp.gcd(common, rate)
-    assert exact_sign(common) > 0
-    return 2 * sp.pi / common

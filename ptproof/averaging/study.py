@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import sympy as sp
@@ -54,16 +54,12 @@ class Average:
     @property
     def refusals(self) -> tuple[str, ...]:
         """Why the theorem does not cover the problem: one sentence for each refuted hypothesis."""
-        return tuple(
-            f"{letter}: {self.ledger.entries[letter].detail}" for letter in self.ledger.with_verdict(Verdict.REFUTED)
-        )
+        return self.ledger.details(Verdict.REFUTED)
 
     @property
     def caveats(self) -> tuple[str, ...]:
         """What the average rests on beyond what was shown: one sentence for each undecided hypothesis."""
-        return tuple(
-            f"{letter}: {self.ledger.entries[letter].detail}" for letter in self.ledger.with_verdict(Verdict.UNDECIDED)
-        )
+        return self.ledger.details(Verdict.UNDECIDED)
 
     @property
     def gradient(self) -> tuple[sp.Expr, AppliedUndef] | None:
@@ -89,10 +85,7 @@ class Average:
         expected = None
         if self.expected is not None:
             witness = self.expected.witness
-            expected = {
-                "verdict": str(self.expected.verdict),
-                "witness": None if witness is None else witness.to_json(),
-            }
+            expected = {"verdict": str(self.expected.verdict), "witness": witness and witness.to_json()}
         return {
             "average": None if self.system is None else [str(entry) for entry in self.system.rhs],
             "v": {f"{j},{i}": str(value) for (j, i), value in self.v.items()},
@@ -126,24 +119,22 @@ def study(problem: DitherProblem | DitherSystem) -> Average:
     """
     if isinstance(problem, DitherSystem):
         problem = DitherProblem(problem)
-    ledger = examine(problem)
+    asked, ledger = problem.expected, examine(problem)
+
+    def without(v: Coefficients, reason: str) -> Average:
+        expected = None if asked is None else Evidence("average", Verdict.UNDECIDED, reason)
+        return Average(problem, None, v, {}, ledger, expected)
+
     known = all(ledger.entries[letter].verdict is Verdict.PROVED for letter in ("form", "D"))
     solved = problem.fast is None or ledger.steady is not None
     if ledger.verdict is Verdict.REFUTED or not (known and solved):
-        v = v_matrix(problem.system) if known else {}
-        return _without(Average(problem, None, v, {}, ledger), "there is no average to compare with")
+        return without(v_matrix(problem.system) if known else {}, "there is no average to compare with")
     try:
         derived = derive(problem.reduced(ledger.steady or ()))
     except (AveragingRefused, AveragingUndecided) as error:
-        return _without(Average(problem, None, {}, {}, ledger), str(error))
-    expected = None if problem.expected is None else compare(derived.system, problem.expected)
+        return without({}, str(error))
+    expected = None if asked is None else compare(derived.system, asked)
     return Average(problem, derived.system, derived.v, derived.brackets, ledger, expected)
-
-
-def _without(average: Average, reason: str) -> Average:
-    if average.problem.expected is None:
-        return average
-    return replace(average, expected=Evidence("average", Verdict.UNDECIDED, reason))
 
 
 def compare(system: System, expected: Vector) -> Evidence:

@@ -46,13 +46,11 @@ def pieces(
 
         replacement = branch(node, sign_of, floor_of)
         assert replacement is not None  # both callbacks always answer
-        _require_value(replacement, node)
+        if replacement.has(sp.nan):
+            raise AveragingUndecided(
+                f"{node} has no value where none of its conditions holds; end it with (value, True)"
+            )
         yield from pieces(expression.xreplace({node: replacement}), variable, left, right, where)
-
-
-def _require_value(branch: sp.Expr, node: sp.Expr) -> None:
-    if branch.has(sp.nan):
-        raise AveragingUndecided(f"{node} has no value where none of its conditions holds; end it with (value, True)")
 
 
 def _between(left: sp.Expr, right: sp.Expr) -> sp.Rational:
@@ -66,19 +64,14 @@ def _between(left: sp.Expr, right: sp.Expr) -> sp.Rational:
 
 def _switching_points(node: sp.Basic, variable: sp.Symbol, start: sp.Expr, end: sp.Expr, where: str) -> list[sp.Expr]:
     """The exact points strictly inside (start, end) where ``node`` may switch, ascending, each once."""
-    counted = level(node)
+    counted, candidates = level(node), []
     if counted is not None:
         candidates = _level_crossings(counted, variable, start, end, where)
-    else:
-        candidates = [
-            root
-            for side in switching(node)
-            if variable in side.free_symbols
-            for root in zeros(side, variable, start, end, where)
-        ]
-        for side in switching(node):
-            if variable not in side.free_symbols and not side.is_number:
-                raise AveragingUndecided(f"{where}: which branch of {node} holds depends on symbols")
+    for side in () if counted is not None else switching(node):
+        if variable in side.free_symbols:
+            candidates += zeros(side, variable, start, end, where)
+        elif not side.is_number:
+            raise AveragingUndecided(f"{where}: which branch of {node} holds depends on symbols")
     inside = [root for root in candidates if exact_sign(root - start) > 0 and exact_sign(end - root) > 0]
     ordered = sorted(inside, key=functools.cmp_to_key(_order))
     distinct: list[sp.Expr] = []
