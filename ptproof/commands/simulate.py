@@ -11,7 +11,6 @@ import click
 
 from ptproof.commands import options
 from ptproof.errors import InputError
-from ptproof.problem.seekers import seekers_of
 from ptproof.simulation.engines import names
 
 if TYPE_CHECKING:
@@ -19,10 +18,17 @@ if TYPE_CHECKING:
     from ptproof.simulation import Ensemble, Trajectory
 
 
+def _seeker(context: click.Context, option: click.Parameter, name: str | None) -> str | None:
+    # The seekers are looked up when one is chosen: their laws need SymPy, which would hold up the help.
+    from ptproof.problem.seekers import seekers_of
+
+    return name and click.Choice(seekers_of("simulate")).convert(name, option, context)
+
+
 @click.command()
 @click.argument("problem", metavar="NAME|PROBLEM.toml")
 @click.option(
-    "--seeker", type=click.Choice(seekers_of("simulate")),
+    "--seeker", metavar="[pt|asymptotic|saturated|saturated-constant]", callback=_seeker,
     help="Left out: the one whose tables the problem has, such as saturated for [saturation]; pt where it has none.",
 )  # fmt: skip
 @click.option("--frame", type=click.Choice(["t", "tau"]), default="t", show_default=True, help="The time to run in.")

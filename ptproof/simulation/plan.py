@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import itertools
 import math
+from abc import ABC, abstractmethod
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
-from typing import Protocol
 
 import numpy as np
 import numpy.typing as npt
@@ -197,32 +197,28 @@ class Work:
     spans: float | None = None
 
 
-class Engine(Protocol):
-    """An integrator behind the door: one trajectory with samples, or many end states."""
+class Engine(ABC):
+    """An integrator behind the door: one trajectory with samples, or many end states.
 
-    @property
-    def block(self) -> int:
-        """How many members of an ensemble it is handed at once."""
+    ``block`` members of an ensemble are handed to it at once; ``missing`` is what would have to be installed for it.
+    """
 
-    @property
-    def missing(self) -> str:
-        """What would have to be installed for it, or nothing."""
+    block: int = 256
+    missing: str = ""
 
     def wants(self, plan: Plan, batch: Batch, work: Work) -> bool:
         """Whether this work is done better here than by the default engine: it can, and it is worth it."""
+        return False
 
+    @abstractmethod
     def trajectory(self, plan: Plan, member: Batch) -> Run:
         """One run with samples."""
 
     def finals(self, plan: Plan, batch: Batch, workers: int = 1) -> Finals:
-        """The end states of many, on up to ``workers`` threads, which don't change the numbers."""
-
-
-def one_by_one(engine: Engine, plan: Plan, batch: Batch) -> Finals:
-    """:meth:`Engine.finals` by single runs, for members that need an outcome of their own."""
-    runs = [engine.trajectory(plan, batch.member(i)) for i in range(batch.size)]
-    return Finals(
-        np.array([run.time[-1] for run in runs]),
-        np.stack([run.x[:, -1] for run in runs], axis=1),
-        tuple(run.stop.outcome for run in runs),
-    )
+        """The end states of many, on up to ``workers`` threads, which don't change the numbers; here one by one."""
+        runs = [self.trajectory(plan, batch.member(i)) for i in range(batch.size)]
+        return Finals(
+            np.array([run.time[-1] for run in runs]),
+            np.stack([run.x[:, -1] for run in runs], axis=1),
+            tuple(run.stop.outcome for run in runs),
+        )

@@ -12,7 +12,7 @@ import numpy as np
 import sympy as sp
 
 from ptproof.errors import InputError
-from ptproof.simulation.plan import Batch, Finals, Plan, Run, Samples, Work, one_by_one
+from ptproof.simulation.plan import Batch, Engine, Plan, Run, Samples
 from ptproof.simulation.settings import Budget, Limit
 from ptproof.system import System
 
@@ -34,15 +34,10 @@ class _Stopped(Exception):
 
 
 @dataclass(frozen=True)
-class SciPy:
+class SciPy(Engine):
     """``solve_ivp`` with one of its methods."""
 
     method: str
-    block: int = 256
-    missing: str = ""
-
-    def wants(self, plan: Plan, batch: Batch, work: Work) -> bool:
-        return False
 
     def trajectory(self, plan: Plan, member: Batch) -> Run:
         """One run with samples; four calls of the right-hand side count as a step."""
@@ -90,7 +85,3 @@ class SciPy:
             if solution.status != 0 or not np.all(np.isfinite(solution.y)):
                 return samples.run(plan.broken(start, samples.state, solution.message))
         return samples.run()
-
-    def finals(self, plan: Plan, batch: Batch, workers: int = 1) -> Finals:
-        """End states of many, in a loop on one thread."""
-        return one_by_one(self, plan, batch)

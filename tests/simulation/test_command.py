@@ -1,11 +1,14 @@
 """``ptproof simulate``: the JSON contract, exit status, one sentence for bad input."""
 
 import json
+import subprocess
+import sys
 from dataclasses import dataclass
 
 import pytest
 
 from ptproof.commands.cli import main
+from ptproof.problem.seekers import seekers_of
 from ptproof.simulation import simulate
 from ptproof.simulation.drawing import BLUE
 from tests.pictures import lines_shown, shown
@@ -194,3 +197,14 @@ def test_a_file_with_a_saturation_table_gets_the_saturated_seeker(call, tmp_path
     table = '[saturation]\nepsilon = "0.01"\nlevel = 4\ngain = 3\n'
     path.write_text(OTHER_PEAK.format(field="-x1**2 - x2**2") + table)
     assert "mine.toml, saturated seeker" in call(str(path)).stdout
+
+
+def test_the_help_lists_all_seekers_and_does_without_sympy():
+    code = (
+        "import sys, click\n"
+        "from ptproof.commands.simulate import simulate\n"
+        "print(simulate.get_help(click.Context(simulate)), 'sympy' in sys.modules)"
+    )
+    shown = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
+    assert f"--seeker [{'|'.join(seekers_of('simulate'))}]" in shown
+    assert shown.rstrip().endswith("False")

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from ptproof.simulation.plan import Array, Batch, Finals, Plan, Run, Samples, Work, one_by_one
+from ptproof.simulation.plan import Array, Batch, Engine, Finals, Plan, Run, Samples
 from ptproof.simulation.settings import Budget, Outcome, Stop
 from ptproof.simulation.translate import casadi_expressions
 from ptproof.system import System
@@ -64,19 +64,13 @@ class _Solver:
         try:
             result = np.array(run(x0=x, p=[*self.parameters, grid[0], grid[-1] - grid[0]])["xf"])
         except RuntimeError:
-            self.budget.steps -= run.stats()["nsteps"]
             return None
-        self.budget.steps -= run.stats()["nsteps"]
+        finally:
+            self.budget.steps -= run.stats()["nsteps"]
         return result if np.isfinite(result).all() else None
 
 
-class _CVODES:
-    block = 256
-    missing = ""
-
-    def wants(self, plan: Plan, batch: Batch, work: Work) -> bool:
-        return False
-
+class _CVODES(Engine):
     def trajectory(self, plan: Plan, member: Batch) -> Run:
         """One run with samples: as many as possible in one call, since each call starts the method afresh."""
         solve, samples = _Solver(plan, member.parameters[:, 0].tolist(), Budget(plan.settings)), Samples(member)
@@ -107,7 +101,7 @@ class _CVODES:
     def _chunk(self, plan: Plan, batch: Batch, workers: int) -> Finals:
         x = batch.initial
         if batch.size == 1 or batch.edges.shape[0] > 4 or not np.all(batch.edges[1:] > batch.edges[:-1]):
-            return one_by_one(self, plan, batch)
+            return super().finals(plan, batch)
         rtol, atol = local_tolerances(plan)
         steps = min(_FIRST_STEPS // 10, plan.settings.max_steps)
         for a, b in zip(batch.edges[:-1], batch.edges[1:], strict=True):
@@ -115,9 +109,9 @@ class _CVODES:
             try:
                 x = np.array(run(x0=x, p=np.vstack([batch.parameters, a, b - a]))["xf"])
             except RuntimeError:
-                return one_by_one(self, plan, batch)
+                return super().finals(plan, batch)
             if not plan.within(x):
-                return one_by_one(self, plan, batch)
+                return super().finals(plan, batch)
         return Finals(batch.edges[-1].copy(), x, (Outcome.REACHED,) * batch.size)
 
 

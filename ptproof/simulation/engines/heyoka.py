@@ -21,7 +21,7 @@ import numpy as np
 from sympy.core.relational import Relational
 
 from ptproof.errors import InputError
-from ptproof.simulation.plan import Array, Batch, Finals, Plan, Run, Samples, Work
+from ptproof.simulation.plan import Array, Batch, Engine, Finals, Plan, Run, Samples, Work
 from ptproof.simulation.settings import Budget, Outcome, Stop
 from ptproof.simulation.smooth import picker
 from ptproof.simulation.taylor_form import equations
@@ -141,13 +141,10 @@ def _go(solver: Any, grid: Array, most: int) -> tuple[Any, int, Array]:
     return outcome, steps, rows if outcome == hy.taylor_outcome.time_limit else rows[:, :0]
 
 
-class _Taylor:
+class _Taylor(Engine):
     # About as long as a block of another engine; its groups are the same in blocks of either size.
     block = 2048
-
-    @property
-    def missing(self) -> str:
-        return "" if importlib.util.find_spec("heyoka") else "the extra 'fast'"
+    missing = "" if importlib.util.find_spec("heyoka") else "the extra 'fast'"
 
     def wants(self, plan: Plan, batch: Batch, work: Work) -> bool:
         """Many members, or thousands of turns, of a system that it can follow with steps of some length."""
