@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, TypeAlias
+from typing import Any
 
 import sympy as sp
 from flint import arb
@@ -20,7 +20,6 @@ from ptproof.balls.tape import Tape, Undefined, compile_tape
 from ptproof.errors import InputError
 
 BITS = 128
-Function: TypeAlias = Callable[[Sequence[Any], Any], Any]
 RELATIONS = ("<", "<=", ">", ">=")
 
 
@@ -83,21 +82,24 @@ def holds_on_box(
     began = time.perf_counter()
     with precision(BITS):
         start = _Start.read(box)
-        function = _first_of(compile_tape([-expression if relation[0] == ">" else expression], start.symbols))
+        tape = compile_tape([-expression if relation[0] == ">" else expression], start.symbols)
         strict = len(relation) == 1
-        search = Search(lambda sides, _: _look(function, sides, strict), [start.sides], depth_first=True)
+        search = Search(lambda sides, _: _look(tape, sides, strict), [start.sides], depth_first=True)
         search.run(lambda: search.point is not None, deadline=began + seconds, most=max_boxes)
-        point = None if search.point is None else start.exact_point(search.point)
-    if point is not None:
-        where = ", ".join(f"{symbol} = {value}" for symbol, value in point.items())
-        value = enclosure_text(enclose(expression, point, bits=BITS))
-        return CoverResult(False, f"{expression} {relation} 0 fails at {where}", search.looks, point, value)
+    if search.point is not None:
+        return _counterexample(expression, relation, start.exact_point(search.point), search.looks)
     if search.left:
         place = _place(start.symbols, search.next or start.sides)
         detail = f"{search.looks} boxes in {time.perf_counter() - began:.1f} s, {search.left} left; resisting: {place}"
         return CoverResult(None, detail, search.looks)
     detail = f"a cover of {search.looks} boxes, each with the right sign at {BITS} bits"
     return CoverResult(True, detail, search.looks)
+
+
+def _counterexample(expression: sp.Expr, relation: str, point: Mapping[sp.Symbol, sp.Expr], boxes: int) -> CoverResult:
+    where = ", ".join(f"{symbol} = {value}" for symbol, value in point.items())
+    value = enclosure_text(enclose(expression, point, bits=BITS))
+    return CoverResult(False, f"{expression} {relation} 0 fails at {where}", boxes, point, value)
 
 
 @dataclass(frozen=True)
@@ -131,14 +133,10 @@ class _Start:
         }
 
 
-def _first_of(tape: Tape) -> Function:
-    return lambda values, arithmetic: tape.run(values, arithmetic)[0]
-
-
-def _look(function: Function, sides: Sides, strict: bool) -> Look[Sides, tuple[arb, ...]]:
-    """Whether ``function`` is certainly negative on a box (or not positive), or certainly not at one of its points."""
+def _look(tape: Tape, sides: Sides, strict: bool) -> Look[Sides, tuple[arb, ...]]:
+    """Whether ``tape`` is certainly negative on a box (or not positive), or certainly not at one of its points."""
     try:
-        bound: Bound | None = upper_bound(function, sides)
+        bound: Bound | None = upper_bound(lambda values, arithmetic: tape.run(values, arithmetic)[0], sides)
     except Undefined:
         bound = None
     if bound is not None and (bound.upper < 0 or (bound.upper <= 0 and not strict)):
@@ -146,7 +144,7 @@ def _look(function: Function, sides: Sides, strict: bool) -> Look[Sides, tuple[a
     low, high = (tuple(side[end] for side in sides) for end in (0, 1))
     for point in (bound.point if bound else low, tuple(map(middle, sides)), low, high):
         try:
-            value = function(point, BALLS)
+            value = tape.run(point, BALLS)[0]
         except Undefined:
             continue
         if value > 0 or (strict and value.is_zero()):

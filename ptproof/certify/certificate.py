@@ -20,6 +20,11 @@ from ptproof.proof.verdict import Verdict
 NAMES = ("a1", "a2", "b1", "b2")
 
 
+def distance_to(power: int) -> str:
+    """A power of the distance from the source, for people."""
+    return f"‖x − x*‖^{power}" if power > 1 else "‖x − x*‖"
+
+
 @dataclass(frozen=True)
 class Range:
     """A rigorous enclosure of a constant; an end that is not known is None.
@@ -135,7 +140,7 @@ class FieldCertificate:
         if self.verdict is Verdict.REFUTED:
             return [] if self.smaller is None else self.smaller.rows()
         power, lower = 2 * self.field.kappa, 2 * self.field.kappa - 1
-        drop, slope = f"(F(x*) − F(x)) / ‖x − x*‖^{power}", f"‖∇F(x)‖ / ‖x − x*‖^{lower}".replace("^1", "")
+        drop, slope = f"(F(x*) − F(x)) / {distance_to(power)}", f"‖∇F(x)‖ / {distance_to(lower)}"
         meanings = {"a1": f"sup {drop}", "a2": f"inf {drop}", "b1": f"inf {slope}", "b2": f"sup {slope}"}
         return [(name, meanings[name], str(getattr(self, name))) for name in NAMES]
 
@@ -163,10 +168,8 @@ class FieldCertificate:
         return "\n".join(lines + [f"  {name} = {meaning:<{width}}  ∈ {text}" for name, meaning, text in rows])
 
     def _repr_html_(self) -> str:
-        cells = "".join(
-            f"<tr><td>{html.escape(name)}</td><td>{html.escape(meaning)}</td><td>{html.escape(text)}</td></tr>"
-            for name, meaning, text in self.rows()
-        )
+        rows = ("".join(f"<td>{html.escape(text)}</td>" for text in row) for row in self.rows())
+        cells = "".join(f"<tr>{row}</tr>" for row in rows)
         return f"<p>{html.escape(self.summary)}</p><table>{cells}</table>"
 
     def _repr_latex_(self) -> str:

@@ -14,7 +14,7 @@ from flint import arb
 from ptproof.balls.ball import BALLS, ball_from, enclosure_text
 from ptproof.balls.newton import krawczyk, newton
 from ptproof.balls.tape import compile_tape
-from ptproof.certify.certificate import FieldWitness
+from ptproof.certify.certificate import FieldWitness, distance_to
 from ptproof.certify.domain import Domain
 from ptproof.certify.quotients import Quotients
 from ptproof.problem.field import Field
@@ -84,8 +84,7 @@ class CriticalPoints:
         return self._witness(values_at(self.field, x), left, float(square.upper()) ** 0.5 * (1 + 1e-12))
 
     def _witness(self, values: dict[str, str], left: str, distance: float) -> FieldWitness:
-        power = 2 * self.field.kappa - 1
-        right = f"‖∇F(x)‖ ≥ b1‖x − x*‖^{power} > 0".replace("^1 ", " ")
+        right = f"‖∇F(x)‖ ≥ b1{distance_to(2 * self.field.kappa - 1)} > 0"
         return FieldWitness("the field has a second critical point", values, left, right, distance)
 
 

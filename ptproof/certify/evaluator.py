@@ -114,7 +114,7 @@ class Evaluator:
 
     def _joint(self, box: Box) -> Bound:
         function = self.quotients.direct(box.face, box.outer, self.goal.slope)
-        return upper_bound(lambda values, arithmetic: self.sign * function(values, arithmetic), box.sides)
+        return self._with_tail(function, arb(0), box)
 
     def _separate(self, box: Box) -> Bound:
         function = self.quotients.direct(box.face, box.outer, self.goal.slope, rest=False)

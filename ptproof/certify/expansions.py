@@ -5,7 +5,10 @@ What is the same in all directions, c·‖y‖^(2κ), is split off before, since
 
 from __future__ import annotations
 
+import operator
+from collections import defaultdict
 from collections.abc import Iterator
+from functools import reduce
 
 from flint import arb
 
@@ -22,9 +25,9 @@ def by_degree(whole: Taylor, kappa: int, face: Face, slope: bool) -> tuple[arb, 
     share, polynomials = _reduced(whole, kappa, slope)
     result = []
     for polynomial in polynomials:
-        groups: dict[int, dict[Exponents, arb]] = {}
+        groups: dict[int, dict[Exponents, arb]] = defaultdict(dict)
         for degree, place, value in _on_face(polynomial, face):
-            _add(groups.setdefault(degree, {}), place, value)
+            groups[degree][place] = value
         result.append({degree: Nested(group) for degree, group in groups.items()})
     return share, result
 
@@ -42,7 +45,7 @@ def in_radius(whole: Taylor, kappa: int, face: Face, outer: bool, slope: bool) -
         for degree, place, value in _on_face(polynomial, face):
             radial = top - degree if outer else degree - top
             if radial >= 0:
-                _add(terms, (radial, *place), value)
+                terms[radial, *place] = value
             elif outer:
                 raise Undefined("the field falls off faster than the power 2κ")
             # Near the source such a term is proved to vanish, see the order of vanishing.
@@ -51,14 +54,10 @@ def in_radius(whole: Taylor, kappa: int, face: Face, outer: bool, slope: bool) -
 
 
 def _on_face(polynomial: Taylor, face: Face) -> Iterator[tuple[int, Exponents, arb]]:
-    """(degree, exponents of v, coefficient) of each term for u on the face."""
+    """(degree, exponents of v, coefficient) of each term for u on the face; no two have the same first two."""
     for key, value in polynomial.terms.items():
         place = (*key[: face.axis], *key[face.axis + 1 :])
         yield sum(key), place, value if face.sign > 0 or key[face.axis] % 2 == 0 else -value
-
-
-def _add(terms: dict[Exponents, arb], place: Exponents, value: arb) -> None:
-    terms[place] = terms[place] + value if place in terms else value
 
 
 def _reduced(whole: Taylor, kappa: int, slope: bool) -> tuple[arb, list[Taylor]]:
@@ -68,16 +67,11 @@ def _reduced(whole: Taylor, kappa: int, slope: bool) -> tuple[arb, list[Taylor]]
     """
     n = whole.dimension
     powers = [whole.terms.get(tuple(2 * kappa * (i == j) for j in range(n)), arb(0)).mid() for i in range(n)]
-    low, high = powers[0], powers[0]
-    for power in powers[1:]:
-        low, high = low.min(power), high.max(power)
+    low, high = reduce(arb.min, powers), reduce(arb.max, powers)
     share = ((low + high) / 2).mid()
     if share.is_zero() or not (low > 0 and high < ALIKE * low):
         share, rest = arb(0), whole
     else:
         square = whole.make({tuple(2 * (i == j) for j in range(n)): arb(1) for i in range(n)})
-        power = square
-        for _ in range(kappa - 1):
-            power = power * square
-        rest = whole - power * share
+        rest = whole - reduce(operator.mul, [square] * kappa) * share
     return share, [rest.derivative(i) for i in range(n)] if slope else [rest]

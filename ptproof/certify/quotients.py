@@ -9,8 +9,9 @@ polynomial in (t, v) divided by a power of ‖u‖, plus an enclosed remainder t
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Callable, Sequence
-from functools import cached_property, lru_cache
+from functools import cached_property, lru_cache, reduce
 from typing import Any
 
 import sympy as sp
@@ -117,9 +118,7 @@ class Quotients:
         total = _squares(outputs, arithmetic)
         if share.is_zero():
             return total
-        radial: Any = arb(0)
-        for u, output in zip(face.cube_point(v), outputs, strict=True):
-            radial = radial + u * output
+        radial = sum((u * output for u, output in zip(face.cube_point(v), outputs, strict=True)), arb(0))
         double = 2 * self.kappa * share
         return total + radial * _inverse(size, arithmetic) * (2 * double) + double * double
 
@@ -194,30 +193,28 @@ class Quotients:
     def _inner_tails(self, box: Box, w: Sequence[arb], slope: bool) -> list[arb]:
         order = self.order + (0 if slope else 1)
         low, high = box.sides[0]
-        start = interval(0, high) if not high.is_zero() else arb(0)
-        factor = BALLS.integer_power(interval(low, high), self.order + 1 - 2 * self.kappa)
         if high.is_zero():
             return [arb(0)] * (self.n if slope else 1)
-        return [factor * value for value in coefficient_along(self.tape(slope), start, w, order)]
+        factor = BALLS.integer_power(interval(low, high), self.order + 1 - 2 * self.kappa)
+        return [factor * value for value in coefficient_along(self.tape(slope), interval(0, high), w, order)]
 
     @cached_property
-    def _rest_tapes(self) -> tuple[Tape, Tape]:
-        slopes = [sp.diff(self.rest, y) for y in self.offsets]
-        return compile_tape([self.rest], self.offsets), compile_tape(slopes, self.offsets)
+    def _rests(self) -> tuple[list[sp.Expr], list[sp.Expr]]:
+        return [self.rest], [sp.diff(self.rest, y) for y in self.offsets]
 
     @cached_property
-    def _rest_terms(self) -> tuple[list[list[tuple[Tape, LineBound | None]]], ...]:
+    def _rest_tapes(self) -> list[Tape]:
+        return [compile_tape(outputs, self.offsets) for outputs in self._rests]
+
+    @cached_property
+    def _rest_terms(self) -> list[list[list[tuple[Tape, LineBound | None]]]]:
         """For the rest and for its derivatives: each term with a bound over the whole line, if it has one."""
-        groups = []
-        for outputs in ([self.rest], [sp.diff(self.rest, y) for y in self.offsets]):
-            sums = [sp.Add.make_args(sp.expand_mul(output)) for output in outputs]
-            groups.append(
-                [
-                    [(compile_tape([term], self.offsets), line_bound(term, self.offsets)) for term in terms]
-                    for terms in sums
-                ]
-            )
-        return tuple(groups)
+
+        def bounded(output: sp.Expr) -> list[tuple[Tape, LineBound | None]]:
+            terms = sp.Add.make_args(sp.expand_mul(output))
+            return [(compile_tape([term], self.offsets), line_bound(term, self.offsets)) for term in terms]
+
+        return [list(map(bounded, outputs)) for outputs in self._rests]
 
     def _growths(self, w: Sequence[arb], reach: arb, slope: bool) -> list[Growth]:
         """The rest, or its derivatives, far out; a term that seems to grow too fast is replaced by its bound."""
@@ -268,23 +265,16 @@ def _homogeneous_of(quotients: Quotients, face: Face, slope: bool) -> tuple[arb,
 
 
 def _sum_of_powers(part: dict[int, Nested], v: Sequence[Any], radius: Any, top: int, arithmetic: Any) -> Any:
-    total: Any = arb(0)
-    for degree, nested in part.items():
-        total = total + nested.run(v) * arithmetic.integer_power(radius, degree - top)
-    return total
+    powers = (nested.run(v) * arithmetic.integer_power(radius, degree - top) for degree, nested in part.items())
+    return sum(powers, arb(0))
 
 
 def _norm(v: Sequence[Any], arithmetic: Any) -> Any:
-    if not v:
-        return arb(1)
-    return arithmetic.root(_squares(v, arithmetic) + arb(1), 1, 2, True)
+    return arithmetic.root(_squares(v, arithmetic) + arb(1), 1, 2, True) if v else arb(1)
 
 
 def _squares(values: Sequence[Any], arithmetic: Any) -> Any:
-    first, *rest = (arithmetic.integer_power(value, 2) for value in values)
-    for value in rest:
-        first = first + value
-    return first
+    return reduce(operator.add, (arithmetic.integer_power(value, 2) for value in values))
 
 
 def _inverse(value: Any, arithmetic: Any) -> Any:

@@ -103,7 +103,8 @@ def certify_field(
             detail = f"the field cannot be enclosed: {error}"
             return FieldCertificate(field, domain, Verdict.UNDECIDED, detail=detail, rtol=rtol)
         prosecutor = Prosecutor(field, quotients, domain)
-        return _Search(field, domain, quotients, prosecutor, rtol, began, seconds, progress).run()
+        tell = progress or (lambda text: None)
+        return _Search(field, domain, quotients, prosecutor, rtol, began, seconds, tell).run()
 
 
 def _field(
@@ -139,15 +140,11 @@ class _Search:
     rtol: float
     began: float
     seconds: float
-    progress: Progress | None
+    tell: Progress
 
     @property
     def deadline(self) -> float:
         return self.began + self.seconds
-
-    def tell(self, text: str) -> None:
-        if self.progress is not None:
-            self.progress(text)
 
     def certificate(self, verdict: Verdict, **members: Any) -> FieldCertificate:
         seconds = time.perf_counter() - self.began
@@ -191,19 +188,17 @@ class _Search:
 
     def examine(self, search: Extremum, deadline: float) -> FieldWitness | None:
         """Let one search work; returns the witness if it comes upon one."""
-        found: list[FieldWitness] = []
+        found: FieldWitness | None = None
 
         def stop(place: Place, best: float) -> bool:
-            witness = self.prosecutor.at_place(place, best, search.goal.slope)
-            if witness is not None:
-                found.append(witness)
-            return witness is not None
+            nonlocal found
+            found = self.prosecutor.at_place(place, best, search.goal.slope)
+            return found is not None
 
         search.run(deadline, None if search.goal.largest else stop)
         if search.stuck is not None and not search.stuck.is_limit:
-            undefined = self.prosecutor.undefined_near(search.stuck.offset())
-            return undefined or (found[0] if found else None)
-        return found[0] if found else None
+            return self.prosecutor.undefined_near(search.stuck.offset()) or found
+        return found
 
     def conclude(self, found: dict[str, Extremum]) -> FieldCertificate:
         ranges = {name: extremum.range() for name, extremum in found.items()}

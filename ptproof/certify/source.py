@@ -29,13 +29,13 @@ def source_order(field: Field, quotients: Quotients, prosecutor: Prosecutor) -> 
     terms = quotients.expansion.terms
     for order in range(1, top + 1):
         found = {key: value for key, value in terms.items() if sum(key) == order}
-        certain = [key for key, value in found.items() if value > 0 or value < 0]
-        if order == top:
-            if certain or not all(_vanishes(quotients, key) for key in found):
-                break
-            return _too_flat(quotients, prosecutor, top)
-        if certain or not all(_vanishes(quotients, key) for key in found):
+        certain = any(value > 0 or value < 0 for value in found.values())
+        present = certain or not all(_vanishes(quotients, key) for key in found)
+        if present and order < top:
             return _too_steep(quotients, prosecutor, order)
+        if order == top and not present:
+            detail = f"the numerator vanishes to an order above {top}"
+            return prosecutor.limit(next(directions(quotients.n)), False, outward=False, limit="0", detail=detail)
     quotients.vanishing_is_proved = True
     return None
 
@@ -56,11 +56,8 @@ def _leading_form(quotients: Quotients, order: int) -> Callable[[Vector], arb]:
     terms = {key: value for key, value in quotients.expansion.terms.items() if sum(key) == order}
 
     def form(direction: Vector) -> arb:
-        total = arb(0)
-        for key, value in terms.items():
-            factor = math.prod(entry**power for entry, power in zip(direction, key, strict=True))
-            total += value * ball_from(factor)
-        return total
+        products = (value * ball_from(math.prod(map(pow, direction, key))) for key, value in terms.items())
+        return sum(products, arb(0))
 
     return form
 
@@ -86,12 +83,6 @@ def _too_steep(quotients: Quotients, prosecutor: Prosecutor, order: int) -> Fiel
                 detail += f", which is κ = {order // 2}"
             return prosecutor.limit(direction, False, outward=False, limit="∞", detail=detail)
     raise Undefined(f"the field has a term of order {order} at the source, of a sign that was not found")
-
-
-def _too_flat(quotients: Quotients, prosecutor: Prosecutor, top: int) -> FieldWitness:
-    direction = next(iter(directions(quotients.n)))
-    detail = f"the numerator vanishes to an order above {top}"
-    return prosecutor.limit(direction, False, outward=False, limit="0", detail=detail)
 
 
 def degenerate_direction(field: Field, quotients: Quotients, prosecutor: Prosecutor) -> FieldWitness | None:

@@ -16,7 +16,7 @@ from ptproof.balls.ball import ball_from, enclose, enclosure_text, fraction, sep
 from ptproof.balls.growth import Exponent, Growth, coordinates
 from ptproof.balls.growths import GROWTHS
 from ptproof.balls.tape import Undefined
-from ptproof.certify.certificate import FieldWitness
+from ptproof.certify.certificate import FieldWitness, distance_to
 from ptproof.certify.critical import CriticalPoints, length, values_at
 from ptproof.certify.domain import Domain
 from ptproof.certify.evaluator import Place
@@ -104,8 +104,7 @@ class Prosecutor:
         ``start`` is at right angles to the direction d; left out, it is 0.
         """
         power = 2 * self.field.kappa - slope
-        numerator = "‖∇F(x)‖" if slope else "(F(x*) − F(x))"
-        quotient = f"{numerator}/‖x − x*‖^{power}".replace("^1", "") if power == 1 else f"{numerator}/‖x − x*‖^{power}"
+        quotient = f"{'‖∇F(x)‖' if slope else '(F(x*) − F(x))'}/{distance_to(power)}"
         r = sp.Symbol("r", positive=True)
         begin = start if start is not None else (sp.Integer(0),) * len(direction)
         origin = "from" if not any(begin) else "beside"
