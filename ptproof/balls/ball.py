@@ -6,8 +6,8 @@ comparison that is True means anything.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Mapping, Sequence
+from contextlib import AbstractContextManager
 from functools import lru_cache, reduce
 from itertools import pairwise
 from typing import Any
@@ -32,15 +32,9 @@ __all__ = [
 ]
 
 
-@contextmanager
-def precision(bits: int) -> Iterator[None]:
+def precision(bits: int) -> AbstractContextManager[Any]:
     """Work with ``bits`` bits inside, and put python-flint's global precision back afterwards."""
-    before = flint.ctx.prec
-    flint.ctx.prec = bits
-    try:
-        yield
-    finally:
-        flint.ctx.prec = before
+    return flint.ctx.workprec(bits)
 
 
 def interval(low: Any, high: Any) -> arb:

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
 
+import flint
 import sympy as sp
 from flint import arb, arb_mat, arb_series
 
@@ -69,7 +70,7 @@ class Functions:
 
     def _panels(self, breaks: Iterable[sp.Expr]) -> Iterator[tuple[arb, list[list[arb]], list[arb]]]:
         """For consecutive panels: half the width, coefficients of each function's polynomial, and the remainders."""
-        points = sorted((enclose(point, bits=_bits()) for point in breaks), key=lambda point: float(point.mid()))
+        points = sorted((enclose(point, bits=flint.ctx.prec) for point in breaks), key=lambda point: float(point.mid()))
         cuts = [arb(0)]
         for cut in (end.mid() for point in points for end in (point - _SLIVER, point + _SLIVER)):
             if cut > cuts[-1] and cut < self.end:
@@ -113,14 +114,8 @@ class Functions:
             # Inverse functions of waves, whose arguments' balls reach beyond their domain.
             waves = {wave: sp.Dummy("wave", real=True) for wave in expression.atoms(sp.asin, sp.acos, sp.atan)}
             values = {**self.values, **dict.fromkeys(waves.values(), arb(0, 4)), self.variable: ball}
-            result.append(enclose(expression.xreplace(waves), values, bits=_bits()).abs_upper())
+            result.append(enclose(expression.xreplace(waves), values, bits=flint.ctx.prec).abs_upper())
         return result
-
-
-def _bits() -> int:
-    import flint
-
-    return int(flint.ctx.prec)
 
 
 def _unfolded(expression: sp.Expr) -> sp.Expr:

@@ -7,6 +7,7 @@ below and arithmetic are turned into SymPy objects. Nothing is evaluated as Pyth
 from __future__ import annotations
 
 import ast
+import operator
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
@@ -23,19 +24,12 @@ FUNCTIONS: Mapping[str, Callable[..., Any]] = {
 CONSTANTS: Mapping[str, sp.Expr] = {"pi": sp.pi, "E": sp.E}
 
 _ARITHMETIC: Mapping[type[ast.operator], Callable[[Any, Any], Any]] = {
-    ast.Add: lambda a, b: a + b,
-    ast.Sub: lambda a, b: a - b,
-    ast.Mult: lambda a, b: a * b,
-    ast.Div: lambda a, b: a / b,
-    ast.Pow: lambda a, b: a**b,
-    ast.Mod: sp.Mod,
-}
+    ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mul, ast.Div: operator.truediv,
+    ast.Pow: operator.pow, ast.Mod: sp.Mod,
+}  # fmt: skip
 _COMPARISONS: Mapping[type[ast.cmpop], Callable[[Any, Any], Any]] = {
-    ast.Lt: sp.Lt,
-    ast.LtE: sp.Le,
-    ast.Gt: sp.Gt,
-    ast.GtE: sp.Ge,
-}
+    ast.Lt: sp.Lt, ast.LtE: sp.Le, ast.Gt: sp.Gt, ast.GtE: sp.Ge,
+}  # fmt: skip
 _LONGEST = 10_000
 _LARGEST_EXPONENT = 10_000
 _LARGEST_DECIMAL_EXPONENT = 400
@@ -127,10 +121,8 @@ class _Reader:
                 return self.arithmetic(op, self.read(left), self.read(right))
             case ast.Compare(left=left, ops=ops, comparators=right):
                 return self.compare(self.read(left), ops, [self.read(item) for item in right])
-            case ast.BoolOp(op=ast.And(), values=values):
-                return sp.And(*(self.read(value) for value in values))
-            case ast.BoolOp(op=ast.Or(), values=values):
-                return sp.Or(*(self.read(value) for value in values))
+            case ast.BoolOp(op=op, values=values):
+                return (sp.And if isinstance(op, ast.And) else sp.Or)(*map(self.read, values))
             case ast.Call(func=ast.Name(id=name), args=args, keywords=[]):
                 return self.call(name, args)
         segment = ast.get_source_segment(self.source, node) or type(node).__name__
@@ -196,14 +188,10 @@ class _Reader:
             raise self.fail(f"wrong number of arguments for {name!r}") from None
 
     def piecewise(self, args: list[ast.expr]) -> sp.Expr:
-        pieces = []
-        for arg in args:
-            if not (isinstance(arg, ast.Tuple) and len(arg.elts) == 2):
-                raise self.fail("Piecewise takes pairs (value, condition)")
-            pieces.append((self.read(arg.elts[0]), self.read(arg.elts[1])))
-        if not pieces:
+        pairs = [arg.elts for arg in args if isinstance(arg, ast.Tuple) and len(arg.elts) == 2]
+        if not pairs or len(pairs) < len(args):
             raise self.fail("Piecewise takes pairs (value, condition)")
-        return sp.Piecewise(*pieces)
+        return sp.Piecewise(*(tuple(map(self.read, pair)) for pair in pairs))
 
     def derivative(self, values: list[Any]) -> sp.Expr:
         if len(values) < 2 or not all(isinstance(value, sp.Symbol) for value in values[1:]):
