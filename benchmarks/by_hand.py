@@ -13,7 +13,7 @@ import numpy as np
 from ptproof.problem import Problem
 from ptproof.simulation.plan import Array, Batch
 from ptproof.simulation.scipy_methods import lambdified
-from ptproof.simulation.setup import Setup, completed_parameters, from_problem
+from ptproof.simulation.setup import Setup, from_problem
 from ptproof.simulation.smooth import picker
 from ptproof.simulation.taylor_form import equations
 
@@ -25,7 +25,7 @@ def reduced(problem: Problem, angles: Array | None = None) -> tuple[Setup, Batch
     table = {name: np.full(size, value) for name, value in setup.defaults.items()}
     if angles is not None:
         table["theta"] = angles
-    return setup, Batch(setup.initial(table), completed_parameters(setup, problem, table), setup.edges(table))
+    return setup, setup.batch(setup.completed(table))
 
 
 def scipy_run(setup: Setup, member: Batch, method: str, rtol: float, samples: int = 1) -> Array:

@@ -20,16 +20,17 @@ def _vectorised(expression: sp.Expr, variables: tuple[sp.Symbol, ...]) -> Callab
     return sp.lambdify(variables, expression, modules="numpy", cse=True)
 
 
+def _spread(function: Callable[..., Any], like: Array, *arguments: Any) -> Array:
+    """The function's values in the shape of ``like``, also where it is constant; NaN or infinite where it has none."""
+    with np.errstate(all="ignore"):
+        return np.asarray(function(*arguments), dtype=float) + 0.0 * like
+
+
 @lru_cache(maxsize=64)
 def field_function(field: Field) -> Callable[[Array], Array]:
     """F for arrays of positions (n × …)."""
     function = _vectorised(field.expression, field.variables)
-
-    def evaluate(x: Array) -> Array:
-        with np.errstate(all="ignore"):
-            return np.asarray(function(*x), dtype=float) + 0.0 * x[0]
-
-    return evaluate
+    return lambda x: _spread(function, x[0], *x)
 
 
 @lru_cache(maxsize=64)
@@ -47,11 +48,7 @@ def input_function(
 
     def evaluate(t: Array, x: Array, table: Mapping[str, float]) -> dict[str, Array]:
         values = [table[symbol.name] for symbol in symbols]
-        with np.errstate(all="ignore"):
-            return {
-                name: np.asarray(function(t, *x, *values), dtype=float) + 0.0 * t
-                for name, function in functions.items()
-            }
+        return {name: _spread(function, t, t, *x, *values) for name, function in functions.items()}
 
     return evaluate
 
@@ -69,10 +66,6 @@ def time_map(expression: sp.Expr, variable: sp.Symbol) -> Callable[[Array, Mappi
     """``expression`` for arrays of ``variable``, given the parameters of a clock by name."""
     symbols = (parameters.t0, parameters.T, parameters.nu_min, parameters.exponent, parameters.gain)
     function = sp.lambdify([variable, *symbols], expression, modules=[{"select": _select}, "numpy"], cse=True)
-
-    def evaluate(times: Array, table: Mapping[str, Any]) -> Array:
-        values = [table.get(symbol.name, 1.0) for symbol in symbols]
-        with np.errstate(all="ignore"):
-            return np.asarray(function(times, *values), dtype=float) + 0.0 * times
-
-    return evaluate
+    return lambda times, table: _spread(
+        function, times, times, *(table.get(symbol.name, 1.0) for symbol in symbols)
+    )  # fmt: skip

@@ -19,7 +19,7 @@ from ptproof.simulation.ensembles import Progress, members, run_blocks
 from ptproof.simulation.plan import Array, Batch, Plan, Work
 from ptproof.simulation.question import Options, Question, asked
 from ptproof.simulation.settings import Limit, Outcome, Settings, Stop
-from ptproof.simulation.setup import Setup, completed_parameters, with_filter
+from ptproof.simulation.setup import Setup
 from ptproof.simulation.trajectory import Ensemble, Trajectory
 from ptproof.system import System
 
@@ -161,10 +161,10 @@ def _job(
     setup, problem, varied = setup or question.setup(), question.problem, varied or {}
     rows = np.repeat(np.array(list(setup.defaults.values()), dtype=float)[:, None], size, axis=1)
     table: dict[str, Array] = dict(zip(setup.defaults, rows, strict=True)) | dict(varied)
+    table = setup.completed(table)
     if problem is not None:
-        table = with_filter(problem, table)
         _check_values(setup, varied)
-    batch = Batch(setup.initial(table), completed_parameters(setup, problem, table), setup.edges(table))
+    batch = setup.batch(table)
     radians = _radians(setup, table, batch)
     plan = Plan(
         setup.system, settings, setup.position, setup.source, _escape_radius(setup, batch, settings),

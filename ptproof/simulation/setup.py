@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import Any
 
 import numpy as np
@@ -13,15 +13,15 @@ from sympy.core.relational import Relational
 
 from ptproof.errors import InputError
 from ptproof.problem import TAU, TIME, Problem, parameters
+from ptproof.problem.loops import check_word
 from ptproof.simulation.numbers import as_float, by_name
-from ptproof.simulation.plan import Array
+from ptproof.simulation.plan import Array, Batch
 from ptproof.simulation.quantities import field_function, input_function, time_map
 from ptproof.system import System
 from ptproof.transforms import CappedClock, Clock
 
-MODELS = ("closed loop", "reduced model", "average")
-# How close an unclipped gain, infinite at T, is followed towards it.
 _NU = sp.Symbol("nu", positive=True)
+# The models of a problem, and how close an unclipped gain, infinite at T, is followed towards it.
 NU_END = {"closed loop": 0.01, "reduced model": 0.01, "average": 1e-4}
 
 
@@ -35,10 +35,8 @@ class Setup:
         With symbolic parameters.
     defaults
         The value of each parameter and of each initial state that is not computed from others, by name.
-    initial
-        The initial states (n × N) from a table of values by name (N each).
     edges
-        Start, kinks and end (q × N) from the same table.
+        Start, kinks and end (q × N) from a table of values by name (N each).
     position
         Indices of the states whose distance to ``source`` counts.
     complete
@@ -47,11 +45,12 @@ class Setup:
         The conditions of the choices in ``system`` that change at the edges between start and end, and nowhere else.
     to_t, to_tau
         Maps between the run's own time and t, τ for arrays, given the parameters of one member.
+    completed
+        From a table with the defaults' names to one with those of all states and parameters.
     """
 
     system: System
     defaults: Mapping[str, float]
-    initial: Callable[[Mapping[str, Array]], Array]
     edges: Callable[[Mapping[str, Array]], Array]
     position: tuple[int, ...]
     source: tuple[float, ...]
@@ -63,6 +62,16 @@ class Setup:
     inputs_at: Callable[[Array, Array, Mapping[str, float]], dict[str, Array]] | None = None
     free: tuple[str, ...] = ()
     conditions: tuple[Relational, ...] = ()
+    completed: Callable[[Mapping[str, Array]], dict[str, Array]] = dict
+
+    def batch(self, table: Mapping[str, Array]) -> Batch:
+        """The members of a completed table (N values a name) as an engine takes them, in the system's order."""
+        size = len(next(iter(table.values())))
+        states, values = (
+            np.array([table[symbol.name] for symbol in symbols]).reshape(len(symbols), size)
+            for symbols in (self.system.state, self.system.parameters or ())
+        )
+        return Batch(states, values, self.edges(table))
 
 
 def from_system(system: System, initial: Any, span: tuple[Any, Any] | None, values: Mapping[Any, Any] | None) -> Setup:
@@ -95,13 +104,8 @@ def from_system(system: System, initial: Any, span: tuple[Any, Any] | None, valu
         raise InputError(f"span: must end after it starts, got {start:g} to {end:g}")
     defaults = {name: as_float(value, f"initial.{name}") for name, value in given.items()}
     defaults |= {name: as_float(value, f"parameters.{name}") for name, value in parameters_given.items()}
-
-    def edges(table: Mapping[str, Array]) -> Array:
-        size = len(next(iter(table.values())))
-        return np.array([np.full(size, start), np.full(size, end)])
-
     return Setup(
-        system, defaults, lambda table: np.array([table[name] for name in states]), edges,
+        system, defaults, lambda table: np.outer((start, end), np.ones(len(table[states[0]]))),
         tuple(range(system.dimension)), (0.0,) * system.dimension, free=tuple(defaults),
     )  # fmt: skip
 
@@ -110,34 +114,25 @@ def from_problem(
     problem: Problem, seeker: str, frame: str, coordinates: str, model: str, until: Any, nu_end: float | None
 ) -> Setup:
     """The setup of a problem's closed loop, reduced model or average."""
-    if model not in MODELS:
-        raise InputError(f"model: {model!r} is not one of {', '.join(MODELS)}")
+    check_word("model", model, tuple(NU_END))
     if model == "closed loop":
         system = problem.closed_loop(seeker, frame, coordinates=coordinates, symbolic=True)
     else:
         derive = problem.reduced_model if model == "reduced model" else problem.averaged
         system = derive(seeker, frame, symbolic=True)
-    states, clock = problem.states, problem.seeker_clock(seeker)
-    z = states.filter.name
-    defaults = dict(_defaults(problem))
-
-    def initial(table: Mapping[str, Array]) -> Array:
-        full = _completed(problem, table)
-        return np.array([full[symbol.name] for symbol in system.state])
-
+    states, clock, defaults = problem.states, problem.seeker_clock(seeker), dict(_defaults(problem))
     last = as_float(until, "until") if until is not None else None
     ending = _Ending(clock, frame, last, nu_end, NU_END[model])
     full = model == "closed loop" and coordinates == "full"
-    record = problem.seeker(seeker)
     return Setup(
-        system, defaults,
-        initial=initial, edges=ending, position=(0, 1), source=_source(problem),
+        system, defaults, edges=ending, position=(0, 1), source=tuple(map(float, problem.source)),
         complete=until is not None or clock.horizon is sp.oo, note=ending.note(defaults),
-        to_t=_identity if frame == "t" else time_map(clock.to_t, TAU),
-        to_tau=_identity if frame == "tau" else time_map(clock.to_tau, TIME),
+        to_t=time_map(TIME, TIME) if frame == "t" else time_map(clock.to_t, TAU),
+        to_tau=time_map(TAU, TAU) if frame == "tau" else time_map(clock.to_tau, TIME),
         field_at=field_function(problem.field),
-        inputs_at=input_function(problem.field, record, clock, states, system.state) if full else None,
-        free=(*defaults, *([] if z in defaults else [z])), conditions=clock.conditions,
+        inputs_at=input_function(problem.field, problem.seeker(seeker), clock, states, system.state) if full else None,
+        free=tuple(dict.fromkeys((*defaults, states.filter.name))), conditions=clock.conditions,
+        completed=partial(_completed, problem),
     )  # fmt: skip
 
 
@@ -153,35 +148,13 @@ def _defaults(problem: Problem) -> tuple[tuple[str, float], ...]:
     return tuple(found.items())
 
 
-@lru_cache(maxsize=64)
-def _source(problem: Problem) -> tuple[float, ...]:
-    return tuple(float(value) for value in problem.source)
-
-
-def with_filter(problem: Problem, table: Mapping[str, Array]) -> dict[str, Array]:
-    """The table with the filter's start, which is the measured field at each member's position unless it is given."""
-    z = problem.states.filter.name
-    if z in table:
-        return dict(table)
-    position = np.array([table[symbol.name] for symbol in problem.variables])
-    return dict(table) | {z: field_function(problem.field)(position)}
-
-
 def _completed(problem: Problem, table: Mapping[str, Array]) -> dict[str, Array]:
-    """The table with the filter's start and with p₀, which follows from heading and filter of each member."""
-    full = with_filter(problem, table)
-    full["p0"] = full[problem.states.heading.name] + full["k"] * full[problem.states.filter.name]
-    return full
-
-
-def completed_parameters(setup: Setup, problem: Problem | None, table: Mapping[str, Array]) -> Array:
-    """The parameter values (m × N) in the system's order; p₀ follows from heading and filter of each member."""
-    full = dict(table)
-    names = [symbol.name for symbol in setup.system.parameters or ()]
-    if "p0" in names and problem is not None:
-        full = _completed(problem, full)
-    size = len(next(iter(full.values())))
-    return np.array([full[name] for name in names]).reshape(len(names), size)
+    """The table with the filter's start, which is the measured field at each member's position unless it is given, and
+    with p₀, which follows from heading and filter."""
+    heading, z = problem.states.heading.name, problem.states.filter.name
+    position = np.array([table[symbol.name] for symbol in problem.variables])
+    measured = table[z] if z in table else field_function(problem.field)(position)
+    return {**table, z: measured, parameters.p0.name: table[heading] + table[parameters.k.name] * measured}
 
 
 @dataclass(frozen=True)
@@ -213,8 +186,7 @@ class _Ending:
         if isinstance(self.clock, CappedClock):
             edges = [start, np.minimum(np.maximum(time_map(self.clock.until, TIME)(start, table), start), end), end]
         elif isinstance(self.clock, Clock) and self.clock.horizon is not sp.oo:
-            last = time_map(self.clock.instant(_NU), _NU)(np.full_like(start, self._last_nu(table)), table)
-            edges = [start, np.minimum(end, last)]
+            edges = [start, np.minimum(end, start + horizon * (1 - self._last_nu(table)))]
         found = np.array(edges)
         return found if self.frame == "t" else time_map(self.clock.to_tau, TIME)(found, table)
 
@@ -229,7 +201,3 @@ class _Ending:
             if np.all(rate(np.full_like(table["T"], nu), table) <= self.smallest**-2 * (1 + 1e-9)):
                 return float(nu)
         return 1.0
-
-
-def _identity(times: Array, _: Mapping[str, Any]) -> Array:
-    return times
