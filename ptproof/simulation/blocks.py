@@ -71,8 +71,9 @@ def to_control(
         return np.array(function(time, x, [params[name] for name in names])).ravel()
 
     states = [symbol.name for symbol in system.state]
+    plain = "".join(letter if letter.isalnum() else "_" for letter in system.name)
     return control.NonlinearIOSystem(
-        update, None, inputs=0, outputs=states, states=states, name=_name(system.name),
+        update, None, inputs=0, outputs=states, states=states, name=plain,
         params={name: as_float(given[name], name) for name in names},
     )  # fmt: skip
 
@@ -93,9 +94,8 @@ def linearize_at_source(problem: Problem | str, seeker: str = "pt", time: Any = 
 
     problem = _problem(problem)
     system = problem.averaged(seeker, "t")
-    at = dict(zip(system.state, problem.source, strict=True)) | {
-        system.time: problem.tuning.t0 if time is None else _instant(time)
-    }
+    instant = problem.tuning.t0 if time is None else parse(time, where="time") if isinstance(time, str) else time
+    at = dict(zip(system.state, problem.source, strict=True)) | {system.time: sp.sympify(instant)}
     A = np.array(system.linearization(at).evalf(17).tolist(), dtype=float)
     n = system.dimension
     names = [symbol.name for symbol in system.state]
@@ -125,45 +125,37 @@ def block_diagram(problem: Problem | str, *, dilated_filter: bool = True) -> Any
     problem = _problem(problem)
     letters = problem.states
     values = {symbol.name: float(value) for symbol, value in problem.values.items()}
-    gain = _scalar(problem.seeker_clock().rate, problem)
-    u1, u2 = sp.symbols("u1 u2", real=True)
-    vehicle = _vehicle(problem, u1, u2)
-    x1, x2 = problem.variables
-    measure = sp.lambdify([x1, x2], problem.field.expression, modules="numpy")
     k, mu, omega = values["k"], values["mu"], values["omega"]
-    field = _static("field", lambda _, u: measure(u[0], u[1]), [x1.name, x2.name], "y")
-    minus_k = _static("minus_k", lambda _, u: -k * u[0], ["innovation"], "turn")
-    total = control.summing_junction(["turn", "omega"], "rate", name="sum")
-    forward = _static("gain_1", lambda time, u: gain(time) * u[0], ["root_omega"], "u1")
-    angular = _static("gain_2", lambda time, u: gain(time) * u[0], ["rate"], "u2")
-    constants = [
+    positions = [symbol.name for symbol in problem.variables]
+    measure = sp.lambdify(problem.variables, problem.field.expression, modules="numpy")
+    gain = sp.lambdify(TIME, problem.seeker_clock().rate.subs(dict(problem.values)), modules="math")
+    # The transfer function s/(mu s + 1) where the rate is 1, in the realisation whose state is z.
+    filter_rate = gain if dilated_filter else lambda _: 1.0
+    washout = control.NonlinearIOSystem(
+        lambda time, z, u, _: filter_rate(time) * (u[0] - z[0]) / mu, lambda _, z, u, __: (u[0] - z[0]) / mu,
+        inputs=["y"], outputs=["innovation"], states=[letters.filter.name], name="washout",
+    )  # fmt: skip
+    parts = [
+        _vehicle(problem), washout, control.summing_junction(["turn", "omega"], "rate", name="sum"),
+        _static("field", lambda _, u: measure(*u), positions, "y"),
+        _static("minus_k", lambda _, u: -k * u[0], ["innovation"], "turn"),
+        _static("gain_1", lambda time, u: gain(time) * u[0], ["root_omega"], "u1"),
+        _static("gain_2", lambda time, u: gain(time) * u[0], ["rate"], "u2"),
         _static("root_omega", lambda _, __: omega**0.5, [], "root_omega"),
         _static("omega", lambda _, __: omega, [], "omega"),
-    ]
-    if dilated_filter:
-        washout = control.NonlinearIOSystem(
-            lambda time, z, u, _: gain(time) * (u[0] - z[0]) / mu, lambda _, z, u, __: (u[0] - z[0]) / mu,
-            inputs=["y"], outputs=["innovation"], states=[letters.filter.name], name="washout",
-        )  # fmt: skip
-    else:
-        # The transfer function s/(mu s + 1), in the realisation whose state is z.
-        washout = control.ss(
-            [[-1 / mu]], [[1 / mu]], [[-1 / mu]], [[1 / mu]], inputs=["y"], outputs=["innovation"],
-            states=[letters.filter.name], name="washout",
-        )  # fmt: skip
-    parts = [vehicle, field, washout, minus_k, total, forward, angular, *constants]
+    ]  # fmt: skip
     return control.interconnect(
         parts, inputs=[], inplist=[], outputs=["y", "u1", "u2"], outlist=["field.y", "gain_1.u1", "gain_2.u2"],
         name="seeker", warn_duplicate=False, check_unused=False,
     )  # fmt: skip
 
 
-def _vehicle(problem: Problem, u1: sp.Symbol, u2: sp.Symbol) -> Any:
+def _vehicle(problem: Problem) -> Any:
     import control
 
-    letters = problem.states
+    u1, u2 = sp.symbols("u1 u2", real=True)
     # The unicycle of the seekers with its inputs left free; its filter state is not part of the vehicle.
-    open_loop = unicycle(TIME, problem.drift.rate, Feedback(u1, u2, sp.S.Zero), letters, "unicycle")
+    open_loop = unicycle(TIME, problem.drift.rate, Feedback(u1, u2, sp.S.Zero), problem.states, "unicycle")
     states = open_loop.state[:3]
     function = sp.lambdify([TIME, states, (u1, u2)], list(open_loop.rhs[:3]), modules="math")
     names = [symbol.name for symbol in states]
@@ -181,21 +173,7 @@ def _static(name: str, function: Callable[[float, Any], Any], inputs: Sequence[s
     )
 
 
-def _scalar(expression: sp.Expr, problem: Problem) -> Callable[[float], float]:
-    filled = expression.subs(dict(problem.values))
-    function = sp.lambdify(TIME, filled, modules="math")
-    return lambda time: float(function(time))
-
-
-def _name(text: str) -> str:
-    return "".join(character if character.isalnum() else "_" for character in text)
-
-
 def _problem(target: Problem | str) -> Problem:
     if not isinstance(target, Problem | str):
         raise InputError(f"expected a problem or an example's name, got {type(target).__name__}")
     return example(target) if isinstance(target, str) else target
-
-
-def _instant(time: Any) -> sp.Expr:
-    return parse(time, where="time") if isinstance(time, str) else sp.sympify(time)

@@ -12,6 +12,11 @@ from ptproof.simulation.drawing import BLUE, GREEN, GREY, ORANGE, PURPLE, RED, n
 from ptproof.simulation.quantities import field_function
 from ptproof.simulation.trajectory import Trajectory
 
+_STYLES: list[dict[str, Any]] = [
+    {"color": BLUE, "lw": 0.9}, {"color": ORANGE, "lw": 0.9}, {"color": GREEN, "lw": 1.6, "ls": "--"},
+    {"color": PURPLE, "lw": 1.6, "ls": ":"},
+]  # fmt: skip
+
 
 def draw_field(problem: Problem, ax: Any, low: Any, high: Any) -> None:
     """Level lines of the field in the rectangle from ``low`` to ``high``, and the source."""
@@ -30,7 +35,7 @@ def paths(problem: Problem, runs: Mapping[str, Trajectory], ax: Any) -> None:
     low, high = points.min(axis=1), points.max(axis=1)
     margin = 0.12 * max(float(np.max(high - low)), 1e-9)
     draw_field(problem, ax, low - margin, high + margin)
-    for (name, run), style in zip(runs.items(), _styles(), strict=False):
+    for (name, run), style in zip(runs.items(), _STYLES, strict=False):
         ax.plot(run.x[0], run.x[1], label=name, **style)
     ax.plot(*(float(value) for value in problem.initial.x), "o", color="black", ms=4, label="start", zorder=5)
     ax.set(xlabel=problem.variables[0].name, ylabel=problem.variables[1].name)
@@ -38,16 +43,9 @@ def paths(problem: Problem, runs: Mapping[str, Trajectory], ax: Any) -> None:
     ax.legend(loc="best", fontsize=7)
 
 
-def _styles() -> list[dict[str, Any]]:
-    return [
-        {"color": BLUE, "lw": 0.9}, {"color": ORANGE, "lw": 0.9}, {"color": GREEN, "lw": 1.6, "ls": "--"},
-        {"color": PURPLE, "lw": 1.6, "ls": ":"},
-    ]  # fmt: skip
-
-
 def against_time(runs: Mapping[str, Any], what: str, ax: Any, label: str) -> None:
     """One quantity of several runs against time."""
-    for (name, run), style in zip(runs.items(), _styles(), strict=False):
+    for (name, run), style in zip(runs.items(), _STYLES, strict=False):
         ax.plot(run.t, run[what], label=name, **style)
     ax.set(xlabel="t", ylabel=label)
     ax.legend(fontsize=7)

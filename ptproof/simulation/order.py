@@ -19,12 +19,13 @@ from ptproof.simulation.plan import Array
 from ptproof.simulation.run import simulate
 from ptproof.simulation.settings import Outcome, Settings
 from ptproof.simulation.trajectory import Trajectory
-from ptproof.system import DitherSystem, System
+from ptproof.system import DitherSystem, System, substitute
 
 LADDER = (100.0, 200.0, 400.0, 800.0, 1600.0)
 _SLACK = 0.1
 _SETTINGS = Settings(rtol=1e-9)
 _SAMPLES_A_TURN = 16
+_Numbers = Callable[[Any, Any, float], Array]
 
 
 @dataclass(frozen=True)
@@ -134,8 +135,20 @@ def gap_order(
         if not isinstance(system, DitherSystem) or isinstance(average, Correction):
             raise InputError("sharp: needs a dither system and a plain average of it")
         average = replace(first_correction(system), average=average)
-    span = as_float(start, "start"), as_float(end, "end")
-    pair = _pair(system, average, initial, span, omega, dict(values or {}), settings)
+    span, values = (as_float(start, "start"), as_float(end, "end")), dict(values or {})
+    symbol = omega if omega is not None else getattr(system, "omega", None) or sp.Symbol("omega", positive=True)
+    full, slow = (
+        made.with_values(values) if values else made
+        for made in (
+            system.to_system() if isinstance(system, DitherSystem) else system,
+            average.corrected_average if isinstance(average, Correction) else average,
+        )
+    )
+    names = [state.name for state in full.state]
+    if missing := [state.name for state in slow.state if state.name not in names]:
+        raise InputError(f"{slow.name}: {', '.join(missing)} is not a state of {full.name}")
+    table = by_name(initial) if isinstance(initial, Mapping) else dict(zip(names, initial, strict=False))
+    pair = _Pair(full, slow, symbol, table, span, *_correction(average, values), settings)
     gaps = [pair.gap(rung) for rung in ladder]
     if expected is None:
         expected = -1.0 if isinstance(average, Correction) else -0.5
@@ -156,25 +169,6 @@ def fit_order(omegas: Sequence[float], gaps: Sequence[float], expected: float, m
     return GapOrder(tuple(omegas), tuple(gaps), float(slope), float(intercept), spread, tail, expected, message)
 
 
-def _pair(
-    system: DitherSystem | System, average: System | Correction, initial: Any, span: tuple[float, float],
-    omega: sp.Symbol | None, values: dict[Any, Any], settings: Settings,
-) -> _Pair:  # fmt: skip
-    symbol = omega if omega is not None else getattr(system, "omega", None) or sp.Symbol("omega", positive=True)
-    full = _filled(system.to_system() if isinstance(system, DitherSystem) else system, values)
-    slow = _filled(average.corrected_average if isinstance(average, Correction) else average, values)
-    names = [state.name for state in full.state]
-    if missing := [state.name for state in slow.state if state.name not in names]:
-        raise InputError(f"{slow.name}: {', '.join(missing)} is not a state of {full.name}")
-    table = by_name(initial) if isinstance(initial, Mapping) else dict(zip(names, initial, strict=False))
-    correct = _correction(average, values) if isinstance(average, Correction) else None
-    return _Pair(full, slow, symbol, table, span, correct, settings)
-
-
-def _filled(system: System, values: Mapping[Any, Any]) -> System:
-    return system.with_values(values) if values else system
-
-
 @dataclass(frozen=True)
 class _Pair:
     """A system and its average, to be run side by side."""
@@ -184,7 +178,8 @@ class _Pair:
     omega: sp.Symbol
     initial: Mapping[str, Any]
     span: tuple[float, float]
-    correct: _Numbers | None
+    start: _Numbers
+    along: _Numbers
     settings: Settings
 
     def gap(self, rung: float) -> tuple[float, str]:
@@ -193,15 +188,12 @@ class _Pair:
         samples = min(200_000, max(400, math.ceil(_SAMPLES_A_TURN * rung * (end - begin) / (2 * math.pi))))
         fast = self._run(self.full, {name: self.initial[name] for name in names if name in self.initial}, rung, samples)
         shared = [state.name for state in self.slow.state]
-        x0 = {name: as_float(self.initial[name], f"initial.{name}") for name in shared if name in self.initial}
-        if self.correct is not None:
-            x0 = dict(zip(shared, self.correct.start([x0[name] for name in shared], begin, rung), strict=True))
-        mean = self._run(self.slow, x0, rung, samples)
+        x0 = self.start(begin, [as_float(self.initial[name], f"initial.{name}") for name in shared], rung)
+        mean = self._run(self.slow, dict(zip(shared, x0, strict=True)), rung, samples)
         if not fast.outcome is mean.outcome is Outcome.REACHED:
             return math.nan, f"at omega = {rung:g} the system ended as {fast.outcome}, the average as {mean.outcome}"
-        expectation = mean.x if self.correct is None else self.correct.along(mean.t, mean.x, rung)
         rows = [names.index(name) for name in shared]
-        return float(np.max(np.linalg.norm(fast.x[rows] - expectation, axis=0))), ""
+        return float(np.max(np.linalg.norm(fast.x[rows] - self.along(mean.t, mean.x, rung), axis=0))), ""
 
     def _run(self, system: System, initial: Mapping[str, Any], rung: float, samples: int) -> Trajectory:
         given = {self.omega.name: rung} if self.omega in (system.parameters or ()) else {}
@@ -210,26 +202,17 @@ class _Pair:
         )
 
 
-@dataclass(frozen=True)
-class _Numbers:
-    """A correction as functions of numbers."""
+def _correction(average: System | Correction, values: Mapping[Any, Any]) -> tuple[_Numbers, _Numbers]:
+    """From time, state of the average and ω: the state that it starts in, and the one that the system should be in."""
+    if not isinstance(average, Correction):
+        return (lambda _, x, __: np.asarray(x),) * 2
+    arguments = (average.system.time, average.system.state, average.system.omega)
 
-    start: Callable[[Sequence[float], float, float], list[float]]
-    along: Callable[[Array, Array, float], Array]
+    def numbers(expressions: Sequence[sp.Expr]) -> _Numbers:
+        function = sp.lambdify(arguments, list(substitute(expressions, values)), modules="numpy", cse=True)
+        return lambda t, x, omega: np.array([np.broadcast_to(row, np.shape(t)) for row in function(t, tuple(x), omega)])
 
-
-def _correction(correction: Correction, values: Mapping[Any, Any]) -> _Numbers:
-    from ptproof.system import substitute
-
-    system = correction.system
-    arguments = (system.time, system.state, system.omega)
-    start = sp.lambdify(arguments, list(substitute(correction.initial_state, values)), modules="numpy")
-    along = sp.lambdify(arguments, list(substitute(correction.expressions, values)), modules="numpy", cse=True)
-
-    def evaluate(t: Array, x: Array, omega: float) -> Array:
-        return np.array([np.broadcast_to(row, t.shape) for row in along(t, tuple(x), omega)])
-
-    return _Numbers(lambda x, t, omega: [float(value) for value in start(t, tuple(x), omega)], evaluate)
+    return numbers(average.initial_state), numbers(average.expressions)
 
 
 def hover_radius(omega: Any) -> Any:

@@ -186,14 +186,14 @@ class Work:
     ----------
     many
         Whether it is an ensemble.
-    turns
-        How often the dither turns in a run; None where there is none.
+    radians
+        How far the dither turns in a run; None where there is none.
     spans
         The length of a run in units of the filter's time constant; None where there is none.
     """
 
     many: bool
-    turns: float | None = None
+    radians: float | None = None
     spans: float | None = None
 
 

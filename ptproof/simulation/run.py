@@ -160,17 +160,16 @@ def _job(
 ) -> _Job:  # fmt: skip
     setup, problem, varied = setup or question.setup(), question.problem, varied or {}
     rows = np.repeat(np.array(list(setup.defaults.values()), dtype=float)[:, None], size, axis=1)
-    table: dict[str, Array] = dict(zip(setup.defaults, rows, strict=True)) | dict(varied)
-    table = setup.completed(table)
+    table = setup.completed(dict(zip(setup.defaults, rows, strict=True)) | dict(varied))
     if problem is not None:
         _check_values(setup, varied)
     batch = setup.batch(table)
-    radians = _radians(setup, table, batch)
+    work = _work(setup, table, batch, bool(varied))
     plan = Plan(
         setup.system, settings, setup.position, setup.source, _escape_radius(setup, batch, settings),
-        _tightening(setup, table, radians), setup.conditions,
+        _tightening(setup, table, work.radians or 0.0), setup.conditions,
     )  # fmt: skip
-    engine = settings.engine or fitting(plan, batch, _work(bool(varied), table, radians))
+    engine = settings.engine or fitting(plan, batch, work)
     about: dict[str, Any] = {
         "example": setup.system.name if problem is None else problem.name, "engine": engine, "rtol": settings.rtol,
         "atol": settings.absolute, "values": dict(setup.defaults),
@@ -201,27 +200,22 @@ def _escape_radius(setup: Setup, batch: Batch, settings: Settings) -> float:
     return 1e6 * max(1.0, math.sqrt(np.max(away)))
 
 
-def _radians(setup: Setup, table: Mapping[str, Array], batch: Batch) -> float | None:
-    """How far the dither turns in a run, for the first member, which stands for all in choices of speed."""
+def _work(setup: Setup, table: Mapping[str, Array], batch: Batch, many: bool) -> Work:
+    """What the first member costs, which stands for all in choices of speed."""
     if setup.to_tau is None:
-        return None
+        return Work(many)
     values = {name: entries[0] for name, entries in table.items()}
     first, last = setup.to_tau(batch.edges[[0, -1], 0], values)
-    return float(values["omega"] * (last - first))
+    radians = float(values["omega"] * (last - first))
+    return Work(many, radians, radians / float(values["mu"] * values["omega"]))
 
 
-def _tightening(setup: Setup, table: Mapping[str, Array], radians: float | None) -> float:
+def _tightening(setup: Setup, table: Mapping[str, Array], radians: float) -> float:
     """A hundred radians are within the tolerances' own margin; further turns of heading and dither tighten them."""
     if loop_parameters.omega not in (setup.system.parameters or ()):
         return 1.0
-    turned = (radians or 0.0) + (float(np.max(np.abs(table["theta"]))) if "theta" in table else 0.0)
+    turned = radians + (float(np.max(np.abs(table["theta"]))) if "theta" in table else 0.0)
     return 10.0 ** -max(0, math.ceil(math.log10(max(turned, 1.0) / 100)))
-
-
-def _work(many: bool, table: Mapping[str, Array], radians: float | None) -> Work:
-    if radians is None:
-        return Work(many)
-    return Work(many, radians / (2 * np.pi), float(radians / (table["mu"][0] * table["omega"][0])))
 
 
 def _never_complete(outcome: Outcome) -> Outcome:

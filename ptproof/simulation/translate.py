@@ -3,35 +3,47 @@
 from __future__ import annotations
 
 import operator
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import cache, reduce
 from typing import Any
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
+from sympy.functions.elementary.piecewise import ExprCondPair
 
 from ptproof.errors import InputError
 from ptproof.system import System
 
 _SHARED_NAMES = ("exp", "log", "sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh",
                  "asinh", "acosh", "atanh", "erf")  # fmt: skip
-_LARGEST_PRODUCT = 16
 
 
 @cache
-def _rules() -> tuple[dict[Any, Any], dict[Any, Any]]:
-    """What takes one argument, and what takes two or is folded over more."""
+def _rules() -> dict[Any, Callable[..., Any]]:
+    """By the head of an expression: what takes its translated arguments."""
     import casadi as ca
 
-    unary = {getattr(sp, name): getattr(ca, name) for name in _SHARED_NAMES}
-    unary |= {sp.Abs: ca.fabs, sp.sign: ca.sign, sp.floor: ca.floor, sp.ceiling: ca.ceil, sp.Not: ca.logic_not}
-    binary = {
+    def folded(step: Callable[[Any, Any], Any]) -> Callable[..., Any]:
+        return lambda *args: reduce(step, args)
+
+    def piecewise(*pieces: tuple[Any, Any]) -> Any:
+        # Outside all conditions the value is undefined, as in SymPy.
+        return reduce(lambda rest, piece: ca.if_else(piece[1], piece[0], rest), reversed(pieces), ca.SX(float("nan")))
+
+    many = {
         sp.Add: operator.add, sp.Mul: operator.mul, sp.Max: ca.fmax, sp.Min: ca.fmin, sp.And: ca.logic_and,
-        sp.Or: ca.logic_or, sp.atan2: ca.atan2, sp.StrictLessThan: ca.lt, sp.LessThan: ca.le,
-        sp.StrictGreaterThan: ca.gt, sp.GreaterThan: ca.ge, sp.Equality: ca.eq, sp.Unequality: ca.ne,
-        sp.Mod: lambda a, b: a - b * ca.floor(a / b),
+        sp.Or: ca.logic_or,
     }  # fmt: skip
-    return unary, binary
+    return {getattr(sp, name): getattr(ca, name) for name in _SHARED_NAMES} | {
+        head: folded(step) for head, step in many.items()
+    } | {
+        sp.Abs: ca.fabs, sp.sign: ca.sign, sp.floor: ca.floor, sp.ceiling: ca.ceil, sp.Not: ca.logic_not,
+        sp.atan2: ca.atan2, sp.StrictLessThan: ca.lt, sp.LessThan: ca.le, sp.StrictGreaterThan: ca.gt,
+        sp.GreaterThan: ca.ge, sp.Equality: ca.eq, sp.Unequality: ca.ne, sp.ITE: ca.if_else,
+        sp.Mod: lambda a, b: a - b * ca.floor(a / b),
+        # CasADi makes products of powers with whole numbers, which are right for negative bases too.
+        sp.Pow: operator.pow, ExprCondPair: lambda *pair: pair, sp.Piecewise: piecewise,
+    }  # fmt: skip
 
 
 def translate(expressions: Sequence[sp.Expr], symbols: Mapping[sp.Symbol, Any]) -> list[Any]:
@@ -72,49 +84,13 @@ def _one(node: Any, table: dict[Any, Any]) -> Any:
         raise InputError(f"{node} is an undefined function; put an expression in for it before simulating")
     if isinstance(node, sp.Expr) and node.is_number:
         return ca.SX(number(node))
-    if isinstance(node, sp.Piecewise):
-        return _piecewise(node, table)
     if isinstance(node, sp.Heaviside):
         return _one(node.rewrite(sp.Piecewise), table)
-    if isinstance(node, sp.Pow):
-        return _power(node, table)
-    args = [_one(argument, table) for argument in node.args]
-    unary, binary = _rules()
-    head = type(node)
-    if head in unary:
-        return unary[head](args[0])
-    if head in binary:
-        return reduce(binary[head], args)
-    if head is sp.ITE:
-        return ca.if_else(*args)
-    raise InputError(
-        f"CasADi can't take {node.func.__name__}; write it with elementary functions, Max, Min or Piecewise"
-    )
-
-
-def _power(node: sp.Pow, table: dict[Any, Any]) -> Any:
-    import casadi as ca
-
-    base, exponent = node.base, node.exp
-    if base is sp.E:
-        return ca.exp(_one(exponent, table))
-    value = _one(base, table)
-    if exponent.is_Integer and abs(exponent) <= _LARGEST_PRODUCT:
-        # Products instead of pow: right for negative bases, and several times faster.
-        power = reduce(operator.mul, [value] * abs(int(exponent)))
-        return power if exponent > 0 else ca.SX(1.0) / power
-    return value ** _one(exponent, table)
-
-
-def _piecewise(node: sp.Piecewise, table: dict[Any, Any]) -> Any:
-    import casadi as ca
-
-    # Outside all conditions the value is undefined, as in SymPy.
-    result: Any = ca.SX(float("nan"))
-    for value, condition in reversed([piece.args for piece in node.args]):
-        branch = _one(value, table)
-        result = branch if condition is sp.true else ca.if_else(_one(condition, table), branch, result)
-    return result
+    if (rule := _rules().get(type(node))) is None:
+        raise InputError(
+            f"CasADi can't take {node.func.__name__}; write it with elementary functions, Max, Min or Piecewise"
+        )
+    return rule(*(_one(argument, table) for argument in node.args))
 
 
 def casadi_expressions(system: System) -> tuple[Any, Any, Any, Any]:

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 import sympy as sp
 
-from ptproof.problem import Problem, parameters
+from ptproof.problem import Problem
 from ptproof.simulation import block_diagram, simulate, to_function
 from ptproof.simulation.drawing import BLUE, new_figure
 from ptproof.system import System
@@ -59,9 +59,8 @@ def compare_figure(problem: Problem, points: int = 50, seed: int = 0) -> FigureC
             worst[i] = max(worst[i], float(gap.max()))
     equations = simulate(problem, samples=2000)
     initial = [*(float(v) for v in problem.initial.x), float(problem.initial.theta), float(problem.measured)]
-    drawn = simulate(
-        drawn_loop(problem), initial=initial, span=(start, start + T), parameters=_values_of(problem), samples=2000
-    )
+    as_drawn = drawn_loop(problem).with_values(problem.values)
+    drawn = simulate(as_drawn, initial=initial, span=(start, start + T), samples=2000)
     source = np.array([float(value) for value in problem.source])
     on_grid = np.array([np.interp(equations.t, drawn.t, row) for row in drawn.x[:2]])
     return FigureComparison(
@@ -76,11 +75,6 @@ def drawn_loop(problem: Problem) -> System:
     rhs = [*loop.rhs]
     rhs[-1] = sp.cancel(rhs[-1] / problem.seeker_clock().rate)
     return System(loop.time, loop.state, tuple(rhs), name="block diagram as drawn")
-
-
-def _values_of(problem: Problem) -> dict[str, float]:
-    used = {symbol.name for symbol in drawn_loop(problem).parameters or ()}
-    return {s.name: float(v) for s, v in problem.values.items() if s.name in used and s != parameters.p0}
 
 
 def draw() -> Any:

@@ -46,6 +46,17 @@ def _run(problem: Problem, seeker: str = "pt", **options: Any) -> Trajectory:
     return simulate(problem, seeker, samples=3000, **options)
 
 
+def _paths_and_field(problem: Problem, runs: Mapping[str, Trajectory], prefix: str = "") -> dict[str, Any]:
+    made: dict[str, Any] = {}
+    made[f"{prefix}trajectories"], ax = new_figure(size=(5.0, 4.6))
+    paths(problem, runs, ax)
+    made[f"{prefix}field"], ax = new_figure()
+    against_time(runs, "field", ax, "field value")
+    ax.axhline(float(problem.peak), color=RED, lw=0.8, ls="--")
+    mark_time(ax, float(problem.tuning.t0 + problem.tuning.T))
+    return made
+
+
 def _seekers(problem: Problem, bounds: Mapping[str, tuple[Array, Array]]) -> dict[str, Any]:
     runs = {
         "PT seeker": _run(problem), "asymptotic seeker": _run(problem, "asymptotic"),
@@ -53,13 +64,7 @@ def _seekers(problem: Problem, bounds: Mapping[str, tuple[Array, Array]]) -> dic
         "asymptotic seeker, averaged": _run(problem, "asymptotic", model="average"),
     }  # fmt: skip
     ends = float(problem.tuning.t0 + problem.tuning.T)
-    made: dict[str, Any] = {}
-    made["trajectories"], ax = new_figure(size=(5.0, 4.6))
-    paths(problem, runs, ax)
-    made["field"], ax = new_figure()
-    against_time(runs, "field", ax, "field value")
-    ax.axhline(float(problem.peak), color=RED, lw=0.8, ls="--")
-    mark_time(ax, ends)
+    made = _paths_and_field(problem, runs)
     made["distance"], ax = new_figure()
     source = np.array([[float(value)] for value in problem.source])
     for (name, run), color in zip(runs.items(), (BLUE, ORANGE, GREEN), strict=False):
@@ -87,14 +92,7 @@ def _saturated(problem: Problem) -> dict[str, Any]:
         "time-varying gain": _run(problem, "saturated", until=until),
         "constant gain": _run(problem, "saturated-constant", until=until),
     }
-    ends = float(problem.tuning.t0 + problem.tuning.T)
-    made: dict[str, Any] = {}
-    made["saturated-trajectories"], ax = new_figure(size=(5.0, 4.6))
-    paths(problem, runs, ax)
-    made["saturated-field"], ax = new_figure()
-    against_time(runs, "field", ax, "field value")
-    ax.axhline(float(problem.peak), color=RED, lw=0.8, ls="--")
-    mark_time(ax, ends)
+    made = _paths_and_field(problem, runs, "saturated-")
     assert problem.saturation is not None
     made["saturated-acceleration"], axes = new_figure(2, 1, sharex=True, sharey=True)
     for ax, (name, run), color in zip(axes, runs.items(), (BLUE, ORANGE), strict=True):

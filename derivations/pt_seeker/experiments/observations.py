@@ -8,7 +8,7 @@ a criterion that is written out; none of this is a proof.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass
 from functools import lru_cache
 from typing import Any
 
@@ -52,20 +52,17 @@ class Statement:
     supported: bool
     data: Mapping[str, float]
     settings: Mapping[str, Any]
-    remark: str = field(default="")
+    remark: str = ""
 
     def to_json(self) -> dict[str, Any]:
         """The whole as data."""
-        return {
-            "id": self.id, "words": self.words, "criterion": self.criterion, "supported": self.supported,
-            "data": dict(self.data), "settings": dict(self.settings), "remark": self.remark,
-        }  # fmt: skip
+        return asdict(self)
 
 
 def reaches_source(name: str, count: int = HEADINGS) -> Statement:
     """The prescribed-time seeker is near the source, and the field near its peak, at T (fig:trajectories)."""
     problem, ends = example(name), _ensemble(name, "pt", count)
-    near, below = _near(problem), float(problem.peak) - _fields(problem, ends)
+    near, below = _near(problem), float(problem.peak) - field_function(problem.field)(ends.x[:2])
     return Statement(
         f"{name}-reaches", "the seeker reaches a small neighbourhood of the source, and the peak, in time T",
         f"the distance at T is at most two hover radii, 2/sqrt(omega) = {near:.4g}, for every heading",
@@ -212,10 +209,6 @@ def _near(problem: Problem) -> float:
 def _start(problem: Problem) -> float:
     pairs = zip(problem.initial.x, problem.source, strict=True)
     return float(np.linalg.norm([float(a - b) for a, b in pairs]))
-
-
-def _fields(problem: Problem, ends: Ensemble) -> Array:
-    return field_function(problem.field)(ends.x[:2])
 
 
 def _spread(name: str, values: Array) -> dict[str, float]:

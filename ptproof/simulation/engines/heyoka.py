@@ -1,9 +1,7 @@
 """heyoka's Taylor integrator: the fast engine, an extra, for systems whose kinks are known instants.
 
-On each smooth piece the choices in the right-hand side are made once, so
-that heyoka sees smooth expressions. What depends on the parameters alone is computed once a run: as part of the
-expressions, heyoka would carry its Taylor series, which is a number and zeros, through every product. Members run in
-SIMD batches of a fixed order; whatever a batch can't finish is run again on its own and gets its own outcome.
+On each smooth piece the choices in the right-hand side are made once, so that heyoka sees smooth expressions. Members
+run in SIMD batches of a fixed order; whatever a batch can't finish is run again on its own and gets its own outcome.
 """
 
 from __future__ import annotations
@@ -148,7 +146,7 @@ class _Taylor(Engine):
 
     def wants(self, plan: Plan, batch: Batch, work: Work) -> bool:
         """Many members, or thousands of turns, of a system that it can follow with steps of some length."""
-        turns = work.turns or 0.0
+        turns = (work.radians or 0.0) / (2 * np.pi)
         if not work.many and turns < _MANY_TURNS:
             return False
         # An explicit method can't step over more than a few μ; an implicit one takes some hundred steps a turn.
