@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
 
 import sympy as sp
@@ -125,8 +125,7 @@ class GainData:
     @cached_property
     def horizon(self) -> Horizon:
         """The clock through the prescribed time, with its cap where ν_min is known."""
-        (T,) = self.known("T")
-        return Horizon(T, self.nu_min, unit_clock(self.clock, self.exponent))
+        return replace(self.unit, T=self.known("T")[0])
 
     @property
     def unit(self) -> Horizon:
@@ -194,20 +193,20 @@ def smallest_eigenvalue(matrix: sp.ImmutableDenseMatrix) -> sp.Expr:
 def largest_singular_value(matrix: sp.ImmutableDenseMatrix) -> sp.Expr:
     """‖E‖ = √λ_max(EᵀE), exact."""
     if matrix.is_diagonal():
-        return sp.Max(*(sp.Abs(matrix[i, i]) for i in range(matrix.rows)))
+        return sp.Max(*map(sp.Abs, matrix.diagonal()))
     return sp.sqrt(_eigenvalues(sp.ImmutableDenseMatrix(matrix.T * matrix))[-1])
 
 
 def _eigenvalues(matrix: sp.ImmutableDenseMatrix) -> list[sp.Expr]:
-    n = matrix.rows
+    """Those of a symmetric matrix, in order; of a diagonal one only the smallest and the largest."""
     if matrix.is_diagonal():
-        values = [matrix[i, i] for i in range(n)]
-        return [sp.Min(*values), sp.Max(*values)]
-    if n == 2:
+        return [sp.Min(*matrix.diagonal()), sp.Max(*matrix.diagonal())]
+    if matrix.rows == 2:
         mean, gap = matrix.trace() / 2, (matrix[0, 0] - matrix[1, 1]) / 2
         root = sp.sqrt(gap**2 + matrix[0, 1] ** 2)
         return [mean - root, mean + root]
     if all(entry.is_Rational for entry in matrix):
-        letter = sp.Symbol("lambda")
-        return list(matrix.charpoly(letter).as_expr().as_poly(letter).real_roots())
-    raise InputError(f"the eigenvalues of an irrational {n} × {n} matrix are not computed; give the drift's norm")
+        return list(matrix.charpoly().real_roots())
+    raise InputError(
+        f"the eigenvalues of an irrational {matrix.rows} × {matrix.rows} matrix are not computed; give the drift's norm"
+    )

@@ -1,4 +1,4 @@
-"""One function for each key of the answer: its exact expression, or :class:`NotApplicable` with the reason."""
+"""Each key of the answer: what a table calls it, and its exact expression, or why it does not apply."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
 from types import MappingProxyType
-from typing import Any, TypeAlias
 
 import sympy as sp
 
@@ -15,35 +14,33 @@ from ptproof.gains.data import GainData
 from ptproof.gains.numbers import NotApplicable, Unlimited, sign, times_exponential
 from ptproof.gains.vanishing import Chain
 
-Formula: TypeAlias = Callable[..., sp.Expr]
-
 
 @dataclass(frozen=True)
 class Entry:
-    """A key of the answer: what a table calls it, and its expression for given data."""
+    """A key of the answer.
+
+    Attributes
+    ----------
+    label
+        What a table calls it.
+    formula
+        Its expression for given data and the values of what it ``needs``, in this order.
+    needs
+        The data without which it does not apply.
+    check
+        Raises :class:`NotApplicable` for other data to which it does not apply.
+    """
 
     label: str
-    compute: Callable[[GainData], sp.Expr]
+    formula: Callable[..., sp.Expr]
+    needs: tuple[str, ...] = ()
+    check: Callable[[GainData], None] | None = None
 
-
-TITLES: Mapping[str, str] = MappingProxyType({
-    "constants": "Constants", "asymptotic": "Asymptotic seeker", "prescribed_time": "Prescribed time",
-    "critical": "Critical start and time", "nonvanishing": "Drift that does not vanish", "clip": "Clipped gain",
-})  # fmt: skip
-_entries: dict[str, dict[str, Entry]] = {section: {} for section in TITLES}
-ENTRIES: Mapping[str, Mapping[str, Entry]] = MappingProxyType(_entries)
-"""Section to key to entry, in the order of this module."""
-
-
-def _entry(key: str, label: str, **chosen: Any) -> Callable[[Formula], Formula]:
-    """Put the function into :data:`ENTRIES` under ``section.key``; ``chosen`` are its further arguments."""
-
-    def put(formula: Formula) -> Formula:
-        section, name = key.split(".")
-        _entries[section][name] = Entry(label, partial(formula, **chosen))
-        return formula
-
-    return put
+    def compute(self, data: GainData) -> sp.Expr:
+        """The expression; raises :class:`NotApplicable` with the reason where there is none."""
+        if self.check is not None:
+            self.check(data)
+        return self.formula(data, *data.known(*self.needs))
 
 
 def _along_gradient(data: GainData) -> None:
@@ -70,46 +67,14 @@ def _known_chain(data: GainData, chain: Chain) -> None:
         data.unit.only_printed()
 
 
-@_entry("constants.c2", "c₂ = b₂/a₂^q", name="c2")
-@_entry("constants.c1", "c₁ = b₁/a₁^q", name="c1")
-@_entry("constants.sigma", "exponent σ = 2q − 1", name="sigma")
-@_entry("constants.q", "exponent q", name="q")
-def _constant(data: GainData, name: str) -> sp.Expr:
-    return getattr(data.bounds, name)
-
-
-@_entry("asymptotic.k_min_printed", "least k, as printed")
-def _k_min_printed(data: GainData) -> sp.Expr:
-    _along_gradient(data)
-    return vanishing.smallest_gain_printed(data.bounds, data.norm)
-
-
-@_entry("asymptotic.k_min", "least k that suffices")
-def _k_min(data: GainData) -> sp.Expr:
-    _along_gradient(data)
-    return vanishing.smallest_gain(data.push)
-
-
-@_entry("prescribed_time.overshoot", "overshoot factor, as printed")
 def _overshoot(data: GainData) -> sp.Expr:
-    _quadratic(data)
     _known_chain(data, "printed")
     if data.norm == 0:
         return sp.sqrt(data.bounds.a1 / data.bounds.a2)
-    (T,) = data.known("T")
-    return vanishing.overshoot(data.bounds, data.norm, T)
+    return vanishing.overshoot(data.bounds, data.norm, *data.known("T"))
 
 
-@_entry("prescribed_time.rate", "decay rate in τ")
-def _rate(data: GainData) -> sp.Expr:
-    _quadratic(data)
-    (k,) = data.known("k")
-    return vanishing.decay_rate(data.bounds, k)
-
-
-@_entry("prescribed_time.overshoot_split", "overshoot factor, sharper")
 def _overshoot_split(data: GainData) -> sp.Expr:
-    _along_gradient(data)
     bounds = data.bounds
     factor = (bounds.a1 / bounds.a2) ** (1 / (2 * bounds.kappa))
     if sign(data.push) <= 0:
@@ -124,7 +89,6 @@ def _overshoot_split(data: GainData) -> sp.Expr:
     return factor * left ** (-1 / (bounds.sigma * 2 * bounds.kappa))
 
 
-@_entry("critical.V0_at_tau_star", "V₀ that escapes at τ*")
 def _at_tau_star(data: GainData) -> sp.Expr:
     _higher(data, "printed")
     _, _, tau_star = data.known("k", "T", "tau_star")
@@ -134,8 +98,6 @@ def _at_tau_star(data: GainData) -> sp.Expr:
     return value
 
 
-@_entry("critical.V0_threshold", "safe V₀ below", chain="split")
-@_entry("critical.V0_threshold_printed", "safe V₀ below, as printed", chain="printed")
 def _V0_threshold(data: GainData, chain: Chain) -> sp.Expr:
     _higher(data, chain, threshold=True)
     value = vanishing.critical_value(data, chain)
@@ -144,15 +106,11 @@ def _V0_threshold(data: GainData, chain: Chain) -> sp.Expr:
     return value
 
 
-@_entry("critical.T_threshold", "safe T below", chain="split")
-@_entry("critical.T_threshold_printed", "safe T below, as printed", chain="printed")
 def _T_threshold(data: GainData, chain: Chain) -> sp.Expr:
     _higher(data, chain, threshold=True)
     return vanishing.critical_horizon(data, chain)
 
 
-@_entry("critical.escape_time_split", "the sharper bound escapes at τ", chain="split")
-@_entry("critical.escape_time", "the printed bound escapes at τ", chain="printed")
 def _escape(data: GainData, chain: Chain) -> sp.Expr:
     _higher(data, "printed")
     initial = data.start_value
@@ -162,85 +120,26 @@ def _escape(data: GainData, chain: Chain) -> sp.Expr:
     return data.t0 + vanishing.escape_elapsed(data, chain, initial)
 
 
-@_entry("nonvanishing.h1", "h₁")
-def _h1(data: GainData) -> sp.Expr:
-    (k,) = data.known("k")
-    return nonvanishing.damping(data.bounds, k)
-
-
-@_entry("nonvanishing.h2", "h₂")
-def _h2(data: GainData) -> sp.Expr:
-    return nonvanishing.input_factor(data.bounds)
-
-
-@_entry("nonvanishing.gamma", "γ(h₂d), as printed")
-def _gamma(data: GainData) -> sp.Expr:
-    k, d = data.known("k", "drift_bound")
-    return nonvanishing.input_gain_printed(data.bounds, k, nonvanishing.input_factor(data.bounds) * d)
-
-
-@_entry("nonvanishing.ultimate_bound", "ultimate distance")
-def _ultimate(data: GainData) -> sp.Expr:
-    k, d = data.known("k", "drift_bound")
-    return nonvanishing.ultimate_bound(data.bounds, k, d, _last_rate(data))
-
-
-@_entry("nonvanishing.ultimate_bound_printed", "ultimate distance, printed γ")
-def _ultimate_printed(data: GainData) -> sp.Expr:
-    k, d = data.known("k", "drift_bound")
-    level = nonvanishing.input_factor(data.bounds) * d / _last_rate(data)
-    return nonvanishing.input_gain_printed(data.bounds, k, level)
-
-
 def _last_rate(data: GainData) -> sp.Expr:
     return sp.S.One if data.nu_min is None else data.unit.cap
 
 
-@_entry("nonvanishing.exact_bound", "exact bound in τ, unclipped")
-def _exact_bound(data: GainData) -> sp.Expr:
-    return nonvanishing.exact_bound(data) / sp.sqrt(data.bounds.a2)
+def _ultimate_printed(data: GainData, k: sp.Expr, d: sp.Expr) -> sp.Expr:
+    level = nonvanishing.input_factor(data.bounds) * d / _last_rate(data)
+    return nonvanishing.input_gain_printed(data.bounds, k, level)
 
 
-@_entry("clip.tau_end", "τ reached at t₀ + T")
-def _tau_end(data: GainData) -> sp.Expr:
-    data.known("T", "nu_min")
-    return data.t0 + data.horizon.stretched_end
-
-
-@_entry("clip.k_effective", "gain after the clip, k·dτ/dt")
-def _k_effective(data: GainData) -> sp.Expr:
-    k, _ = data.known("k", "nu_min")
-    return k * data.unit.cap
-
-
-@_entry("clip.k_min_after_clip", "least k for convergence after the clip")
-def _k_min_after_clip(data: GainData) -> sp.Expr:
-    _along_gradient(data)
-    data.known("nu_min")
-    return vanishing.smallest_gain(data.push) / data.unit.cap
-
-
-@_entry("clip.u1_peak", "peak of u₁")
-def _u1_peak(data: GainData) -> sp.Expr:
-    omega, _ = data.known("omega", "nu_min")
-    return sp.sqrt(omega) * data.unit.cap
-
-
-@_entry("clip.u2_peak", "peak of |u₂| while r ≤ r₀")
-def _u2_peak(data: GainData) -> sp.Expr:
+def _u2_peak(data: GainData, omega: sp.Expr, _: sp.Expr, k: sp.Expr, distance: sp.Expr) -> sp.Expr:
     """(ω + kG(√ω + ‖f‖))K, G = b₂‖x₀ − x*‖^(2κ−1), K the last rate: while no farther out than at the start.
 
     With e = y − z, de/dτ = ∇F·dx/dτ − e/μ and |∇F·dx/dτ| ≤ G(√ω + ‖f‖), so |e|/μ stays below that when z starts
     at the measured field.
     """
-    omega, _, k, distance = data.known("omega", "nu_min", "k", "x0_norm")
     slope = data.bounds.b2 * distance ** (2 * data.bounds.kappa - 1)
     drift = data.norm * slope if data.drift_bound is None else data.drift_bound
     return (omega + k * slope * (sp.sqrt(omega) + drift)) * data.unit.cap
 
 
-@_entry("clip.residual_bound_printed", "distance at t₀ + T, as printed", chain="printed")
-@_entry("clip.residual_bound", "distance at t₀ + T is at most", chain="split")
 def _residual(data: GainData, chain: Chain) -> sp.Expr:
     _, T, _ = data.known("k", "T", "nu_min")
     _known_chain(data, chain)
@@ -256,12 +155,69 @@ def _residual(data: GainData, chain: Chain) -> sp.Expr:
     return value
 
 
-@_entry("clip.nu_min_for_residual", "largest ν_min for the residual")
-def _nu_min_for_residual(data: GainData) -> sp.Expr:
-    (residual,) = data.known("residual")
+def _nu_min_for_residual(data: GainData, residual: sp.Expr) -> sp.Expr:
     if data.drift_bound is not None:
         raise NotApplicable("solved in closed form only without a bounded drift")
     value = vanishing.clip_for_residual(data, "split", residual)
     if value is None:
         raise NotApplicable("no clip reaches it: V0 is not below the critical value")
     return value
+
+
+TITLES: Mapping[str, str] = MappingProxyType({
+    "constants": "Constants", "asymptotic": "Asymptotic seeker", "prescribed_time": "Prescribed time",
+    "critical": "Critical start and time", "nonvanishing": "Drift that does not vanish", "clip": "Clipped gain",
+})  # fmt: skip
+_TABLE: Mapping[str, Entry] = {
+    "constants.q": Entry("exponent q", lambda data: data.bounds.q),
+    "constants.sigma": Entry("exponent σ = 2q − 1", lambda data: data.bounds.sigma),
+    "constants.c1": Entry("c₁ = b₁/a₁^q", lambda data: data.bounds.c1),
+    "constants.c2": Entry("c₂ = b₂/a₂^q", lambda data: data.bounds.c2),
+    "asymptotic.k_min_printed": Entry(
+        "least k, as printed",
+        lambda data: vanishing.smallest_gain_printed(data.bounds, data.norm), check=_along_gradient),
+    "asymptotic.k_min": Entry(
+        "least k that suffices", lambda data: vanishing.smallest_gain(data.push), check=_along_gradient),
+    "prescribed_time.overshoot": Entry("overshoot factor, as printed", _overshoot, check=_quadratic),
+    "prescribed_time.rate": Entry(
+        "decay rate in τ", lambda data, k: vanishing.decay_rate(data.bounds, k), ("k",), _quadratic),
+    "prescribed_time.overshoot_split": Entry("overshoot factor, sharper", _overshoot_split, check=_along_gradient),
+    "critical.V0_at_tau_star": Entry("V₀ that escapes at τ*", _at_tau_star),
+    "critical.V0_threshold_printed": Entry("safe V₀ below, as printed", partial(_V0_threshold, chain="printed")),
+    "critical.V0_threshold": Entry("safe V₀ below", partial(_V0_threshold, chain="split")),
+    "critical.T_threshold_printed": Entry("safe T below, as printed", partial(_T_threshold, chain="printed")),
+    "critical.T_threshold": Entry("safe T below", partial(_T_threshold, chain="split")),
+    "critical.escape_time": Entry("the printed bound escapes at τ", partial(_escape, chain="printed")),
+    "critical.escape_time_split": Entry("the sharper bound escapes at τ", partial(_escape, chain="split")),
+    "nonvanishing.h1": Entry("h₁", lambda data, k: nonvanishing.damping(data.bounds, k), ("k",)),
+    "nonvanishing.h2": Entry("h₂", lambda data: nonvanishing.input_factor(data.bounds)),
+    "nonvanishing.gamma": Entry(
+        "γ(h₂d), as printed",
+        lambda data, k, d: nonvanishing.input_gain_printed(data.bounds, k, nonvanishing.input_factor(data.bounds) * d),
+        ("k", "drift_bound")),
+    "nonvanishing.ultimate_bound": Entry(
+        "ultimate distance",
+        lambda data, k, d: nonvanishing.ultimate_bound(data.bounds, k, d, _last_rate(data)), ("k", "drift_bound")),
+    "nonvanishing.ultimate_bound_printed": Entry(
+        "ultimate distance, printed γ", _ultimate_printed, ("k", "drift_bound")),
+    "nonvanishing.exact_bound": Entry(
+        "exact bound in τ, unclipped", lambda data: nonvanishing.exact_bound(data) / sp.sqrt(data.bounds.a2)),
+    "clip.tau_end": Entry(
+        "τ reached at t₀ + T", lambda data, *_: data.t0 + data.horizon.stretched_end, ("T", "nu_min")),
+    "clip.k_effective": Entry(
+        "gain after the clip, k·dτ/dt", lambda data, k, _: k * data.unit.cap, ("k", "nu_min")),
+    "clip.k_min_after_clip": Entry(
+        "least k for convergence after the clip",
+        lambda data, _: vanishing.smallest_gain(data.push) / data.unit.cap, ("nu_min",), _along_gradient),
+    "clip.u1_peak": Entry(
+        "peak of u₁", lambda data, omega, _: sp.sqrt(omega) * data.unit.cap, ("omega", "nu_min")),
+    "clip.u2_peak": Entry("peak of |u₂| while r ≤ r₀", _u2_peak, ("omega", "nu_min", "k", "x0_norm")),
+    "clip.residual_bound": Entry("distance at t₀ + T is at most", partial(_residual, chain="split")),
+    "clip.residual_bound_printed": Entry("distance at t₀ + T, as printed", partial(_residual, chain="printed")),
+    "clip.nu_min_for_residual": Entry("largest ν_min for the residual", _nu_min_for_residual, ("residual",)),
+}  # fmt: skip
+ENTRIES: Mapping[str, Mapping[str, Entry]] = MappingProxyType({
+    section: {key.split(".")[1]: entry for key, entry in _TABLE.items() if key.startswith(f"{section}.")}
+    for section in TITLES
+})  # fmt: skip
+"""Section to key to entry, in this order."""

@@ -37,12 +37,12 @@ def input_factor(bounds: FieldBounds) -> sp.Expr:
 def input_gain_printed(bounds: FieldBounds, k: sp.Expr, zeta: sp.Expr) -> sp.Expr:
     """γ(ζ) = (a₁/a₂²)^(1/2κ)·(ζ/h₁)^(1/r), as printed below eq:Ux_inequality3."""
     root = 1 / (2 * bounds.kappa)
-    return (bounds.a1 / bounds.a2**2) ** root * (zeta / damping(bounds, k)) ** (1 / (2 * bounds.kappa - 1))
+    return (bounds.a1 / bounds.a2**2) ** root * _rest(bounds, k, zeta)
 
 
 def input_gain(bounds: FieldBounds, k: sp.Expr, zeta: sp.Expr) -> sp.Expr:
     """a₂^(−1/2κ)·(ζ/h₁)^(1/r): what direct comparison gives, the printed γ divided by (a₁/a₂)^(1/2κ)."""
-    return bounds.a2 ** (-1 / (2 * bounds.kappa)) * (zeta / damping(bounds, k)) ** (1 / (2 * bounds.kappa - 1))
+    return bounds.a2 ** (-1 / (2 * bounds.kappa)) * _rest(bounds, k, zeta)
 
 
 def transient(bounds: FieldBounds, k: sp.Expr, distance: sp.Expr, elapsed: sp.Expr) -> sp.Expr:

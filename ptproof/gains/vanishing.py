@@ -61,9 +61,7 @@ def rates(data: GainData, chain: Chain) -> tuple[sp.Expr, sp.Expr]:
 
 def escape_elapsed(data: GainData, chain: Chain, initial: sp.Expr) -> sp.Expr:
     """The first τ − t₀ at which the bound from V₀ = ``initial`` is infinite; applies at or above the threshold."""
-    (T,), (g, h) = data.known("T"), rates(data, chain)
-    values = {_GROWTH: g, _DECAY: h, _HORIZON: T, _INITIAL: initial}
-    return _in_letters(data.bounds.sigma).escape_elapsed.subs(values, simultaneous=True)
+    return _put_in(data, chain, _in_letters(data.bounds.sigma).escape_elapsed, initial)
 
 
 def critical_value_at(data: GainData, elapsed: sp.Expr) -> sp.Expr | None:
@@ -73,15 +71,18 @@ def critical_value_at(data: GainData, elapsed: sp.Expr) -> sp.Expr | None:
 
 def critical_values(data: GainData, elapsed: sp.Expr) -> sp.Expr:
     """That V₀ as a formula in ``elapsed``, between 0 and :func:`last_critical`."""
-    (T,), (g, h) = data.known("T"), rates(data, "printed")
-    values = {_GROWTH: g, _DECAY: h, _HORIZON: T}
-    return _in_letters(data.bounds.sigma).critical_initial_at(elapsed).subs(values, simultaneous=True)
+    return _put_in(data, "printed", _in_letters(data.bounds.sigma).critical_initial_at(elapsed))
 
 
 def last_critical(data: GainData) -> sp.Expr:
     """T(g/h − 1), the τ − t₀ from which on the printed bound is infinite for no V₀."""
     (T,), (g, h) = data.known("T"), rates(data, "printed")
     return T * (g / h - 1)
+
+
+def _put_in(data: GainData, chain: Chain, formula: sp.Expr, initial: sp.Expr = _INITIAL) -> sp.Expr:
+    (T,), (g, h) = data.known("T"), rates(data, chain)
+    return formula.subs({_GROWTH: g, _DECAY: h, _HORIZON: T, _INITIAL: initial}, simultaneous=True)
 
 
 @lru_cache
@@ -136,34 +137,21 @@ def growth(data: GainData, elapsed: sp.Expr, chain: Chain) -> sp.Expr:
     return bounds.c2**2 * top + bounds.c1**2 * (horizon.balance(elapsed, data.push, k) - top)
 
 
-def largest_growth(data: GainData, elapsed: sp.Expr, chain: Chain) -> sp.Expr:
-    """The maximum of A over [0, e]; A rises up to one turning point and falls from there on."""
-    bounds, horizon, (k,) = data.bounds, data.horizon, data.known("k")
-    if chain == "printed":
-        turning = horizon.turning(bounds.c2**2 * data.norm, k * bounds.c1**2)
-    else:
-        turning = horizon.turning(data.push, k)
-    return growth(data, turning if sign(elapsed - turning) > 0 else elapsed, chain)
-
-
-def lyapunov_bound(data: GainData, elapsed: sp.Expr, chain: Chain, initial: sp.Expr) -> sp.Expr | None:
-    """The bound of V at the elapsed time from V₀ = ``initial``; None if it has escaped by then."""
-    sigma = data.bounds.sigma
-    amount = growth(data, elapsed, chain)
-    if sigma == 0:
-        return times_exponential(initial, amount)
-    if sign(1 - sigma * initial**sigma * largest_growth(data, elapsed, chain)) <= 0:
-        return None
-    return initial * (1 - sigma * initial**sigma * amount) ** (-1 / sigma)
-
-
 def distance_bound(data: GainData, elapsed: sp.Expr, chain: Chain) -> sp.Expr | None:
     """(V/a₂)^(1/2κ) with the bound of V: how far x̄ can be from the source; None if the bound has escaped."""
-    if data.bounds.sigma == 0:
-        factor = sp.sqrt(data.start_value / data.bounds.a2)
-        return times_exponential(factor, growth(data, elapsed, chain) / 2)
-    value = lyapunov_bound(data, elapsed, chain, data.start_value)
-    return None if value is None else (value / data.bounds.a2) ** (1 / (2 * data.bounds.kappa))
+    bounds, initial = data.bounds, data.start_value
+    sigma, amount = bounds.sigma, growth(data, elapsed, chain)
+    if sigma == 0:
+        return times_exponential(sp.sqrt(initial / bounds.a2), amount / 2)
+    (k,) = data.known("k")
+    printed = chain == "printed"
+    push, gain = (bounds.c2**2 * data.norm, k * bounds.c1**2) if printed else (data.push, k)
+    turning = data.horizon.turning(push, gain)  # A rises up to there, and falls from there on
+    largest = growth(data, turning, chain) if sign(elapsed - turning) > 0 else amount
+    if sign(1 - sigma * initial**sigma * largest) <= 0:
+        return None
+    value = initial * (1 - sigma * initial**sigma * amount) ** (-1 / sigma)
+    return (value / bounds.a2) ** (1 / (2 * bounds.kappa))
 
 
 def clip_for_residual(data: GainData, chain: Chain, residual: sp.Expr) -> sp.Expr | None:
