@@ -15,7 +15,9 @@ from ptproof.proof.signs import vanishes
 from ptproof.proof.statement import relations_of
 from ptproof.proof.verdict import Evidence, Verdict
 
-_CONTINUOUS = (sp.sin, sp.cos, sp.exp, sp.Add, sp.Mul, sp.Pow, sp.Symbol, sp.Number, sp.NumberSymbol, sp.atan)
+_CONTINUOUS = (
+    sp.sin, sp.cos, sp.exp, sp.log, sp.Add, sp.Mul, sp.Pow, sp.Symbol, sp.Number, sp.NumberSymbol, sp.atan
+)  # fmt: skip
 
 
 @engine
@@ -59,7 +61,7 @@ def definite(node: sp.Integral) -> sp.Expr | None:
     antiderivative = sp.integrate(sp.expand(integrand), inside)
     if antiderivative.has(sp.Integral):
         antiderivative = sp.integrate(integrand, inside)
-    if antiderivative.has(sp.Integral, sp.Piecewise) or not _continuous(antiderivative, inside):
+    if antiderivative.has(sp.Integral, sp.Piecewise) or not continuous(antiderivative, inside):
         return None
     if not vanishes(sp.diff(antiderivative, inside) - integrand):
         return None
@@ -67,7 +69,8 @@ def definite(node: sp.Integral) -> sp.Expr | None:
     return None if upper is None else upper - antiderivative.subs(inside, low)
 
 
-def _continuous(expression: sp.Expr, variable: sp.Symbol) -> bool:
+def continuous(expression: sp.Expr, variable: sp.Symbol) -> bool:
+    """Whether its structure and the symbols' signs show it: no denominator, root or logarithm of what may vanish."""
     for node in sp.preorder_traversal(expression):
         if not node.has(variable):
             continue
@@ -77,4 +80,6 @@ def _continuous(expression: sp.Expr, variable: sp.Symbol) -> bool:
             base = sp.factor(node.base)
             if not (base.is_positive or (node.exp.is_integer and (base.is_negative or base.is_nonzero))):
                 return False
+        if isinstance(node, sp.log) and not sp.factor(node.args[0]).is_positive:
+            return False
     return True

@@ -80,13 +80,8 @@ class Clock:
             if not shown():
                 raise InputError(f"{self.name}: it does not hold, or cannot be shown, that {what}")
 
-    @property
-    def nu(self) -> sp.Expr:
-        """ν = 1 − (t − t₀)/horizon, which falls from 1 to 0 (eq:nu)."""
-        return 1 - (self.t - self.start) / self.horizon
-
     def instant(self, nu: sp.Expr) -> sp.Expr:
-        """The t at which ν has the value ``nu``."""
+        """The t at which ν = 1 − (t − t₀)/horizon, which falls from 1 to 0 (eq:nu), has the value ``nu``."""
         if self.horizon is sp.oo:
             raise InputError(f"{self.name}: without an end of its interval it has no nu; name an instant in t")
         return self.start + self.horizon * (1 - nu)

@@ -6,13 +6,13 @@ from dataclasses import dataclass
 
 import sympy as sp
 
+from ptproof.proof.engines.integrals import continuous
 from ptproof.proof.engines.limits import limit_of
 from ptproof.proof.kinks import branch, is_kink, switching
 from ptproof.proof.signs import vanishes
 from ptproof.reading.limits import OutOfTime, within
 
 SECONDS = 10.0
-_SMOOTH = (sp.Add, sp.Mul, sp.Pow, sp.Symbol, sp.Number, sp.NumberSymbol, sp.exp, sp.log, sp.sin, sp.cos, sp.atan)
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,7 @@ def dilated_length(rate: sp.Expr, t: sp.Symbol, *, start: sp.Expr, horizon: sp.E
 
     One choice at a corner, as in a capped gain, is split there: a maximum or minimum of a constant and something linear
     in t or a power of ν, or two pieces. The antiderivative comes from SymPy and is checked by exact algebra; it is
-    taken only where it is smooth by its structure on the whole interval; the limit at the end is one of the limit
+    taken only where it is continuous by its structure on the whole interval; the limit at the end is one of the limit
     theorems'.
 
     >>> t = sp.Symbol("t", real=True); T = sp.Symbol("T", positive=True)
@@ -94,15 +94,20 @@ def _crossing(side: sp.Expr, nu: sp.Symbol) -> tuple[sp.Expr, sp.Expr] | None:
     return sp.simplify((-rest / factor) ** (1 / exponent)), factor * exponent
 
 
-def _improper(integrand: sp.Expr, nu: sp.Symbol, low: sp.Expr, high: sp.Expr) -> sp.Expr | None:
-    """∫ from low to high within (0, 1], the lower end approached from above."""
+def antiderivative(integrand: sp.Expr, variable: sp.Symbol) -> sp.Expr | None:
+    """What SymPy suggests within its time, if exact algebra shows that its derivative is the integrand."""
     try:
-        found = within(SECONDS, lambda: sp.integrate(sp.simplify(integrand), nu))
+        found = within(SECONDS, lambda: sp.integrate(sp.simplify(integrand), variable))
     except OutOfTime:
         return None
-    if found.has(sp.Integral, sp.Piecewise) or not vanishes(sp.diff(found, nu) - integrand):
-        return None
-    if not _smooth(found, nu):
+    checked = not found.has(sp.Integral, sp.Piecewise) and vanishes(sp.diff(found, variable) - integrand)
+    return found if checked else None
+
+
+def _improper(integrand: sp.Expr, nu: sp.Symbol, low: sp.Expr, high: sp.Expr) -> sp.Expr | None:
+    """∫ from low to high within (0, 1], the lower end approached from above."""
+    found, w = antiderivative(integrand, nu), sp.Dummy("w", nonnegative=True)
+    if found is None or not continuous(found.subs(nu, 1 / (1 + w)), w):
         return None
     turned = found.replace(sp.log, lambda u: -sp.log(1 / u))
     ends = [limit_of(form, nu, low, "+") for form in (found, turned)] if low.is_zero else [found.subs(nu, low)]
@@ -110,24 +115,3 @@ def _improper(integrand: sp.Expr, nu: sp.Symbol, low: sp.Expr, high: sp.Expr) ->
     if start is None or start is sp.oo:
         return None
     return sp.oo if start is -sp.oo else sp.factor_terms(sp.simplify(found.subs(nu, high) - start))
-
-
-def _smooth(expression: sp.Expr, nu: sp.Symbol) -> bool:
-    """Whether it is smooth on 0 < ν ≤ 1 by its structure: no denominator, root or logarithm of what may vanish."""
-    w = sp.Dummy("w", nonnegative=True)
-    for node in sp.preorder_traversal(expression):
-        if not node.has(nu):
-            continue
-        if not isinstance(node, _SMOOTH):
-            return False
-        needs_sign = (
-            node.args[0] if isinstance(node, sp.log) else
-            node.base if isinstance(node, sp.Pow) and not (node.exp.is_integer and node.exp.is_nonnegative) else None
-        )  # fmt: skip
-        if needs_sign is None or needs_sign.is_positive:
-            continue
-        local = sp.factor(sp.cancel(sp.together(needs_sign.subs(nu, 1 / (1 + w)))))
-        whole = isinstance(node, sp.Pow) and node.exp.is_integer
-        if not (local.is_positive or (whole and local.is_negative)):
-            return False
-    return True

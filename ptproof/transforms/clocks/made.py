@@ -5,13 +5,10 @@ from __future__ import annotations
 import sympy as sp
 
 from ptproof.errors import InputError
-from ptproof.proof.signs import vanishes
 from ptproof.reading.limits import OutOfTime, within
 from ptproof.transforms.clocks.algebra import is_positive
 from ptproof.transforms.clocks.clock import Clock
-from ptproof.transforms.clocks.length import dilated_length
-
-SOLVE_SECONDS = 10.0
+from ptproof.transforms.clocks.length import SECONDS, antiderivative, dilated_length
 
 
 def clock_from_formula(
@@ -96,11 +93,8 @@ def _integral_from_start(rate: sp.Expr, t: sp.Symbol, start: sp.Expr, horizon: s
     """∫ rate from the start to t, by an antiderivative in ν (or in t − t₀) that is checked."""
     elapsed, inside = _views(horizon)[-1]
     integrand = rate.subs(t, start + elapsed) * sp.diff(elapsed, inside)
-    try:
-        found = within(SOLVE_SECONDS, lambda: sp.integrate(sp.simplify(integrand), inside))
-    except OutOfTime:
-        found = sp.Integral(integrand, inside)
-    if found.has(sp.Integral, sp.Piecewise) or not vanishes(sp.diff(found, inside) - integrand):
+    found = antiderivative(integrand, inside)
+    if found is None:
         raise InputError(f"{name}: no antiderivative of {rate} was found; give the map with clock_from_formula")
     now, first = (t - start, 0) if horizon is sp.oo else (1 - (t - start) / horizon, 1)
     return sp.factor_terms(found.subs(inside, now) - found.subs(inside, first))
@@ -113,7 +107,7 @@ def _solutions(formula: sp.Expr, t: sp.Symbol, tau: sp.Symbol, start: sp.Expr, h
     for elapsed, inside in _views(horizon):
         equation = formula.subs(t, start + elapsed) - start - later
         try:
-            roots = within(SOLVE_SECONDS, lambda: sp.solve(equation, inside))  # noqa: B023
+            roots = within(SECONDS, lambda: sp.solve(equation, inside))  # noqa: B023
         except (OutOfTime, NotImplementedError, ValueError, TypeError):
             continue
         for root in roots:
