@@ -14,7 +14,6 @@ from ptproof.errors import InputError
 from ptproof.simulation.engines import names
 
 if TYPE_CHECKING:
-    from ptproof.problem import Problem
     from ptproof.simulation import Ensemble, Trajectory
 
 
@@ -64,14 +63,17 @@ def simulate(
     than at the stated source, 2 for bad input, such as a stated source that certainly is no maximum of the field.
     """
     from ptproof.commands.terminal import progress
+    from ptproof.problem import example, load
     from ptproof.problem.doubts import run_doubt, source_doubt
     from ptproof.simulation import Ensemble, Outcome, run
+    from ptproof.simulation.drawing import save
+    from ptproof.simulation.figures import overview
     from ptproof.simulation.quantities import field_function
 
-    target = _target(problem)
+    target = load(problem) if _is_file(problem) else example(problem)
     how["seeker"] = seeker or target.default_seeker
     result: Trajectory | Ensemble
-    with _naming(problem, target):
+    with _naming(problem):
         if (certain := source_doubt(target)) is not None:
             raise InputError(certain)
         if ensemble is not None:
@@ -85,7 +87,7 @@ def simulate(
         else:
             result = run.simulate(target, **how)
     if plot is not None:
-        _draw(target, result, plot)
+        save(result.plot().figure if isinstance(result, Ensemble) else overview(target, result), plot)
     doubt = run_doubt(target, field_function(target.field)(result.x[:2]).tolist())
     data = as_data(result, problem) | {"doubt": doubt}
     if as_json:
@@ -127,14 +129,8 @@ def _is_file(name: str) -> bool:
     return name not in EXAMPLES and (name.endswith(".toml") or Path(name).exists())
 
 
-def _target(name: str) -> Problem:
-    from ptproof.problem import example, load
-
-    return load(name) if _is_file(name) else example(name)
-
-
 @contextmanager
-def _naming(name: str, target: Problem) -> Iterator[None]:
+def _naming(name: str) -> Iterator[None]:
     """Errors of a run that a file asks for name the file."""
     try:
         yield
@@ -151,14 +147,6 @@ def _ranges(texts: tuple[str, ...]) -> dict[str, tuple[str, str]] | None:
             raise InputError(f"--vary: expected NAME=LOW:HIGH, such as k=1:2, got {text!r}")
         ranges[name.strip()] = (low, high)
     return ranges or None
-
-
-def _draw(target: Problem, result: Trajectory | Ensemble, file: str) -> None:
-    from ptproof.simulation import Trajectory
-    from ptproof.simulation.drawing import save
-    from ptproof.simulation.figures import overview
-
-    save(overview(target, result) if isinstance(result, Trajectory) else result.plot().figure, file)
 
 
 def _text(data: dict[str, Any], result: Any) -> str:

@@ -60,10 +60,8 @@ class Plan:
 
     def at_limit(self, limit: Limit, time: float, end: float) -> Stop:
         """A limit met at ``time``, on the way to ``end``."""
-        what = {
-            Limit.TIME: f"time limit of {self.settings.time_limit:g} s",
-            Limit.STEPS: f"step limit of {self.settings.max_steps} steps",
-        }[limit]
+        time_limit, steps = f"time limit of {self.settings.time_limit:g} s", f"{self.settings.max_steps} steps"
+        what = time_limit if limit is Limit.TIME else f"step limit of {steps}"
         return Stop(
             Outcome.STEP_LIMIT,
             f"the {what} was met at {self.system.time} = {time:.6g}, on the way to {end:.6g}; a larger {limit} lets it "

@@ -52,19 +52,18 @@ def constants_apart(system: System) -> tuple[list[sp.Expr], dict[sp.Expr, sp.Sym
     """The right-hand side with a symbol for each part that depends on the parameters alone, and what they stand for."""
     constants: dict[sp.Expr, sp.Symbol] = {}
     moving = {system.time, *system.state}
-    return [_without_constants(entry, moving, constants) for entry in system.rhs], constants
 
-
-def _without_constants(node: Any, moving: set[sp.Symbol], constants: dict[sp.Expr, sp.Symbol]) -> Any:
-    """``node`` with a symbol for each part without ``moving`` symbols that is not a number; fills ``constants``."""
-    if not node.free_symbols & moving:
-        if not isinstance(node, sp.Expr) or node.is_Symbol or node.is_number:
+    def apart(node: Any) -> Any:
+        if not node.free_symbols & moving:
+            if not isinstance(node, sp.Expr) or node.is_Symbol or node.is_number:
+                return node
+            return constants.setdefault(node, sp.Symbol(f"constant {len(constants)}", real=True))
+        if not node.args:
             return node
-        return constants.setdefault(node, sp.Symbol(f"constant {len(constants)}", real=True))
-    if not node.args:
-        return node
-    args = list(node.args)
-    if isinstance(node, sp.Add | sp.Mul):
-        fixed = [entry for entry in args if not entry.free_symbols & moving]
-        args = [*([node.func(*fixed)] if fixed else []), *(entry for entry in args if entry.free_symbols & moving)]
-    return node.func(*(_without_constants(entry, moving, constants) for entry in args))
+        args = list(node.args)
+        if isinstance(node, sp.Add | sp.Mul):
+            fixed = [entry for entry in args if not entry.free_symbols & moving]
+            args = [*([node.func(*fixed)] if fixed else []), *(entry for entry in args if entry.free_symbols & moving)]
+        return node.func(*map(apart, args))
+
+    return [apart(entry) for entry in system.rhs], constants

@@ -16,6 +16,10 @@ from ptproof.simulation.plan import Array
 from ptproof.simulation.settings import Limit, Outcome
 
 
+def _table(rows: Mapping[str, Any], caption: str = "") -> str:
+    return f"<table>{caption}{''.join(f'<tr><td>{k}</td><td>{v}</td></tr>' for k, v in rows.items())}</table>"
+
+
 @dataclass(frozen=True)
 class Trajectory:
     """One run.
@@ -72,11 +76,8 @@ class Trajectory:
 
     def __getitem__(self, name: str) -> Array:
         """The samples (m) of the state, or input, ``name``; ``field``, ``t`` and ``tau`` work too."""
-        if name in self.states:
-            return np.asarray(self.x[self.states.index(name)])
-        if name in self.inputs:
-            return self.inputs[name]
-        found = {"t": self.t, "tau": self.tau, "field": self.field}.get(name)
+        times = {"t": self.t, "tau": self.tau, "field": self.field}
+        found = (times | dict(self.inputs) | dict(zip(self.states, self.x, strict=True))).get(name)
         if found is None:
             known = ", ".join([*self.states, *self.inputs, "t"])
             raise InputError(f"{name!r} is not part of this trajectory (known: {known})")
@@ -111,11 +112,9 @@ class Trajectory:
         return png(self.plot().figure)
 
     def _repr_html_(self) -> str:
-        rows = "".join(f"<tr><td>{name}</td><td>{value:.6g}</td></tr>" for name, value in self.final.items())
         caption = f"{self.settings.get('example', 'trajectory')}: {self.outcome}"
-        if self.message:
-            caption += f" ({self.message})"
-        return f"<table><caption>{caption}</caption>{rows}</table>"
+        caption += f" ({self.message})" if self.message else ""
+        return _table({name: f"{value:.6g}" for name, value in self.final.items()}, f"<caption>{caption}</caption>")
 
     def __repr__(self) -> str:
         return (
@@ -193,10 +192,9 @@ class Ensemble:
         return png(self.plot().figure)
 
     def _repr_html_(self) -> str:
-        rows = {"members": self.size, **self.counts} | {
-            f"distance, {name}": f"{getattr(self, name):.6g}" for name in ("median", "q95", "max")
-        }
-        return "<table>" + "".join(f"<tr><td>{k}</td><td>{v}</td></tr>" for k, v in rows.items()) + "</table>"
+        distances = {f"distance, {name}": f"{getattr(self, name):.6g}" for name in ("median", "q95", "max")}
+        rows: dict[str, Any] = {"members": self.size, **self.counts, **distances}
+        return _table(rows)
 
     def __repr__(self) -> str:
         counts = ", ".join(f"{count} {word}" for word, count in self.counts.items())
