@@ -11,14 +11,7 @@ from ptproof.proof.signs import vanishes
 from ptproof.system import System
 
 
-def change_variable(
-    system: System,
-    replaced: sp.Symbol,
-    by: sp.Symbol,
-    forward: sp.Expr,
-    backward: sp.Expr,
-    name: str | None = None,
-) -> System:
+def change_variable(system: System, replaced: sp.Symbol, by: sp.Symbol, forward: sp.Expr, backward: sp.Expr) -> System:
     """Exchange one state for another, such as the heading θ for p = θ + kz.
 
     Parameters
@@ -43,14 +36,10 @@ def change_variable(
         sp.expand(rate) if variable == replaced else entry.subs(old)
         for variable, entry in zip(system.state, system.rhs, strict=True)
     )
-    renamed = replace(
-        system, state=tuple(by if v == replaced else v for v in system.state), rhs=rhs, parameters=None,
-        name=system.name if name is None else name,
-    )  # fmt: skip
-    return renamed
+    return replace(system, state=tuple(by if v == replaced else v for v in system.state), rhs=rhs, parameters=None)
 
 
-def solve_state(system: System, variable: sp.Symbol, solution: sp.Expr, name: str | None = None) -> System:
+def solve_state(system: System, variable: sp.Symbol, solution: sp.Expr) -> System:
     """Remove a state whose equation has the closed-form ``solution`` in time.
 
     Raises
@@ -58,12 +47,7 @@ def solve_state(system: System, variable: sp.Symbol, solution: sp.Expr, name: st
     InputError
         Unless the derivative of ``solution`` is the state's right-hand side by exact algebra.
     """
-    index = system.state.index(variable)
-    rate = system.rhs[index].subs(variable, solution)
-    if not vanishes(sp.diff(solution, system.time) - rate):
+    rates = {state: rate.subs(variable, solution) for state, rate in zip(system.state, system.rhs, strict=True)}
+    if not vanishes(sp.diff(solution, system.time) - rates.pop(variable)):
         raise InputError(f"{system.name}: {variable} = {solution} does not solve its equation")
-    keep = [i for i in range(system.dimension) if i != index]
-    return System(
-        system.time, tuple(system.state[i] for i in keep),
-        tuple(system.rhs[i].subs(variable, solution) for i in keep), name=system.name if name is None else name,
-    )  # fmt: skip
+    return System(system.time, tuple(rates), tuple(rates.values()), name=system.name)

@@ -130,7 +130,7 @@ def _cancel_factors(term: sp.Expr) -> sp.Expr:
     return factored(sp.cancel(sp.Mul(*rational))) * sp.Mul(*rest)
 
 
-def scale_time(system: System, factor: sp.Expr, time: sp.Symbol, name: str | None = None) -> System:
+def scale_time(system: System, factor: sp.Expr, time: sp.Symbol) -> System:
     """The system in the time ``system.time``/factor, such as the fast time τ̃ = τ/μ."""
     rhs = tuple(factor * entry.subs(system.time, factor * time) for entry in system.rhs)
-    return System(time, system.state, rhs, name=system.name if name is None else name)
+    return System(time, system.state, rhs, name=system.name)

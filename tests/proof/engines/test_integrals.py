@@ -46,3 +46,9 @@ def test_what_sympy_gets_wrong_is_not_proved(integrand: sp.Expr, upper: sp.Expr,
 
 def test_pole_inside_is_refused() -> None:
     assert definite(sp.Integral(1 / (s - 1) ** 2, (s, 0, 2))) is None
+
+
+def test_a_logarithm_serves_where_its_argument_is_positive() -> None:
+    assert definite(sp.Integral(1 / (1 + s), (s, 0, T))) == sp.log(1 + T)
+    assert definite(sp.Integral(1 / (1 + s), (s, 0, sp.oo))) is sp.oo
+    assert definite(sp.Integral(1 / (1 + s), (s, -2, 0))) is None
