@@ -123,6 +123,8 @@ _HOW = frozenset(entry.name for entry in fields(Settings))
 def asked(target: Question | Problem | System | str, options: Mapping[str, Any]) -> tuple[Question, Settings]:
     """The question and the settings that a target and options make; options replace what is in values that are given.
 
+    A seeker or a frame that is None counts as left out.
+
     Raises
     ------
     TypeError
@@ -132,7 +134,8 @@ def asked(target: Question | Problem | System | str, options: Mapping[str, Any])
         if name not in _ASKED and name not in _HOW and name != "settings":
             known = ", ".join(sorted((_ASKED | _HOW | {"settings"}) - {"target"}))
             raise TypeError(f"{name!r} is not an option of a simulation (those are {known})")
-    what = {name: value for name, value in options.items() if name in _ASKED}
+    left_out = {name for name in ("seeker", "frame") if options.get(name) is None}
+    what = {name: value for name, value in options.items() if name in _ASKED - left_out}
     how = {name: value for name, value in options.items() if name in _HOW}
     question = replace(target, **what) if isinstance(target, Question) else Question(target, **what)
     settings = options.get("settings")

@@ -62,7 +62,7 @@ def simulate(
     >>> simulate("vanishing", "asymptotic", frame="tau", model="average", samples=10)
     Trajectory(x1, x2; 11 samples to t = 1, reached T, final distance 3.05549)
     """
-    question, settings = asked(target, _chosen(seeker, frame, options))
+    question, settings = asked(target, {**options, "seeker": seeker, "frame": frame})
     job = (_once if question.plain else _job)(question, settings)
     begin = clock.perf_counter()
     run = engine_named(job.engine).trajectory(job.plan, job.batch)
@@ -115,7 +115,7 @@ def ensemble(
     >>> many.counts
     {'reached T': 20}
     """
-    question, settings = asked(target, _chosen(seeker, frame, options))
+    question, settings = asked(target, {**options, "seeker": seeker, "frame": frame})
     setup = question.setup()
     if not vary:
         if question.problem is None or "theta" not in setup.free:
@@ -126,16 +126,12 @@ def ensemble(
     begin = clock.perf_counter()
     finals = run_blocks(job.engine, job.plan, job.batch, workers, client, progress)
     seconds = clock.perf_counter() - begin
-    outcomes = finals.outcomes if setup.complete else tuple(map(_never_complete, finals.outcomes))
+    reached = Outcome.REACHED if setup.complete else Outcome.STEP_LIMIT
+    outcomes = tuple(reached if outcome is Outcome.REACHED else outcome for outcome in finals.outcomes)
     t = finals.time if setup.to_t is None else setup.to_t(finals.time, job.table)
     return Ensemble(
         t, finals.x, job.states, outcomes, job.plan.distance(finals.x), varied, job.about | {"seed": seed}, seconds
     )
-
-
-def _chosen(seeker: str | None, frame: str | None, options: Options) -> dict[str, Any]:
-    chosen: dict[str, Any] = dict(options)
-    return chosen | {name: value for name, value in (("seeker", seeker), ("frame", frame)) if value is not None}
 
 
 @dataclass(frozen=True)
@@ -218,15 +214,11 @@ def _tightening(setup: Setup, table: Mapping[str, Array], radians: float) -> flo
     return 10.0 ** -max(0, math.ceil(math.log10(max(turned, 1.0) / 100)))
 
 
-def _never_complete(outcome: Outcome) -> Outcome:
-    return Outcome.STEP_LIMIT if outcome is Outcome.REACHED else outcome
-
-
 def _trajectory(job: _Job, run: Any, seconds: float) -> Trajectory:
     setup, stop = job.setup, run.stop
     values = dict(setup.defaults)
     if not setup.complete and stop.outcome is Outcome.REACHED:
-        stop = Stop(_never_complete(stop.outcome), setup.note, Limit.GAIN)
+        stop = Stop(Outcome.STEP_LIMIT, setup.note, Limit.GAIN)
     t = run.time if setup.to_t is None else setup.to_t(run.time, values)
     tau = None if setup.to_tau is None else setup.to_tau(run.time, values)
     position = run.x[list(setup.position)]

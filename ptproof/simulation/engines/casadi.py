@@ -109,7 +109,7 @@ class _CVODES(Engine):
             try:
                 x = np.array(run(x0=x, p=np.vstack([batch.parameters, a, b - a]))["xf"])
             except RuntimeError:
-                return super().finals(plan, batch)
+                x = np.full_like(x, np.nan)
             if not plan.within(x):
                 return super().finals(plan, batch)
         return Finals(batch.edges[-1].copy(), x, (Outcome.REACHED,) * batch.size)
