@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
+from sympy.utilities.iterables import sift
 
 from ptproof.proof.engines.limits import limit_of
 from ptproof.proof.engines.reals import follows
@@ -49,12 +50,9 @@ def bounded_in_time(
     """
     tame = _Tame(time, frozenset(states), start, domain, {applied.func for applied in assumed})
     if tame(expression):
-        detail = (
-            "continuous and free of time"
-            if time not in expression.free_symbols
-            else ("time enters through functions that are bounded with their derivatives")
-        )
-        return Evidence(ENGINE, Verdict.PROVED, detail)
+        entering = time in expression.free_symbols
+        moving = "time enters through functions that are bounded with their derivatives"
+        return Evidence(ENGINE, Verdict.PROVED, moving if entering else "continuous and free of time")
     # At one point a smooth function of the states may have any value.
     slow = [applied for applied in expression.atoms(AppliedUndef) if time not in applied.free_symbols]
     numbers = {applied: sp.Symbol(str(applied), real=True) for applied in slow}
@@ -90,17 +88,13 @@ class _Tame:
     def __call__(self, node: sp.Expr) -> bool:
         if self.time not in node.free_symbols:
             return True
-        if not node.free_symbols & self.states and node.is_rational_function(self.time):
+        if self.is_scalar(node):
             return self.rational(node)
         if node.is_Add:
-            return all(self(argument) for argument in node.args)
+            return all(map(self, node.args))
         if node.is_Mul:
-            scalar: list[sp.Expr] = []
-            rest: list[sp.Expr] = []
-            for factor in node.args:
-                own = not factor.free_symbols & self.states and factor.is_rational_function(self.time)
-                (scalar if own else rest).append(factor)
-            return self.rational(sp.Mul(*scalar)) and all(self(factor) for factor in rest)
+            scalar, rest = sift(node.args, self.is_scalar, binary=True)
+            return self.rational(sp.Mul(*scalar)) and all(map(self, rest))
         if node.is_Pow:
             return self.power(node)
         if isinstance(node, sp.sin | sp.cos | sp.tanh | sp.atan) and self.is_affine(node.args[0]):
@@ -110,10 +104,11 @@ class _Tame:
         if isinstance(node, _ENTIRE):
             return self(node.args[0])
         if isinstance(node, AppliedUndef):
-            return node.func in self.assumed or (
-                all(self(argument) for argument in node.args) and self.time not in node.args
-            )
+            return node.func in self.assumed or (all(map(self, node.args)) and self.time not in node.args)
         return False
+
+    def is_scalar(self, node: sp.Expr) -> bool:
+        return not node.free_symbols & self.states and bool(node.is_rational_function(self.time))
 
     def rational(self, node: sp.Expr) -> bool:
         if self.time not in node.free_symbols:

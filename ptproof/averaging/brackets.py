@@ -18,7 +18,7 @@ class SparseField:
         self.entries = {row: entry for row, entry in enumerate(entries) if entry != 0}
         self.state = tuple(state)
         self._columns = {symbol: column for column, symbol in enumerate(state)}
-        self._derivatives: dict[tuple[int, int], sp.Expr] = {}
+        self._derivative = functools.cache(lambda row, column: sp.diff(self.entries[row], self.state[column]))
 
     @functools.cached_property
     def depends(self) -> dict[int, frozenset[int]]:
@@ -28,18 +28,12 @@ class SparseField:
             for row, entry in self.entries.items()
         }
 
-    def derivative(self, row: int, column: int) -> sp.Expr:
-        key = (row, column)
-        if key not in self._derivatives:
-            self._derivatives[key] = sp.diff(self.entries[row], self.state[column])
-        return self._derivatives[key]
-
     def along(self, direction: SparseField) -> dict[int, sp.Expr]:
         """The derivative of this field along ``direction``: (∂self/∂x) direction, nonzero rows only."""
         result = {}
         for row, columns in self.depends.items():
             terms = [
-                self.derivative(row, column) * direction.entries[column]
+                self._derivative(row, column) * direction.entries[column]
                 for column in columns
                 if column in direction.entries
             ]
@@ -73,13 +67,10 @@ def tidy(expression: sp.Expr) -> sp.Expr:
                 forms.append(sp.factor(form))
     if len(forms[0].free_symbols) >= len(masked.free_symbols):
         forms.append(masked)
-    return _unmask(min(forms, key=lambda form: (sp.count_ops(form), len(str(form)))), back)
-
-
-def _unmask(form: sp.Expr, back: Mapping[sp.Symbol, sp.Expr]) -> sp.Expr:
-    while form.free_symbols & back.keys():
-        form = form.xreplace(back)
-    return form
+    shortest = min(forms, key=lambda form: (sp.count_ops(form), len(str(form))))
+    while shortest.free_symbols & back.keys():
+        shortest = shortest.xreplace(back)
+    return shortest
 
 
 def _mask(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import itertools
+import operator
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
@@ -114,13 +115,10 @@ def first_correction(system: DitherSystem) -> Correction:
     """
     derived = derive(system)
     found = signals(system)
-    shift = [sp.S.Zero] * len(system.state)
-    for field, signal in zip(system.fields, found, strict=True):
-        primitive = tidy_constant(signal.primitive.expression(system.phase))
-        for row, entry in enumerate(field):
-            if entry != 0:
-                shift[row] += entry * primitive
-    return Correction(system, derived.system, tuple(shift), _drift(system, found))
+    primitives = [tidy_constant(signal.primitive.expression(system.phase)) for signal in found]
+    rows = ([field[row] for field in system.fields] for row in range(len(system.state)))
+    shift = tuple(sp.Add(*map(operator.mul, row, primitives)) for row in rows)
+    return Correction(system, derived.system, shift, _drift(system, found))
 
 
 def _drift(system: DitherSystem, found: tuple[Signal, ...]) -> Vector:

@@ -41,9 +41,11 @@ def quasi_steady_state(fast: FastStates, domain: Sequence[Relation] = ()) -> tup
         return None if values is None else tuple(values), Evidence(ENGINE, verdict, detail, witness=witness)
 
     values = fast.quasi_steady_state
-    if values is not None and not _vanishes(fast, values):
-        return result(None, Verdict.REFUTED, f"{list(values)} does not make the fast rates vanish")
-    if _affine(fast):
+    if values is not None:
+        there = dict(zip(fast.state, values, strict=True))
+        if not all(vanishes(rate.subs(there, simultaneous=True)) for rate in fast.rate):
+            return result(None, Verdict.REFUTED, f"{list(values)} does not make the fast rates vanish")
+    if all(sp.expand(sp.diff(rate, a, b)) == 0 for rate in fast.rate for a in fast.state for b in fast.state):
         with contextlib.suppress(InputError):
             affine, shown = reduction.solve_quasi_steady_state(fast.rate, fast.state)
             if shown:
@@ -62,16 +64,6 @@ def quasi_steady_state(fast: FastStates, domain: Sequence[Relation] = ()) -> tup
     if _monotone(fast, domain):
         return result(values, Verdict.PROVED, "the rates are strictly monotone in the fast states")
     return result(values, Verdict.UNDECIDED, f"z = {list(values)} is one solution; {reason}")
-
-
-def _vanishes(fast: FastStates, values: Sequence[sp.Expr]) -> bool:
-    there = dict(zip(fast.state, values, strict=True))
-    return all(vanishes(rate.subs(there, simultaneous=True)) for rate in fast.rate)
-
-
-def _affine(fast: FastStates) -> bool:
-    second = [sp.diff(rate, a, b) for rate in fast.rate for a in fast.state for b in fast.state]
-    return all(sp.expand(entry) == 0 for entry in second)
 
 
 def _cascade(fast: FastStates, domain: Sequence[Relation]) -> tuple[tuple[sp.Expr, ...] | None, str]:
@@ -101,12 +93,10 @@ def _cascade(fast: FastStates, domain: Sequence[Relation]) -> tuple[tuple[sp.Exp
 
 def _monotone_root(fast: FastStates, rate: sp.Expr, symbol: sp.Symbol, domain: Sequence[Relation]) -> sp.Expr | None:
     """The author's value (checked elsewhere to be a zero) if ``rate`` is strictly monotone in ``symbol``."""
-    if fast.quasi_steady_state is None:
-        return None
     slope = sp.diff(rate, symbol)
-    for relation in (Relation(slope, "<", sp.S.Zero), Relation(sp.S.Zero, "<", slope)):
-        if follows(relation, domain, seconds=_SECONDS).shown:
-            return fast.quasi_steady_state[fast.state.index(symbol)]
+    signs = Relation(slope, "<", sp.S.Zero), Relation(sp.S.Zero, "<", slope)
+    if fast.quasi_steady_state and any(follows(sign, domain, seconds=_SECONDS).shown for sign in signs):
+        return fast.quasi_steady_state[fast.state.index(symbol)]
     return None
 
 
@@ -114,9 +104,7 @@ def _only_root(rate: sp.Expr, symbol: sp.Symbol, domain: Sequence[Relation]) -> 
     masked, back = masked_functions(rate)
     roots, others = [], []
     for factor, _ in sp.factor_list(sp.fraction(sp.together(masked))[0])[1]:
-        if symbol not in factor.free_symbols:
-            others.append(factor)
-        elif factor.is_polynomial(symbol) and sp.degree(factor, symbol) == 1:
+        if symbol in factor.free_symbols and factor.is_polynomial(symbol) and sp.degree(factor, symbol) == 1:
             slope, rest = sp.Poly(factor, symbol).all_coeffs()
             roots.append(sp.cancel(-rest / slope))
             others.append(slope)

@@ -108,22 +108,17 @@ def common_pieces(first: Signal, second: Signal) -> list[tuple[sp.Expr, sp.Expr,
     return result
 
 
-def turns(rate: sp.Expr, period: sp.Expr) -> sp.Expr:
-    """How many turns a sinusoid of this rate makes in one period."""
-    return sp.radsimp(sp.simplify(rate * period / (2 * sp.pi)))
-
-
 def _check_period(terms: QuasiPolynomial, dither: sp.Expr, phase: sp.Symbol, period: sp.Expr, where: str) -> None:
     if not terms.is_trigonometric_polynomial:
         raise AveragingRefused(
             "D", where, f"{dither} grows with {phase}, it is not periodic; write Mod({phase}, {period}) for {phase}"
         )
     for _, rate in terms.terms:
-        number = turns(rate, period)
-        if not number.is_integer:
+        turns = sp.radsimp(sp.simplify(rate * period / (2 * sp.pi)))
+        if not turns.is_integer:
             raise NotAPeriod(
                 where,
-                f"{period} is not a period of {dither}: its part of frequency {rate} makes {number} turns in it, "
+                f"{period} is not a period of {dither}: its part of frequency {rate} makes {turns} turns in it, "
                 "not a whole number",
             )
 

@@ -69,14 +69,10 @@ def split_dithers(
     period = 2 * sp.pi / sp.gcd_list([rate for rate, _ in order] or [1])
     title = system.name if name is None else name
     result = DitherSystem(system.time, theta, omega, system.state, tuple(drift), fields, dithers, period, name=title)
-    _check_recombined(result, system)
-    return result
-
-
-def _check_recombined(result: DitherSystem, system: System) -> None:
     for row, (ours, given) in enumerate(zip(result.to_system().rhs, system.rhs, strict=True)):
         if tidy(sp.expand(sp.expand_trig(ours - given))) != 0:
             raise ArithmeticError(f"split_dithers: recombining gives {ours} for entry {row + 1}, not {given}")
+    return result
 
 
 def _waves_in_phase(masked: sp.Expr, time: sp.Symbol, theta: sp.Symbol, root: sp.Symbol, where: str) -> sp.Expr:

@@ -63,8 +63,21 @@ class Average:
 
     @property
     def gradient(self) -> tuple[sp.Expr, AppliedUndef] | None:
-        """(c, F) where the average without its drift is c times the gradient of an undefined function F."""
-        return None if self.system is None else recognise_gradient(self.problem, self.system)
+        """(c, F) where Σ [b_i, b_j] v_ji = c ∇F, with c free of states, for an undefined function F of the states."""
+        drift, fast = self.problem.system.drift, self.problem.fast
+        if self.system is None or (fast is not None and any(set(fast.state) & entry.free_symbols for entry in drift)):
+            return None
+        added = [entry - start for entry, start in zip(self.system.rhs, drift, strict=True)]
+        for applied in sorted(set().union(*(entry.atoms(AppliedUndef) for entry in added)), key=str):
+            slopes = [sp.diff(applied, symbol) for symbol in self.system.state]
+            if not slopes[0].has(sp.Derivative):
+                continue
+            factor = sp.cancel(added[0] / slopes[0])
+            if factor.free_symbols & set(self.system.state) or factor.has(sp.Derivative):
+                continue
+            if all(sp.expand(entry - factor * slope) == 0 for entry, slope in zip(added, slopes, strict=True)):
+                return factor, applied
+        return None
 
     @property
     def as_expected(self) -> bool:
@@ -145,21 +158,3 @@ def compare(system: System, expected: Vector) -> Evidence:
     """
     goal = Goal("expected average", Relation(sp.Matrix(system.rhs), "=", sp.Matrix(list(expected))))
     return settle(goal, exact)
-
-
-def recognise_gradient(problem: DitherProblem, system: System) -> tuple[sp.Expr, AppliedUndef] | None:
-    """(c, F) if Σ [b_i, b_j] v_ji = c ∇F, with c free of states, for an undefined function F of the states."""
-    drift = problem.system.drift
-    if problem.fast is not None and any(set(problem.fast.state) & entry.free_symbols for entry in drift):
-        return None
-    added = [entry - start for entry, start in zip(system.rhs, drift, strict=True)]
-    for applied in sorted(set().union(*(entry.atoms(AppliedUndef) for entry in added)), key=str):
-        slopes = [sp.diff(applied, symbol) for symbol in system.state]
-        if not slopes[0].has(sp.Derivative):
-            continue
-        factor = sp.cancel(added[0] / slopes[0])
-        if factor.free_symbols & set(system.state) or factor.has(sp.Derivative):
-            continue
-        if all(sp.expand(entry - factor * slope) == 0 for entry, slope in zip(added, slopes, strict=True)):
-            return factor, applied
-    return None

@@ -17,19 +17,8 @@ import sympy as sp
 from flint import arb
 
 from ptproof.balls.rounding import up
-from ptproof.balls.tape import Tape, Undefined, compile_tape
-
-__all__ = [
-    "BALLS",
-    "Undefined",
-    "ball_from",
-    "enclose",
-    "enclosure_text",
-    "fraction",
-    "interval",
-    "precision",
-    "separated",
-]
+from ptproof.balls.tape import Tape, compile_tape
+from ptproof.balls.tape import Undefined as Undefined
 
 
 def precision(bits: int) -> AbstractContextManager[Any]:

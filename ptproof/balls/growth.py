@@ -12,7 +12,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, reduce
-from itertools import combinations_with_replacement
+from itertools import combinations_with_replacement, product
 from typing import Any
 
 from flint import arb, fmpq
@@ -36,15 +36,14 @@ class Span:
         return Span(-self.high, -self.low)
 
     def __mul__(self, other: Span) -> Span:
-        ends = [_times(a, b) for a in (self.low, self.high) for b in (other.low, other.high)]
+        pairs = product((self.low, self.high), (other.low, other.high))
+        ends = [arb(0) if a.is_zero() or b.is_zero() else a * b for a, b in pairs]  # also with an infinite end
         return Span(reduce(arb.min, ends), reduce(arb.max, ends))
 
     def square(self) -> Span:
         """The interval of the squares."""
-        product = self * self
-        if self.low > 0 or self.high < 0:
-            return product
-        return Span(arb(0), product.high)
+        square = self * self
+        return square if self.low > 0 or self.high < 0 else Span(arb(0), square.high)
 
     def hull(self, other: Span) -> Span:
         """The interval that contains both."""
@@ -64,10 +63,6 @@ class Span:
         if not (self.low.is_finite() and self.high.is_finite()):
             raise Undefined("it grows too fast")
         return self.low if self.is_zero else interval(self.low, self.high)
-
-
-def _times(a: arb, b: arb) -> arb:
-    return arb(0) if a.is_zero() or b.is_zero() else a * b
 
 
 def span(ball: arb) -> Span:

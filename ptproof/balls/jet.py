@@ -121,8 +121,13 @@ class _Jets(Lifted):
         if known is not None:
             return left if known >= 0 else right
         # Both may be the larger one. The slope of a maximum lies between the slopes of the two.
-        either = self.hull([left, right])
-        return Jet(_value(left).max(_value(right)), either.slopes)
+        n = len((left if isinstance(left, Jet) else right).slopes)
+        rows = [value.slopes if isinstance(value, Jet) else (None,) * n for value in (left, right)]
+        slopes = tuple(
+            None if all(a is None for a in column) else BALLS.either([arb(0) if a is None else a for a in column])
+            for column in zip(*rows, strict=True)
+        )
+        return Jet(_value(left).max(_value(right)), slopes)
 
     def floor(self, value: Any) -> Any:
         result = BALLS.floor(_value(value))
@@ -137,16 +142,6 @@ class _Jets(Lifted):
         square = BALLS.integer_power(first, 2) + BALLS.integer_power(second, 2)
         turned = y * second - x * first
         return _checked(turned.scaled(BALLS.angle(first, second), 1 / square))
-
-    def hull(self, values: Sequence[Any]) -> Any:
-        """The hull of the values of continuous pieces; their slopes enclose every slope in between."""
-        n = next(len(value.slopes) for value in values if isinstance(value, Jet))
-        rows = [value.slopes if isinstance(value, Jet) else (None,) * n for value in values]
-        slopes = tuple(
-            None if all(a is None for a in column) else BALLS.either([arb(0) if a is None else a for a in column])
-            for column in zip(*rows, strict=True)
-        )
-        return Jet(BALLS.either([_value(value) for value in values]), slopes)
 
     def order(self, value: Any) -> int | None:
         return BALLS.order(_value(value))

@@ -8,6 +8,7 @@ from typing import Any, ClassVar
 
 from flint import arb
 
+from ptproof.balls.arithmetic import Arithmetic
 from ptproof.balls.ball import BALLS
 from ptproof.balls.tape import Undefined
 
@@ -16,8 +17,8 @@ _OPERATIONS = (
 )  # fmt: skip
 
 
-class Lifted:
-    """The arithmetic of one ``kind`` of number; see :class:`ptproof.balls.tape.Arithmetic`.
+class Lifted(Arithmetic):
+    """The arithmetic of one ``kind`` of number.
 
     What is no such number is a ball, a constant, and an operation on balls alone is that of balls: a subclass
     defines the operations for its own kind only, those that do not follow from others.
@@ -27,20 +28,10 @@ class Lifted:
 
     def __init_subclass__(cls) -> None:
         for name in _OPERATIONS:
-            if hasattr(cls, name):
-                setattr(cls, name, _or_balls(getattr(cls, name), getattr(BALLS, name), cls.kind))
+            setattr(cls, name, _or_balls(getattr(cls, name), getattr(BALLS, name), cls.kind))
 
     def constant(self, value: arb) -> Any:
         return value
-
-    def call(self, name: str, value: Any) -> Any:
-        raise NotImplementedError
-
-    def integer_power(self, base: Any, exponent: int) -> Any:
-        raise NotImplementedError
-
-    def order(self, value: Any) -> int | None:
-        raise NotImplementedError
 
     def power(self, base: Any, exponent: Any) -> Any:
         return self.call("exp", exponent * self.call("log", base))

@@ -77,11 +77,10 @@ class RadialEnvelope:
         if found := [kind.__name__ for kind in _NOT_SMOOTH if self.expression.has(kind)]:
             raise Undefined(f"a field with {found[0]}, which is not smooth in closed form")
         n = self.dimension
-        slope, hessian = gradient(self.expression, self.variables), sp.hessian(self.expression, self.variables)
-        upper = [hessian[i, j] for i in range(n) for j in range(i, n)]
+        slope, second = gradient(self.expression, self.variables), list(sp.hessian(self.expression, self.variables))
         try:
-            self._both = compile_tape([*slope, *upper], self.variables)
-            self._hessian = compile_tape(upper, self.variables)
+            self._both = compile_tape([*slope, *second], self.variables)
+            self._hessian = compile_tape(second, self.variables)
         except Undefined as error:
             raise Undefined(f"a field without enclosures ({error})") from None
         with precision(BITS):
@@ -247,10 +246,5 @@ def _pair(u: Sequence[Any], M: _Matrix, g: Sequence[Any]) -> Any:
 
 
 def _square(entries: list[Any], n: int) -> _Matrix:
-    """The symmetric matrix whose upper triangle is given row by row."""
-    given = iter(entries)
-    H: _Matrix = [[None] * n for _ in range(n)]
-    for i in range(n):
-        for j in range(i, n):
-            H[i][j] = H[j][i] = next(given)
-    return H
+    """The matrix that is given row by row."""
+    return [entries[i : i + n] for i in range(0, n * n, n)]

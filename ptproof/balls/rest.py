@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 from flint import arb
+from sympy.utilities.iterables import sift
 
 from ptproof.balls.ball import BALLS, interval
 from ptproof.balls.growth import Exponent, Growth, Span, coordinates, power_of
@@ -66,14 +67,11 @@ def split_polynomial(drop: sp.Expr, offsets: Sequence[sp.Symbol]) -> tuple[sp.Po
     if not expandable(drop, len(offsets)):
         return nothing, drop
     expanded = sp.expand(drop, deep=False, power_exp=False, power_base=False, log=False)
-    terms: list[sp.Expr] = []
-    rest: list[sp.Expr] = []
-    for term in sp.Add.make_args(expanded):
-        (terms if term.is_polynomial(*offsets) else rest).append(term)
+    terms, rest = sift(sp.Add.make_args(expanded), lambda term: bool(term.is_polynomial(*offsets)), binary=True)
     if rest:
         # A constant stays with the rest, whose bounds at infinity it sharpens: 1 − cos is in [0, 2].
-        constants = [term for term in terms if not term.has(*offsets)]
-        terms, rest = [term for term in terms if term.has(*offsets)], [*constants, *rest]
+        terms, constants = sift(terms, lambda term: bool(term.has(*offsets)), binary=True)
+        rest = [*constants, *rest]
     polynomial = sp.Poly(sp.Add(*terms), *offsets)
     return (polynomial, sp.Add(*rest)) if len(polynomial.terms()) <= LARGEST_POLYNOMIAL else (nothing, drop)
 

@@ -122,10 +122,8 @@ class Search(Generic[Part, Point]):
     def open_upper(self) -> float:
         """What no value on the parts that are not settled exceeds."""
         waiting = self._above if self._waiting else -math.inf
-        return max([waiting, *(entry[3].upper for entry in self._top())])
-
-    def _top(self) -> list[tuple[float, int, Part, Look[Part, Point]]]:
-        return self._open if self._depth_first else self._open[:1]
+        top = self._open if self._depth_first else self._open[:1]
+        return max([waiting, *(look.upper for *_, look in top)])
 
     @property
     def upper(self) -> float:

@@ -16,11 +16,9 @@ import flint
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ptproof.balls.arithmetic import Arithmetic, Undefined
+from ptproof.balls.arithmetic import Arithmetic
+from ptproof.balls.arithmetic import Undefined as Undefined
 from ptproof.system import differentiated
-
-__all__ = ["METHODS", "Condition", "Tape", "Undefined", "compile_tape", "nonnegative_by_form", "number"]
-
 
 METHODS: Mapping[Any, str] = {
     sp.exp: "exp", sp.log: "log", sp.sin: "sin", sp.cos: "cos", sp.tan: "tan", sp.cot: "cot",
@@ -39,13 +37,6 @@ _CONSTANTS: Mapping[Any, Callable[[], flint.arb]] = {
     sp.EulerGamma: flint.arb.const_euler,
     sp.Catalan: flint.arb.const_catalan,
 }
-
-
-def number(value: sp.Expr) -> flint.arb | None:
-    """The ball at the present precision of a rational number or a named constant; None for anything else."""
-    if isinstance(value, sp.Rational):
-        return flint.arb(flint.fmpq(int(value.p), int(value.q)))
-    return _CONSTANTS[value]() if value in _CONSTANTS else None
 
 
 def nonnegative_by_form(expression: sp.Expr) -> bool:
@@ -133,7 +124,10 @@ class Tape:
 
 @lru_cache(maxsize=10_000)
 def _constant(value: sp.Expr, bits: int) -> flint.arb:
-    return number(value)
+    """The ball at the present precision, which is ``bits``, of a rational number or a named constant."""
+    if isinstance(value, sp.Rational):
+        return flint.arb(flint.fmpq(int(value.p), int(value.q)))
+    return _CONSTANTS[value]()
 
 
 def _piecewise(branches: Sequence[tuple[Tape, Condition]], values: Sequence[Any], arithmetic: Arithmetic) -> Any:
@@ -158,12 +152,10 @@ def compile_tape(expressions: Sequence[sp.Expr], symbols: Sequence[sp.Symbol]) -
         For what has no enclosure: an unknown symbol or function, infinity, the imaginary unit, a SymPy Float.
     """
     builder = _Builder(tuple(symbols))
-    outputs = tuple(builder.visit(_carry_out(sp.sympify(item))) for item in expressions)
+    given = map(sp.sympify, expressions)
+    carried = (differentiated(item) if item.has(sp.Derivative, sp.Subs) else item for item in given)
+    outputs = tuple(map(builder.visit, carried))
     return Tape(builder.symbols, tuple(builder.code), outputs)
-
-
-def _carry_out(expression: sp.Expr) -> sp.Expr:
-    return differentiated(expression) if expression.has(sp.Derivative, sp.Subs) else expression
 
 
 class _Builder:

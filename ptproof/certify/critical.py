@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -56,8 +56,7 @@ class CriticalPoints:
         return self._exact(full) or self._enclosed(found, kept, gradient, hessian)
 
     def _exact(self, offset: Sequence[float]) -> FieldWitness | None:
-        for denominator in (1, 12, 1000):
-            y = tuple(sp.Rational(Fraction(entry).limit_denominator(denominator)) for entry in offset)
+        for y in short_points(offset):
             if max(abs(float(a) - b) for a, b in zip(y, offset, strict=True)) > 1e-6 or not self.domain.contains(y):
                 continue
             x = tuple(s + entry for s, entry in zip(self.field.source, y, strict=True))
@@ -86,6 +85,12 @@ class CriticalPoints:
     def _witness(self, values: dict[str, str], left: str, distance: float) -> FieldWitness:
         right = f"‖∇F(x)‖ ≥ b1{distance_to(2 * self.field.kappa - 1)} > 0"
         return FieldWitness("the field has a second critical point", values, left, right, distance)
+
+
+def short_points(near: Sequence[float]) -> Iterator[tuple[sp.Rational, ...]]:
+    """Exact points with short fractions for coordinates, ever closer to ``near``."""
+    for denominator in (1, 12, 1000):
+        yield tuple(sp.Rational(Fraction(entry).limit_denominator(denominator)) for entry in near)
 
 
 def values_at(field: Field, x: Sequence[Any]) -> dict[str, str]:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from itertools import product
 from typing import Any
 
@@ -17,7 +16,7 @@ from ptproof.balls.growth import Exponent, Growth, coordinates
 from ptproof.balls.growths import GROWTHS
 from ptproof.balls.tape import Undefined
 from ptproof.certify.certificate import FieldWitness, distance_to
-from ptproof.certify.critical import CriticalPoints, length, values_at
+from ptproof.certify.critical import CriticalPoints, length, short_points, values_at
 from ptproof.certify.domain import Domain
 from ptproof.certify.evaluator import Place
 from ptproof.certify.quotients import Quotients
@@ -183,11 +182,7 @@ class Prosecutor:
 
     def undefined_near(self, target: Sequence[float]) -> FieldWitness | None:
         """The witness that F has no finite real value at a point with short coordinates near ``target``."""
-        source = [float(entry) for entry in self.field.source]
-        for denominator in (1, 12, 1000):
-            x = tuple(
-                sp.Rational(Fraction(s + y).limit_denominator(denominator)) for s, y in zip(source, target, strict=True)
-            )
+        for x in short_points([float(s) + y for s, y in zip(self.field.source, target, strict=True)]):
             offset = tuple(entry - s for entry, s in zip(x, self.field.source, strict=True))
             value = self.field.value(x)
             if self.domain.contains(offset) and (value.has(sp.zoo, sp.nan, sp.oo, -sp.oo) or value.is_real is False):
