@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable
+from functools import partial
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 
@@ -10,12 +12,11 @@ from ptproof.commands import options
 from ptproof.errors import InputError
 
 if TYPE_CHECKING:
-    import sympy as sp
-
     from ptproof.gains.answer import Gains
     from ptproof.gains.problem import Study
     from ptproof.problem import Problem
     from ptproof.problem.field import FieldBounds
+    from ptproof.simulation.worst import Simulated
 
 _CONSTANTS = ("kappa", "a1", "a2", "b1", "b2")
 _NUMBERS = {
@@ -70,20 +71,39 @@ def gains(problem: str | None, clock: str | None, plot: str | None, as_json: boo
     }
     if clock is not None:
         values["clock"] = clock
-    if problem is not None:
-        return _from_problem(problem, values, plot, as_json)
-    if missing := [f"--{name}" for name in _CONSTANTS if name not in values]:
-        raise InputError(f"without a problem file the field's constants are needed: {', '.join(missing)}")
-    if "radius" in values:
-        raise InputError("--radius: only a problem file has a field to certify")
-    return _from_numbers(values, plot, as_json)
+    residual = values.get("residual")
+    content, show, best, answered = (
+        _from_numbers(values, plot) if problem is None else _from_problem(problem, values, plot)
+    )
+    met = None if residual is None else best is not None and best <= float(residual)
+    if as_json:
+        options.print_json(content)
+    else:
+        show()
+        if met is not None:
+            said = "guaranteed" if met else "not guaranteed by these bounds"
+            click.echo(f"\nResidual {residual} at t₀ + T: {said}.")
+    return 0 if answered and met is not False else 1
 
 
-def _from_numbers(values: dict[str, Any], plot: str | None, as_json: bool) -> int:
+class _Found(NamedTuple):
+    """What either kind of question comes to: its JSON, its tables, the best bound at t₀ + T."""
+
+    content: dict[str, Any]
+    show: Callable[[], None]
+    best: float | None
+    answered: bool = True
+
+
+def _from_numbers(values: dict[str, Any], plot: str | None) -> _Found:
     from ptproof.gains import GainData
     from ptproof.gains import gains as answer_for
     from ptproof.problem.field import FieldBounds
 
+    if missing := [f"--{name}" for name in _CONSTANTS if name not in values]:
+        raise InputError(f"without a problem file the field's constants are needed: {', '.join(missing)}")
+    if "radius" in values:
+        raise InputError("--radius: only a problem file has a field to certify")
     bounds = FieldBounds(*(values.pop(name) for name in _CONSTANTS))
     answer = answer_for(GainData(bounds, **values))
     if answer.data.impossible is not None:
@@ -93,16 +113,10 @@ def _from_numbers(values: dict[str, Any], plot: str | None, as_json: bool) -> in
 
         plot_gains(answer.data, path=plot)
     bound = answer["clip.residual_bound"]
-    met = _met(values.get("residual"), None if bound is None else bound.value)
-    if as_json:
-        options.print_json(answer.to_json())
-    else:
-        _table(answer)
-        _say_residual(values.get("residual"), met)
-    return 1 if met is False else 0
+    return _Found(answer.to_json(), partial(_table, answer), None if bound is None else bound.value)
 
 
-def _from_problem(name: str, values: dict[str, Any], plot: str | None, as_json: bool) -> int:
+def _from_problem(name: str, values: dict[str, Any], plot: str | None) -> _Found:
     from ptproof.gains import study
     from ptproof.problem import EXAMPLES, example, load
     from ptproof.simulation.worst import worst_distance
@@ -119,15 +133,8 @@ def _from_problem(name: str, values: dict[str, Any], plot: str | None, as_json: 
 
         plot_gains(None if result.answer is None else result.answer.data, result.curve, simulated.curves, plot)
     best = min((bound for bound in result.bounds_at_end.values() if bound is not None), default=None)
-    met = _met(values.get("residual"), best)
-    if as_json:
-        options.print_json(_problem_json(result, simulated.worst, simulated.why))
-    else:
-        if result.answer is not None:
-            _table(result.answer)
-        _summary(result, simulated.worst, simulated.why)
-        _say_residual(values.get("residual"), met)
-    return 1 if met is False or result.answer is None else 0
+    show = partial(_summary, result, simulated)
+    return _Found(_problem_json(result, simulated), show, best, result.answer is not None)
 
 
 def _declared(problem: Problem, values: dict[str, Any]) -> FieldBounds | None:
@@ -156,31 +163,20 @@ def _changed(problem: Problem, values: dict[str, Any]) -> Problem:
     return dataclasses.replace(problem, tuning=dataclasses.replace(problem.tuning, **tuning))
 
 
-def _met(residual: sp.Expr | None, bound: float | None) -> bool | None:
-    if residual is None:
-        return None
-    return bound is not None and bound <= float(residual)
-
-
-def _say_residual(residual: sp.Expr | None, met: bool | None) -> None:
-    if met is not None:
-        click.echo(f"\nResidual {residual} at t₀ + T: {'guaranteed' if met else 'not guaranteed by these bounds'}.")
-
-
-def _problem_json(result: Study, worst: float | None, why: str) -> dict[str, Any]:
+def _problem_json(result: Study, simulated: Simulated) -> dict[str, Any]:
     from ptproof.gains.entries import ENTRIES
 
-    if result.answer is None:
-        verdict = None if result.certificate is None else result.certificate.verdict
-        reason = f"the field's constants are {verdict}"
-        empty: dict[str, Any] = {section: dict.fromkeys(entries) for section, entries in ENTRIES.items()}
-        content = {**empty, "why": {f"{s}.{key}": reason for s, entries in ENTRIES.items() for key in entries}}
-    else:
+    certificate, worst = result.certificate, simulated.worst
+    if result.answer is not None:
         content = result.answer.to_json()
+    else:
+        reason = f"the field's constants are {None if certificate is None else certificate.verdict}"
+        content = {section: dict.fromkeys(entries) for section, entries in ENTRIES.items()}
+        content["why"] = {f"{section}.{key}": reason for section, entries in ENTRIES.items() for key in entries}
     return {
         "problem": result.problem.name,
         **content,
-        "certificate": None if result.certificate is None else result.certificate.to_json(),
+        "certificate": None if certificate is None else certificate.to_json(),
         "valid": result.condition,
         "tight": {
             "distance_at_end": result.bounds_at_end["tight"],
@@ -190,7 +186,7 @@ def _problem_json(result: Study, worst: float | None, why: str) -> dict[str, Any
         "bounds_at_end": dict(result.bounds_at_end),
         "worst_simulated": worst,
         "looseness": None if worst is None else result.looseness(worst),
-        **({"worst_simulated_why": why} if worst is None else {}),
+        **({"worst_simulated_why": simulated.why} if worst is None else {}),
     }
 
 
@@ -215,28 +211,29 @@ def _table(answer: Gains) -> None:
             click.echo(f"{row}  {click.style(beside, dim=True)}" if beside else row)
 
 
-def _summary(result: Study, worst: float | None, why: str) -> None:
-    certificate, curve = result.certificate, result.curve
+def _summary(result: Study, simulated: Simulated) -> None:
+    certificate, curve, worst = result.certificate, result.curve, simulated.worst
+    if result.answer is not None:
+        _table(result.answer)
     status = "declared" if certificate is None else str(certificate.verdict)
     click.echo(f"\nField constants: {status}, valid {result.condition}.")
     if result.answer is None and certificate is not None:
         click.echo(f"  {certificate.summary}")
     click.echo(f"Averaged distance at t₀ + T from a start at {float(curve.initial):.6g}, drift and clip included:")
     names = {
-        "printed": "the paper's chain",
-        "closed_form": "closed form, sharper",
-        "tight": "certified, level by level",
+        "printed": ("the paper's chain", "clip.residual_bound_printed"),
+        "closed_form": ("closed form, sharper", "clip.residual_bound"),
+        "tight": ("certified, level by level", None),
     }
     ratios = {} if worst is None else result.looseness(worst)
-    for key, value in result.bounds_at_end.items():
-        shown = "—" if value is None else f"≤ {value:.6g}"
-        if value is None and result.answer is not None and key != "tight":
-            found = result.answer["clip.residual_bound_printed" if key == "printed" else "clip.residual_bound"]
-            shown = "—" if found is None else f"≤ {found.text}"
-        ratio = ratios.get(key)
-        click.echo(f"  {names[key]:<26} {shown:<14}" + ("" if ratio is None else f"{ratio:.3g} × the worst simulated"))
+    for name, value in result.bounds_at_end.items():
+        label, key = names[name]
+        found = None if result.answer is None or key is None else result.answer[key]
+        text = f"{value:.6g}" if value is not None else None if found is None else found.text
+        shown, ratio = "—" if text is None else f"≤ {text}", ratios.get(name)
+        click.echo(f"  {label:<26} {shown:<14}" + ("" if ratio is None else f"{ratio:.3g} × the worst simulated"))
     if worst is None:
-        click.echo(f"  not simulated: {why}")
+        click.echo(f"  not simulated: {simulated.why}")
     else:
         click.echo(f"  {'worst simulated':<26} {worst:.6g}        (observed, not a bound)")
     if str(curve.evidence.verdict) != "proved":

@@ -61,13 +61,11 @@ class Study:
     @property
     def bounds_at_end(self) -> Mapping[str, float | None]:
         """The averaged distance at t₀ + T: ``printed``, ``closed_form`` and ``tight``, None where there is none."""
-        answer = self.answer
-        printed = None if answer is None else answer["clip.residual_bound_printed"]
-        split = None if answer is None else answer["clip.residual_bound"]
+        keys = {"printed": "clip.residual_bound_printed", "closed_form": "clip.residual_bound"}
+        found = {name: None if self.answer is None else self.answer[key] for name, key in keys.items()}
         proved = self.curve.evidence.verdict is Verdict.PROVED and self.problem.tuning.nu_min is not None
         return {
-            "printed": None if printed is None else printed.value,
-            "closed_form": None if split is None else split.value,
+            **{name: None if quantity is None else quantity.value for name, quantity in found.items()},
             "tight": self.curve.final if proved else None,
         }
 

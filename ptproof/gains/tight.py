@@ -92,31 +92,24 @@ def tight_bound(
     if steps < 1:
         raise InputError(f"steps must be positive, got {steps}")
     grid = time_grid(horizon_of(problem.tuning), end, steps)
-    distances, reason = [], None
+    distances: list[float] = []
     try:
         solution = UpperSolution(problem, initial, grid)
         distances.append(solution.y)
         for left, right in pairwise(grid):
-            late = time.perf_counter() - started > time_limit
-            reason = f"the time limit of {time_limit:g} s" if late else solution.step(left, right)
-            if reason is not None:
-                break
-            distances.append(solution.y)
-        envelope = solution.envelope
+            if time.perf_counter() - started > time_limit:
+                raise NotApplicable(f"the time limit of {time_limit:g} s")
+            distances.append(solution.step(left, right))
+        envelope, verdict = solution.envelope, Verdict.PROVED
         detail = f"{len(grid) - 1} steps, {envelope.enclosed} shells, {envelope.evaluations} pieces enclosed"
-    except NotApplicable as error:
-        reason = str(error)
+    except NotApplicable as reason:
+        verdict, detail = Verdict.UNDECIDED, f"given up at {reason}"
     distances += [math.inf] * (len(grid) - len(distances))
-    seconds = time.perf_counter() - started
-    evidence = (
-        Evidence("arb", Verdict.PROVED, detail, seconds) if reason is None
-        else Evidence("arb", Verdict.UNDECIDED, f"given up at {reason}", seconds)
-    )  # fmt: skip
+    evidence = Evidence("arb", verdict, detail, time.perf_counter() - started)
     t0 = float(problem.tuning.t0)
-    return BoundCurve(
-        tuple(t0 + float(node.elapsed) for node in grid), tuple(t0 + float(node.stretched) for node in grid),
-        tuple(distances), initial, evidence,
-    )  # fmt: skip
+    times = tuple(t0 + float(node.elapsed) for node in grid)
+    stretched = tuple(t0 + float(node.stretched) for node in grid)
+    return BoundCurve(times, stretched, tuple(distances), initial, evidence)
 
 
 def _asked(problem: Problem, x0_norm: sp.Expr | None, until: sp.Expr | None) -> tuple[sp.Expr, sp.Expr]:

@@ -94,8 +94,8 @@ class UpperSolution:
             raise NotApplicable(str(error)) from None
         self.drift = compile_tape(list(drift.rate), (TIME, *field.variables)) if drift.kind == "bounded" else None
 
-    def step(self, left: Node, right: Node) -> str | None:
-        """Move y over one step; returns the reason if that fails."""
+    def step(self, left: Node, right: Node) -> float:
+        """Move y over one step and return it; raises :class:`NotApplicable` where that fails."""
         with precision(BITS):
             (s0, e0, w0), (s1, e1, w1) = self.balls[left], self.balls[right]
             weights = (min(down(w1), down(w0)), max(up(w0), up(w1)))
@@ -103,20 +103,18 @@ class UpperSolution:
             for _ in range(8):  # the drift is enclosed on a ball that y must not leave on this step
                 reach *= 1.05
                 push = self._push(interval(e0, e1), reach, weights[1])
-                if push is None:
-                    return "a drift without a finite enclosure"
                 moved = Transport(self.envelope, push, weights, reach).move(self.y, s1 - s0)
                 if moved is None:
-                    return "a shell where the field has no finite enclosure"
+                    raise NotApplicable("a shell where the field has no finite enclosure")
                 if moved > self.limit:
-                    return f"{_GROWTH:g} times the initial distance"
+                    raise NotApplicable(f"{_GROWTH:g} times the initial distance")
                 if moved < reach:
                     self.y = max(moved, _TINY)
-                    return None
+                    return self.y
                 reach = moved
-            return "a bound that grows too fast for the step"
+            raise NotApplicable("a bound that grows too fast for the step")
 
-    def _push(self, elapsed: arb, reach: float, weight: float) -> float | None:
+    def _push(self, elapsed: arb, reach: float, weight: float) -> float:
         """An upper bound of w·‖f‖ on the step for ‖x − x*‖ ≤ reach."""
         if self.drift is None:
             return 0.0
@@ -124,7 +122,7 @@ class UpperSolution:
         try:
             values = self.drift.run([self.t0 + elapsed, *(c + around for c in self.source)], BALLS)
         except Undefined:
-            return None
+            raise NotApplicable("a drift without a finite enclosure") from None
         total = sum((value * value for value in values), arb(0))
         return up(total.abs_upper().sqrt() * arb(weight))
 

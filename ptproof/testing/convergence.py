@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import sympy as sp
 
@@ -12,6 +12,9 @@ from ptproof.errors import InputError
 from ptproof.system import DitherSystem, System
 from ptproof.testing.failure import assertion
 from ptproof.testing.wording import lines
+
+if TYPE_CHECKING:
+    from ptproof.simulation.order import GapOrder
 
 __unittest = True
 SECONDS = 60.0
@@ -80,8 +83,11 @@ def assert_converges_to_average(
         system, average, initial=initial, end=end, start=start, omega=omega, values=values,
         omegas=LADDER if omegas is None else omegas, expected=order, settings=Settings(rtol=1e-9, time_limit=seconds),
     )  # fmt: skip
-    if found.agrees:
-        return None
+    return None if found.agrees else _complaint(found)
+
+
+def _complaint(found: GapOrder) -> str:
+    """The gap at each ω, and the powers observed and expected."""
     rows = [(f"omega = {rung:g}", f"largest gap {gap:.6g}") for rung, gap in zip(found.omegas, found.gaps, strict=True)]
     if not math.isfinite(found.slope):
         return lines("the order of convergence could not be observed: undecided", [("reason", found.message), *rows])

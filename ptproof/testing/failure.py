@@ -38,7 +38,8 @@ def assertion(check: Callable[Arguments, str | None]) -> Callable[Arguments, Non
                 raise
             error = bad_use.with_traceback(None)
         error.__dict__.update({_MARK: True, "_render_traceback_": functools.partial(_render, error)})
-        _install_hook()
+        if not hasattr(sys.excepthook, _MARK):
+            sys.excepthook = _shortening(sys.excepthook)
         raise error from None
 
     assert_it.__annotations__ = {**check.__annotations__, "return": None}
@@ -47,15 +48,8 @@ def assertion(check: Callable[Arguments, str | None]) -> Callable[Arguments, Non
 
 def _raised_here(error: TypeError) -> bool:
     """Whether it is about the arguments of an assertion; one from the engines below keeps its whole traceback."""
-    trace = error.__traceback__
-    while trace is not None and trace.tb_next is not None:
-        trace = trace.tb_next
-    return trace is not None and str(trace.tb_frame.f_globals.get("__name__")).startswith("ptproof.testing")
-
-
-def _install_hook() -> None:
-    if not hasattr(sys.excepthook, _MARK):
-        sys.excepthook = _shortening(sys.excepthook)
+    *_, (last, _) = traceback.walk_tb(error.__traceback__)
+    return str(last.f_globals.get("__name__")).startswith("ptproof.testing")
 
 
 Hook = Callable[[type[BaseException], BaseException, TracebackType | None], object]
@@ -86,17 +80,14 @@ def _render(error: Exception) -> list[str]:
 
 def users_part(trace: TracebackType | None) -> TracebackType | None:
     """The traceback without the frames at its end that ask to be hidden; all of it if nothing else is there."""
-    frames = []
+    steps = []
     step = trace
     while step is not None:
-        frames.append(step)
+        steps.append(step)
         step = step.tb_next
-    keep = len(frames)
-    while keep and frames[keep - 1].tb_frame.f_locals.get("__tracebackhide__"):
-        keep -= 1
-    if keep in (0, len(frames)):
-        return trace
+    while steps and steps[-1].tb_frame.f_locals.get("__tracebackhide__"):
+        steps.pop()
     shortened: TracebackType | None = None
-    for step in reversed(frames[:keep]):
+    for step in reversed(steps):
         shortened = TracebackType(shortened, step.tb_frame, step.tb_lasti, step.tb_lineno)
-    return shortened
+    return shortened or trace
