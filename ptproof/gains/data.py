@@ -15,7 +15,8 @@ from ptproof.problem.field import FieldBounds
 
 _LARGEST_KAPPA = 1000
 _POSITIVE = ("k", "T", "nu_min", "V0", "x0_norm", "residual", "omega", "mu", "exponent")
-_NUMBERS = (*_POSITIVE, "drift_norm", "drift_bound", "t0", "tau_star")
+_ANY_SIGN = ("t0", "tau_star")
+_NUMBERS = (*_POSITIVE, "drift_norm", "drift_bound", *_ANY_SIGN)
 
 
 @dataclass(frozen=True)
@@ -77,15 +78,11 @@ class GainData:
             raise InputError("kappa must be a number here; symbolic formulas are in ptproof.comparison")
         if self.bounds.kappa > _LARGEST_KAPPA:
             raise InputError(f"kappa must be at most {_LARGEST_KAPPA}, got {short(self.bounds.kappa)}")
-        for name in _NUMBERS:
-            value = getattr(self, name)
-            if value is None:
-                continue
-            value = _number(value, name)
-            if name in _POSITIVE and sign(value) <= 0:
-                raise InputError(f"{name} must be positive, got {short(value)}")
-            if name in ("drift_norm", "drift_bound") and sign(value) < 0:
-                raise InputError(f"{name} must not be negative, got {short(value)}")
+        for name in (name for name in _NUMBERS if getattr(self, name) is not None):
+            value = _number(getattr(self, name), name)
+            least, words = (1, "be positive") if name in _POSITIVE else (0, "not be negative")
+            if name not in _ANY_SIGN and sign(value) < least:
+                raise InputError(f"{name} must {words}, got {short(value)}")
             object.__setattr__(self, name, value)
         unit_clock(self.clock, self.exponent)  # which refuses what is no clock
         if self.nu_min is not None and sign(self.nu_min - 1) > 0:

@@ -59,7 +59,7 @@ def assert_average(
     >>> rate = sp.sqrt(omega) * (sp.cos(omega * tau) + k * F * sp.sin(omega * tau))
     >>> assert_average(System(tau, (x,), (rate,)), ["k/2*Derivative(F(x), x)"], omega=omega)
     """
-    from ptproof.averaging import AveragingRefused, AveragingUndecided, study
+    from ptproof.averaging import AveragingRefused, AveragingUndecided, split_dithers, study
     from ptproof.averaging.problem import DitherProblem
 
     if isinstance(assuming, str):
@@ -67,7 +67,7 @@ def assert_average(
     wanted = _expected(expected, _plain(system, omega))
 
     def work() -> Any:
-        dithered = _dithered(system, omega)
+        dithered = split_dithers(system, omega) if isinstance(system, System) and omega is not None else system
         problem = dithered if isinstance(dithered, DitherProblem) else DitherProblem(dithered)
         return study(replace(problem, expected=tuple(wanted)))
 
@@ -143,14 +143,6 @@ def _plain(system: Any, omega: sp.Symbol | None) -> Any:
     raise TypeError(f"system: expected a DitherSystem, a DitherProblem or a System, got {type(system).__name__}")
 
 
-def _dithered(system: Any, omega: sp.Symbol | None) -> Any:
-    from ptproof.averaging import split_dithers
-
-    if isinstance(system, System) and omega is not None:
-        return split_dithers(system, omega)
-    return system
-
-
 def _expected(expected: Any, system: Any) -> list[sp.Expr]:
     if isinstance(expected, System):
         if expected.state != system.state:
@@ -176,9 +168,8 @@ def _listed(symbols: Sequence[sp.Symbol]) -> str:
 def _names(system: Any) -> Mapping[str, Any]:
     """By name: every symbol and undefined function of the system."""
     vectors = [system.rhs] if isinstance(system, System) else [system.drift, system.dithers, *system.fields]
-    entries = [entry for vector in vectors for entry in vector]
     names: dict[str, Any] = {symbol.name: symbol for symbol in (system.time, *system.state)}
-    for entry in entries:
+    for entry in (entry for vector in vectors for entry in vector):
         names |= {symbol.name: symbol for symbol in entry.free_symbols}
         names |= {applied.func.__name__: applied.func for applied in entry.atoms(sp.core.function.AppliedUndef)}
     return names
