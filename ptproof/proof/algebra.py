@@ -22,6 +22,17 @@ from ptproof.proof.powers import exponent_terms, split_powers, symbolic_power
 _COMPARISONS = (sp.LessThan, sp.StrictLessThan, sp.GreaterThan, sp.StrictGreaterThan)
 
 
+_WRITTEN = {
+    sp.tan: lambda a: sp.sin(a) / sp.cos(a),
+    sp.cot: lambda a: sp.cos(a) / sp.sin(a),
+    sp.sec: lambda a: 1 / sp.cos(a),
+    sp.csc: lambda a: 1 / sp.sin(a),
+    sp.sinh: lambda a: (sp.exp(a) - sp.exp(-a)) / 2,
+    sp.cosh: lambda a: (sp.exp(a) + sp.exp(-a)) / 2,
+    sp.tanh: lambda a: (sp.exp(a) - sp.exp(-a)) / (sp.exp(a) + sp.exp(-a)),
+}
+
+
 class NotAlgebraic(Exception):
     """The expression contains something that exact algebra has no rule for."""
 
@@ -35,13 +46,9 @@ def prepare(expression: sp.Expr) -> sp.Expr:
     expression = expression.doit(integrals=False)
     if expression.has(sp.Float):
         raise NotAlgebraic("a floating-point number; write it as a fraction or as decimal text")
-    if expression.has(sp.tan, sp.cot, sp.sec, sp.csc):
-        expression = expression.replace(sp.tan, lambda a: sp.sin(a) / sp.cos(a))
-        expression = expression.replace(sp.cot, lambda a: sp.cos(a) / sp.sin(a))
-        expression = expression.replace(sp.sec, lambda a: 1 / sp.cos(a)).replace(sp.csc, lambda a: 1 / sp.sin(a))
-    expression = expression.replace(sp.sinh, lambda a: (sp.exp(a) - sp.exp(-a)) / 2)
-    expression = expression.replace(sp.cosh, lambda a: (sp.exp(a) + sp.exp(-a)) / 2)
-    expression = expression.replace(sp.tanh, lambda a: (sp.exp(a) - sp.exp(-a)) / (sp.exp(a) + sp.exp(-a)))
+    if expression.has(*_WRITTEN):
+        for function, written in _WRITTEN.items():
+            expression = expression.replace(function, written)
     # One function at two equal arguments has to become one generator.
     expression = expression.replace(
         lambda node: isinstance(node, AppliedUndef),
@@ -172,7 +179,8 @@ class Generators:
     def rational(self, expression: sp.Expr) -> sp.Expr:
         """Replace everything that is not arithmetic by its generator (after :meth:`read`)."""
         match expression:
-            case sp.Symbol() if expression in self._roots and self._by_roots(expression):
+            # Of a symbol that may be 0 or negative, its own roots say less than it.
+            case sp.Symbol() if expression in self._roots and expression.is_positive:
                 return self._product(expression, sp.S.One)
             case sp.Symbol() | sp.Rational():
                 return expression
@@ -215,17 +223,13 @@ class Generators:
         return [(base, self._product(base, sp.S.One)) for base in bases]
 
     def _power(self, base: sp.Expr, exponent: sp.Expr) -> sp.Expr:
-        if base is not sp.E and not (base.is_Symbol and self._by_roots(base)):
+        if base is not sp.E and not (base.is_Symbol and base.is_positive):
             own = exponent_terms(sp.S.One, self._denominators[base])
             if len(own) == 1 and own[0][0] in self._roots[base]:  # a root of the base, such as √b
                 monomial, coefficient = own[0]
                 generator, lcm = self._roots[base][monomial]
                 self._relate(generator, self.rational(base), int(coefficient * lcm))
         return self._product(base, exponent)
-
-    def _by_roots(self, base: sp.Symbol) -> bool:
-        """Whether a symbol is written by its own roots: of one that may be 0 or negative, they say less than it."""
-        return bool(base.is_positive)
 
     def _product(self, base: sp.Expr, exponent: sp.Expr) -> sp.Expr:
         """A power of the base as a product of powers of its roots."""

@@ -26,6 +26,7 @@ from ptproof.proof.statement import (
     Relation,
     Smooth,
     Statement,
+    plain,
     relations_of,
 )
 from ptproof.proof.verdict import Evidence, Verdict
@@ -48,8 +49,7 @@ class Goal:
     @property
     def relations(self) -> tuple[Relation, ...]:
         """The assumptions that are plain relations."""
-        return tuple(item for assumption in self.assumptions if isinstance(assumption, Relation)
-                     for item in assumption.components())  # fmt: skip
+        return plain(self.assumptions)
 
 
 P = ParamSpec("P")
@@ -121,7 +121,7 @@ class Claim:
                 return "smoothness"
             case Relation() | All():
                 parts = relations_of(self.statement)
-                if any(side.has(sp.Limit) for part in parts for side in (part.left, part.right)):
+                if any(part.has(sp.Limit) for part in parts):
                     return "limit"
                 return "equality" if all(part.sign == "=" for part in parts) else "inequality"
         return "statement"
@@ -201,8 +201,7 @@ def facts_of(used: Claim) -> tuple[Implication, ...]:
         return ()
     if any(not isinstance(item, Relation) for item in used.assumptions):
         return ()
-    hypotheses = tuple(part for item in used.assumptions if isinstance(item, Relation) for part in item.components())
-    return tuple(Implication(hypotheses, part, source=used.id) for part in relations_of(used.statement))
+    return tuple(Implication(plain(used.assumptions), part, source=used.id) for part in relations_of(used.statement))
 
 
 def engine(proof: Callable[Concatenate[Goal, P], Evidence]) -> Callable[Concatenate[Goal, P], Evidence]:
@@ -223,12 +222,12 @@ def engine(proof: Callable[Concatenate[Goal, P], Evidence]) -> Callable[Concaten
 def admissible(symbol: sp.Symbol, value: Any) -> bool:
     """Whether ``value`` is known to satisfy every assumption that ``symbol`` was declared with."""
     value = sp.sympify(value)
-    for name, truth in symbol._assumptions_orig.items():
-        if name == "commutative":
-            continue
-        if getattr(value, f"is_{name}") is not truth:
-            return False
-    return True
+    return all(getattr(value, f"is_{name}") is truth for name, truth in declared(symbol).items())
+
+
+def declared(symbol: sp.Symbol) -> dict[str, bool]:
+    """The assumptions that ``symbol`` was declared with."""
+    return {name: truth for name, truth in symbol._assumptions_orig.items() if name != "commutative"}
 
 
 def cited(reference: str) -> Proof:

@@ -8,7 +8,7 @@ import sympy as sp
 
 from ptproof.balls.ball import interval, precision, separated
 from ptproof.proof.algebra import NotAlgebraic, is_zero
-from ptproof.proof.statement import Relation
+from ptproof.proof.statement import MEANING, Relation
 
 _BITS = (64, 128, 256, 1024)
 
@@ -68,12 +68,9 @@ def sign_of(expression: Any) -> int | None:
 
 def holds(relation: Relation) -> bool:
     """Whether a relation between two exact numbers is certain."""
-    relation = relation.standard()
     difference = relation.left - relation.right
     sign = None if difference.free_symbols else sign_of(difference)
-    if sign is None:
-        return False
-    return {"=": sign == 0, "!=": sign != 0, "<=": sign <= 0, "<": sign < 0}[relation.sign]
+    return sign is not None and bool(MEANING[relation.sign](sign, 0))
 
 
 def _sign_by_enclosure(number: sp.Expr) -> int | None:

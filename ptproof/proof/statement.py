@@ -6,7 +6,8 @@ values that their SymPy assumptions allow; what is assumed beyond that is a list
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+import operator
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Literal, TypeAlias
 
@@ -18,6 +19,9 @@ from ptproof.system import differentiated
 
 RelationSign: TypeAlias = Literal["=", "<=", "<", ">=", ">", "!="]
 _LATEX = {"=": "=", "<=": r"\le", "<": "<", ">=": r"\ge", ">": ">", "!=": r"\ne"}
+MEANING: Mapping[str, Callable[[Any, Any], Any]] = {
+    "=": operator.eq, "!=": operator.ne, "<=": operator.le, "<": operator.lt, ">=": operator.ge, ">": operator.gt
+}  # fmt: skip
 _MIRROR: dict[str, RelationSign] = {">=": "<=", ">": "<"}
 _NEGATION: dict[str, RelationSign] = {"=": "!=", "!=": "=", "<=": ">", "<": ">=", ">=": "<", ">": "<="}
 
@@ -51,6 +55,15 @@ class Relation:
         if not isinstance(self.left, sp.MatrixBase):
             return (self,)
         return tuple(Relation(a, self.sign, b) for a, b in zip(self.left, self.right, strict=True))
+
+    @property
+    def free_symbols(self) -> set[sp.Symbol]:
+        """The symbols that occur free in either side."""
+        return self.left.free_symbols | self.right.free_symbols
+
+    def has(self, *patterns: Any) -> bool:
+        """Whether either side contains one of the patterns, as SymPy's ``has``."""
+        return bool(self.left.has(*patterns) or self.right.has(*patterns))
 
     def standard(self) -> Relation:
         """The same relation with <= or < instead of >= or >."""
@@ -248,6 +261,11 @@ def relations_of(statement: Statement) -> tuple[Relation, ...]:
     raise InputError(f"not a conjunction of relations: {statement}")
 
 
+def plain(assumptions: Iterable[Assumption]) -> tuple[Relation, ...]:
+    """The assumptions that are relations, entry by entry."""
+    return tuple(part for item in assumptions if isinstance(item, Relation) for part in item.components())
+
+
 def expressions_of(statements: Sequence[Statement | Assumption]) -> Iterator[sp.Expr]:
     """Every scalar expression that occurs in the statements."""
     for statement in statements:
@@ -268,18 +286,12 @@ def expressions_of(statements: Sequence[Statement | Assumption]) -> Iterator[sp.
 
 def free_symbols(statements: Sequence[Statement | Assumption]) -> set[sp.Symbol]:
     """The symbols that occur free in the expressions, bound variables of integrals and limits excepted."""
-    found: set[sp.Symbol] = set()
-    for expression in expressions_of(statements):
-        found |= expression.free_symbols
-    return found
+    return set().union(*(expression.free_symbols for expression in expressions_of(statements)))
 
 
 def undefined_functions(statements: Sequence[Statement | Assumption]) -> set[AppliedUndef]:
     """The applied undefined functions that occur."""
-    found: set[AppliedUndef] = set()
-    for expression in expressions_of(statements):
-        found |= expression.atoms(AppliedUndef)
-    return found
+    return set().union(*(expression.atoms(AppliedUndef) for expression in expressions_of(statements)))
 
 
 def substitute_in(relation: Relation, values: Mapping[Any, Any]) -> Relation:

@@ -138,7 +138,7 @@ def _interval(
     facts: tuple[Implication, ...], read: Callable[[Relation], Relation],
 ) -> _Interval:  # fmt: skip
     """What holds on [τ₀, τ]; the inequality has to be assumed on all of it."""
-    if any(item.left.has(s) or item.right.has(s) for item in outside):
+    if any(item.has(s) for item in outside):
         raise _Failed(f"{s} is bound in the differential inequality and free in an assumption")
     known = [ge(s, ends[0]), le(s, ends[1]), *outside]
     for part in inequality.domain:

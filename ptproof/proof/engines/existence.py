@@ -70,7 +70,7 @@ def defeats_every_choice(goal: Goal, values: Mapping[sp.Symbol, Any], lemmas: Se
 
 def _split(relations: Sequence[Relation], symbols: set[sp.Symbol]) -> tuple[list[Relation], list[Relation]]:
     """The relations without and with any of the symbols."""
-    about = [item for item in relations if (item.left.free_symbols | item.right.free_symbols) & symbols]
+    about = [item for item in relations if item.free_symbols & symbols]
     return [item for item in relations if item not in about], about
 
 

@@ -6,7 +6,6 @@ No answer is guessed: where a sign is not known, or a form is indeterminate, the
 from __future__ import annotations
 
 import sympy as sp
-from sympy.core.function import AppliedUndef
 
 from ptproof.proof.claim import Goal, engine
 from ptproof.proof.signs import vanishes
@@ -88,8 +87,6 @@ def _at_zero(expression: sp.Expr, h: sp.Symbol) -> sp.Expr | None:
             if inner is None:
                 return None
             return sp.oo if inner is sp.oo else sp.log(inner) if inner.is_positive else None
-    if isinstance(expression, AppliedUndef):
-        return None
     return None
 
 

@@ -14,7 +14,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from ptproof.errors import InputError
-from ptproof.proof.claim import Goal
+from ptproof.proof.claim import Goal, declared
 from ptproof.proof.engines.reals import Answer, follows
 from ptproof.proof.statement import (
     Assumption,
@@ -26,16 +26,12 @@ from ptproof.proof.statement import (
     Smooth,
     ge,
     gt,
+    plain,
     relations_of,
     substitute_in,
 )
 
 _SECONDS = 4.0
-
-
-def plain(assumptions: Sequence[Assumption]) -> tuple[Relation, ...]:
-    """The assumptions that are relations, entry by entry."""
-    return tuple(part for item in assumptions if isinstance(item, Relation) for part in item.components())
 
 
 def at_point(
@@ -53,7 +49,7 @@ def at_point(
 
 def instances(goal: Goal, *points: sp.Expr) -> list[Implication]:
     """The goal's quantified assumptions at these points, where they are shown to be in the domain, as facts."""
-    known = plain(goal.assumptions)
+    known = goal.relations
     found = (at_point(item, sp.sympify(point), known) for item in goal.assumptions if isinstance(item, ForAll)
              and not item.relation.left.has(sp.Derivative) for point in points)  # fmt: skip
     return [Implication((), relation) for relation in found if relation is not None]
@@ -70,8 +66,7 @@ def entailed(needed: ForAll, given: Sequence[Assumption], facts: Sequence[Implic
         return Answer(False, "more than one bound variable")
     (variable,) = needed.variables
     # A fresh symbol: nothing that is assumed about a free symbol of the same name may be used.
-    known_of = {name: truth for name, truth in variable._assumptions_orig.items() if name != "commutative"}
-    point = sp.Dummy(variable.name, **known_of)
+    point = sp.Dummy(variable.name, **declared(variable))
     known = [*plain(given), *(substitute_in(part, {variable: point}) for part in needed.domain)]
     for item in given:
         if isinstance(item, ForAll):
@@ -99,7 +94,7 @@ def specialise(
     if isinstance(used.statement, Prose | Smooth | Exists):
         raise InputError(f"{goal.id}: {used.id} is not a conjunction of relations")
     bound = {variable for item in used.assumptions if isinstance(item, ForAll) for variable in item.variables}
-    known = plain(goal.assumptions)
+    known = goal.relations
     for key, value in values.items():
         free = sp.sympify(value).free_symbols - (set(key.args) if isinstance(key, AppliedUndef) else set())
         if key in bound or free & bound:
@@ -123,7 +118,7 @@ def specialise(
 def _is_kind(key: Any, value: sp.Expr, known: Sequence[Relation], facts: Sequence[Implication]) -> bool:
     """Whether ``value`` satisfies the declaration of ``key``, by SymPy or, for a sign, by z3."""
     if isinstance(key, sp.Symbol):
-        wanted = {name: truth for name, truth in key._assumptions_orig.items() if name != "commutative"}
+        wanted = declared(key)
     else:
         wanted = {name: True for name in ("real", "nonnegative", "positive") if getattr(key, f"is_{name}")}
     if all(getattr(value, f"is_{name}") is truth for name, truth in wanted.items()):

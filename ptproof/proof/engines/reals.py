@@ -15,7 +15,7 @@ import sympy as sp
 
 from ptproof.proof.algebra import Generators, NotAlgebraic
 from ptproof.proof.claim import Goal, engine
-from ptproof.proof.statement import Implication, Relation, free_symbols, relations_of, undefined_functions
+from ptproof.proof.statement import MEANING, Implication, Relation, free_symbols, relations_of, undefined_functions
 from ptproof.proof.verdict import Evidence, Verdict
 
 SECONDS = 20.0
@@ -54,7 +54,7 @@ def reals(goal: Goal, *lemmas: Implication, seconds: float | None = None) -> Evi
 
 
 def _speaks_of_limits(fact: Implication) -> bool:
-    return any(side.has(sp.Limit) for part in (*fact.hypotheses, fact.conclusion) for side in (part.left, part.right))
+    return any(part.has(sp.Limit) for part in (*fact.hypotheses, fact.conclusion))
 
 
 def follows(
@@ -154,9 +154,7 @@ class _Problem:
             return _to_z3(expression, variables, z3)
 
         def relation(item: Relation) -> Any:
-            left, right = number(item.left), number(item.right)
-            return {"=": left == right, "!=": left != right, "<=": left <= right,
-                    "<": left < right, ">=": left >= right, ">": left > right}[item.sign]  # fmt: skip
+            return MEANING[item.sign](number(item.left), number(item.right))
 
         for item in self.assumptions:
             solver.add(relation(item))

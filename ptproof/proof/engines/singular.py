@@ -8,6 +8,7 @@ from collections.abc import Iterator, Sequence
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from ptproof.proof.claim import admissible
 from ptproof.proof.kinks import resolved, switching
 from ptproof.proof.signs import holds, sign_of
 from ptproof.proof.statement import Relation, substitute_in
@@ -35,9 +36,7 @@ def find_singularity(
     names = {str(applied): str(_concrete(applied)) for applied in sorted(_plain(expression), key=str)}
     # A relation among symbols that play no part here does not exclude a point.
     free = expression.free_symbols
-    domain = [
-        relation for relation in domain if relation.left.free_symbols & free or relation.right.free_symbols & free
-    ]
+    domain = [relation for relation in domain if relation.free_symbols & free]
     expression = _concrete(expression).replace(sp.tan, lambda angle: sp.sin(angle) / sp.cos(angle))
     for suspect in suspects:
         for argument in _arguments(_concrete(suspect)):
@@ -95,23 +94,12 @@ def _lines(
         if variable not in argument.free_symbols:
             continue
         others = sorted(free - {variable}, key=lambda symbol: symbol.name)
-        choices = [[value for value in _OTHERS if not _contradicts(symbol, value)] or [sp.S.One] for symbol in others]
+        choices = [[value for value in _OTHERS if admissible(symbol, value)] or [sp.S.One] for symbol in others]
         for values in itertools.islice(itertools.product(*choices), 12):
             count += 1
             if count > _MOST:
                 return
             yield variable, dict(zip(others, values, strict=True))
-
-
-def _contradicts(symbol: sp.Symbol, value: sp.Expr) -> bool:
-    return bool(
-        (symbol.is_positive and value <= 0)
-        or (symbol.is_nonzero and value == 0)
-        or (symbol.is_integer and not value.is_integer)
-        or (symbol.is_negative and value >= 0)
-        or (symbol.is_nonnegative and value < 0)
-        or (symbol.is_nonpositive and value > 0)
-    )
 
 
 def _roots(argument: sp.Expr, variable: sp.Symbol) -> list[sp.Expr]:

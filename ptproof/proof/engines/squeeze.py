@@ -46,7 +46,7 @@ def squeezed(
         return undecided("only limits from below with the value 0")
     if not (isinstance(value, AppliedUndef) and value.is_nonnegative):
         return undecided(f"{value} is not declared to be a function with values at or above 0")
-    if any(t in part.left.free_symbols | part.right.free_symbols for part in goal.relations):
+    if any(t in part.free_symbols for part in goal.relations):
         return undecided(f"an assumption speaks of one {t} only")
     for part in near:
         if not _eventually(part, t, point):

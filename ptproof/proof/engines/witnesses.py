@@ -84,17 +84,10 @@ def _admissible_function(applied: AppliedUndef, value: sp.Expr) -> bool:
 
 
 def _at(relation: Relation, values: Mapping[Any, Any]) -> Relation | None:
+    """The relation there, with derivatives, integrals and limits carried out, whose values are then plain numbers."""
     try:
-        there = substitute_in(relation, values)
-    except (ValueError, TypeError, ZeroDivisionError):  # such as Max of something that is not finite there
-        return None
-    return _evaluated(there)
-
-
-def _evaluated(relation: Relation) -> Relation | None:
-    """Carry out derivatives, integrals and limits whose values are then plain numbers."""
-    try:
-        left, right = carried_out(relation.left), carried_out(relation.right)
+        there = substitute_in(relation, values)  # which may meet a Max of something that is not finite
+        left, right = carried_out(there.left), carried_out(there.right)
     except (ValueError, TypeError, NotImplementedError, ZeroDivisionError, AttributeError, RecursionError):
         return None
     if left is None or right is None or any(side.has(sp.nan, sp.zoo, sp.oo, -sp.oo) for side in (left, right)):
@@ -109,8 +102,7 @@ def _holds(assumption: Assumption, values: Mapping[Any, Any]) -> bool:
             return all(part is not None and holds(part) for part in parts)
         case ForAll(variables=variables, relation=relation, domain=domain):
             # A bound variable may carry the name of a free one: its value at the witness is not meant here.
-            values = {key: value for key, value in values.items() if key not in variables}
-            free = {key: value for key, value in values.items() if key not in assumption.variables}
+            free = {key: value for key, value in values.items() if key not in variables}
             there = substitute_in(relation, free).map(differentiated)
             where = [substitute_in(part, free) for part in domain]
             return follows(there, where, seconds=2.0).shown

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from ptproof.proof.engines.integrals import continuous
+from ptproof.proof.engines.evaluation import continuous
 from ptproof.proof.engines.limits import limit_of
 from ptproof.proof.kinks import branch, is_kink, switching
 from ptproof.proof.signs import vanishes

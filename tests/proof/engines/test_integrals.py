@@ -6,7 +6,8 @@ import pytest
 import sympy as sp
 
 from ptproof.proof.claim import Goal
-from ptproof.proof.engines.integrals import definite, integrals
+from ptproof.proof.engines.evaluation import definite
+from ptproof.proof.engines.integrals import integrals
 from ptproof.proof.settling import settle
 from ptproof.proof.statement import eq
 from ptproof.proof.verdict import Verdict
