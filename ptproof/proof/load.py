@@ -38,12 +38,12 @@ class Derivation:
     homes: Mapping[str, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        seen: dict[str, str] = {}
+        seen: dict[str, Claim | Definition] = {}
         everything: list[Claim | Definition] = [*self.claims, *self.definitions]
         for item in everything:
             if item.id in seen:
-                raise InputError(f"the id {item.id!r} stands twice: {seen[item.id]!r} and {item.title!r}")
-            seen[item.id] = item.title
+                raise twice(seen[item.id], item)
+            seen[item.id] = item
 
     def select(self, text: str) -> tuple[Claim, ...]:
         """The claims whose id, title, section or labels contain ``text``, and all that they use."""
@@ -57,6 +57,11 @@ class Derivation:
         return tuple(item for item in self.claims if item.id in wanted)
 
 
+def twice(first: Claim | Definition, other: Claim | Definition, where: str = "") -> InputError:
+    """The error that two claims or definitions share an id."""
+    return InputError(f"{where}the id {other.id!r} stands twice: {first.title!r} and {other.title!r}")
+
+
 def with_ancestors(claims: Iterable[Claim]) -> tuple[Claim, ...]:
     """The claims and all that they use, what is used first, each once; two with one id are an error."""
     found: dict[str, Claim] = {}
@@ -66,7 +71,7 @@ def with_ancestors(claims: Iterable[Claim]) -> tuple[Claim, ...]:
             for used in item.uses:
                 take(used)
         if found.setdefault(item.id, item) is not item:
-            raise InputError(f"the id {item.id!r} stands twice: {found[item.id].title!r} and {item.title!r}")
+            raise twice(found[item.id], item)
 
     for item in claims:
         take(item)
@@ -107,7 +112,9 @@ def load(paths: Sequence[str | Path] = ()) -> Derivation:
         for module in modules:
             for item in _items(module):
                 if (item.section == getattr(module, "SECTION", "")) is own:
-                    _add(found, item, module)
+                    # An item is kept once, however many modules import it.
+                    if (first := found.setdefault(item.id, item)) is not item:
+                        raise twice(first, item, f"{module.__file__}: ")
                     homes.setdefault(item.id, str(module.__file__))
     claims = [item for item in found.values() if isinstance(item, Claim)]
     if not claims:
@@ -134,7 +141,7 @@ def homes_of(claims: Iterable[Claim]) -> dict[str, str]:
 
 def claims_in(files: Iterable[str]) -> dict[str, Claim]:
     """The claims that stand in these files, or are used there, by their ids; other files of their folders are left."""
-    modules = [_import(f"{_package(file.parent)}.{file.stem}", file) for file in map(Path, files)]
+    modules = map(_module, map(Path, files))
     own = (item for module in modules for item in _items(module) if isinstance(item, Claim))
     return {item.id: item for item in with_ancestors(own)}
 
@@ -146,29 +153,17 @@ def _items(module: ModuleType) -> Iterator[Claim | Definition]:
                 yield item
 
 
-def _add(found: dict[str, Claim | Definition], item: Claim | Definition, module: ModuleType) -> None:
-    """Keep an item once, however many modules import it; another one under the same id is an error."""
-    if (first := found.setdefault(item.id, item)) is not item:
-        raise InputError(f"{module.__file__}: the id {item.id!r} stands twice: {first.title!r} and {item.title!r}")
-
-
 def _modules(path: Path) -> Iterable[ModuleType]:
     if path.is_file():
         if path.suffix != ".py":
             raise InputError(f"{path}: not a Python file of derivations")
-        if (path.parent / "__init__.py").exists():
-            package = _package(path.parent)
-            yield _import(f"{package}.{path.stem}", path)
-        else:
-            yield _import(_name(path), path)
+        yield _module(path) if (path.parent / "__init__.py").exists() else _import(_name(path), path)
         return
     files = sorted(
         file for file in path.glob("*.py") if file.name != "__init__.py" and not file.name.startswith("test_")
     )
     if files:
-        package = _package(path)
-        for file in files:
-            yield _import(f"{package}.{file.stem}", file)
+        yield from map(_module, files)
         return
     folders = sorted(folder for folder in path.iterdir() if folder.is_dir() and any(folder.glob("*.py")))
     if not folders:
@@ -182,45 +177,38 @@ def _name(path: Path) -> str:
     return f"ptproof_derivation_{path.stem}_{hashlib.sha256(str(path).encode()).hexdigest()[:8]}"
 
 
+def _module(file: Path) -> ModuleType:
+    """The module of a file, as part of the package that its folder is."""
+    return _import(f"{_package(file.parent)}.{file.stem}", file)
+
+
 def _package(folder: Path) -> str:
-    name = _name(folder)
-    if name not in sys.modules:
-        init = folder / "__init__.py"
-        spec = importlib.util.spec_from_file_location(
-            name, init if init.exists() else None, submodule_search_locations=[str(folder)]
-        )
-        if spec is None:
-            spec = importlib.machinery.ModuleSpec(name, None, is_package=True)
-            spec.submodule_search_locations = [str(folder)]
-        module = importlib.util.module_from_spec(spec)
-        sys.modules[name] = module
-        if spec.loader is not None and init.exists():
-            _execute(spec, module, init)
+    name, init = _name(folder), folder / "__init__.py"
+    if init.exists():
+        _import(name, init, [str(folder)])
+    elif name not in sys.modules:
+        spec = importlib.machinery.ModuleSpec(name, None, is_package=True)
+        spec.submodule_search_locations = [str(folder)]
+        sys.modules[name] = importlib.util.module_from_spec(spec)
     return name
 
 
-def _import(name: str, file: Path) -> ModuleType:
+def _import(name: str, file: Path, folders: list[str] | None = None) -> ModuleType:
+    """The module of that name, read from ``file`` where it is new; a package looks for its modules in ``folders``."""
     if name in sys.modules:
         return sys.modules[name]
-    spec = importlib.util.spec_from_file_location(name, file)
+    spec = importlib.util.spec_from_file_location(name, file, submodule_search_locations=folders)
     if spec is None or spec.loader is None:
         raise InputError(f"{file}: cannot be imported")
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[name] = module
-    _execute(spec, module, file)
-    return module
-
-
-def _execute(spec: importlib.machinery.ModuleSpec, module: ModuleType, file: Path) -> None:
-    assert spec.loader is not None
+    sys.modules[name] = module = importlib.util.module_from_spec(spec)
     try:
         spec.loader.exec_module(module)
-    except InputError as error:
-        sys.modules.pop(spec.name, None)
-        raise InputError(f"{file}: {error}") from error
     except (Exception, SystemExit) as error:
-        sys.modules.pop(spec.name, None)
+        sys.modules.pop(name, None)
+        if isinstance(error, InputError):
+            raise InputError(f"{file}: {error}") from error
         raise InputError(f"{_where(error, file)}: {type(error).__name__}: {error}") from error
+    return module
 
 
 def _where(error: BaseException, file: Path) -> str:

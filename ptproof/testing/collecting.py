@@ -5,9 +5,8 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from ptproof.errors import InputError
 from ptproof.proof.claim import Claim, Result
-from ptproof.proof.load import NoClaims, load, with_ancestors
+from ptproof.proof.load import NoClaims, load, twice, with_ancestors
 from ptproof.proof.run import conclude, evidence_of, read, run_by_id
 from ptproof.proof.verdict import Evidence
 from ptproof.reading.limits import Workers
@@ -48,8 +47,7 @@ class Claims:
         for item in derivation.claims:
             if _home(item, file) == file and self._homes.setdefault(id(item), file) == file:
                 if self._ids.setdefault((file.parent, item.id), item) is not item:
-                    other = self._ids[file.parent, item.id]
-                    raise InputError(f"the id {item.id!r} stands twice: {other.title!r} and {item.title!r}")
+                    raise twice(self._ids[file.parent, item.id], item)
                 self._files.setdefault(file.parent, set()).add(derivation.homes.get(item.id, str(file)))
                 found.append(item)
         return tuple(found)
