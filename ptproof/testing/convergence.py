@@ -69,9 +69,20 @@ def assert_converges_to_average(
     >>> averaged = average(split_dithers(seeker, omega))
     >>> assert_converges_to_average(seeker, averaged, initial=[1], end=1, omega=omega, omegas=(100, 400, 1600))
     """
-    from ptproof.averaging import Correction
     from ptproof.simulation import Settings
     from ptproof.simulation.order import LADDER, gap_order
+
+    _check(system, average, initial)
+    found = gap_order(
+        system, average, initial=initial, end=end, start=start, omega=omega, values=values,
+        omegas=LADDER if omegas is None else omegas, expected=order, settings=Settings(rtol=1e-9, time_limit=seconds),
+    )  # fmt: skip
+    return None if found.agrees else _complaint(found)
+
+
+def _check(system: Any, average: Any, initial: Any) -> None:
+    """Bad use is refused before anything is simulated."""
+    from ptproof.averaging import Correction
 
     if not isinstance(system, DitherSystem | System):
         raise TypeError(f"system: expected a DitherSystem or a System, got {type(system).__name__}")
@@ -79,11 +90,6 @@ def assert_converges_to_average(
         raise TypeError(f"average: expected a System or a Correction, got {type(average).__name__}")
     if isinstance(initial, Sequence) and len(initial) != len(system.state):
         raise InputError(f"initial: {len(initial)} values for {len(system.state)} states; give one for each")
-    found = gap_order(
-        system, average, initial=initial, end=end, start=start, omega=omega, values=values,
-        omegas=LADDER if omegas is None else omegas, expected=order, settings=Settings(rtol=1e-9, time_limit=seconds),
-    )  # fmt: skip
-    return None if found.agrees else _complaint(found)
 
 
 def _complaint(found: GapOrder) -> str:
