@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 from ptproof.proof.claim import Claim, Definition, Result
 from ptproof.proof.load import Derivation
@@ -14,7 +15,7 @@ from ptproof.report import status
 from ptproof.report.content import Figure, Table
 from ptproof.report.formula import domain_of, statement_lines
 from ptproof.report.letters import Notation
-from ptproof.report.model import ClaimView, DefinitionView, Erratum, EvidenceView, Ref, Report, Section
+from ptproof.report.model import ClaimView, DefinitionView, Erratum, Ref, Report, Section
 from ptproof.report.status import Status, status_of
 from ptproof.report.witness import witness_view
 
@@ -34,20 +35,14 @@ def compose(
 
     Parameters
     ----------
-    verification
-        The results, whose claims the report shows.
-    derivation
-        Where the definitions come from.
-    title
-        The title of the derivation.
-    notation
-        The letters and glyphs.
+    verification, derivation
+        The results, whose claims the report shows, and where the definitions come from.
+    title, notation
+        Of the derivation: its title, and its letters and glyphs.
     versions
         Of the libraries.
-    figures, appendix
-        Pictures and tables from elsewhere.
-    notes
-        What the reader has to know, such as figures that could not be drawn.
+    figures, appendix, notes
+        Pictures and tables from elsewhere, and what the reader has to know, such as a figure that could not be drawn.
     """
     letters = notation or Notation()
     results = {result.claim.id: result for result in verification.results}
@@ -66,14 +61,6 @@ def compose(
         for claim in shown
         if claim.status is status.REFUTED or claim.corrected_by
     ]
-    labels: dict[str, list[Ref]] = {}
-    for section in sections:
-        for defined in section.definitions:
-            for label in defined.labels:
-                labels.setdefault(label, []).append(defined.ref)
-        for claim in section.claims:
-            for label in claim.labels:
-                labels.setdefault(label, []).append(claim.ref)
     return Report(
         title=title or "Derivation",
         sections=sections,
@@ -81,7 +68,7 @@ def compose(
         besides=tuple(item for item in errata if not item.in_paper),
         cited=tuple(claim for claim in shown if claim.status is status.CITED),
         unexpected=tuple(claim for claim in shown if claim.expected),
-        labels=tuple((label, tuple(found)) for label, found in labels.items()),
+        labels=_labels(sections),
         counts=_counts(shown),
         total=len(shown),
         definitions=sum(len(section.definitions) for section in sections),
@@ -91,6 +78,17 @@ def compose(
         appendix=tuple(appendix),
         notes=tuple(notes),
     )
+
+
+def _labels(sections: Sequence[Section]) -> tuple[tuple[str, tuple[Ref, ...]], ...]:
+    """Each label of the paper with what covers it, in the order of the sections."""
+    found: dict[str, list[Ref]] = {}
+    for section in sections:
+        items: list[DefinitionView | ClaimView] = [*section.definitions, *section.claims]
+        for item in items:
+            for label in item.labels:
+                found.setdefault(label, []).append(item.ref)
+    return tuple((label, tuple(refs)) for label, refs in found.items())
 
 
 class _Composer:
@@ -123,9 +121,7 @@ class _Composer:
             same=_same(claim),
             domain=domain_of([claim.statement, *claim.assumptions], _bound(claim), self.glyphs),
             given=tuple(statement_lines(item, self.glyphs) for item in claim.assumptions),
-            evidence=tuple(
-                EvidenceView(item.engine, str(item.verdict), _without_places(item.detail)) for item in result.evidence
-            ),
+            evidence=tuple(replace(item, detail=_without_places(item.detail)) for item in result.evidence),
             witness=None if witness is None else witness_view(witness, claim, self.glyphs),
             uses=self.links([used.id for used in claim.uses]),
             used_by=self.links(self.users.get(claim.id, [])),

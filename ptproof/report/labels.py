@@ -12,27 +12,10 @@ from pathlib import Path
 
 from ptproof.errors import InputError
 
-_DISPLAYS = frozenset(
-    [
-        "equation",
-        "align",
-        "gather",
-        "multline",
-        "flalign",
-        "alignat",
-        "xalignat",
-        "xxalignat",
-        "eqnarray",
-        "displaymath",
-        "math",
-        "dmath",
-        "dseries",
-        "IEEEeqnarray",
-        "numcases",
-        "subnumcases",
-        "empheq",
-    ]
-)
+_DISPLAYS = frozenset({
+    "equation", "align", "gather", "multline", "flalign", "alignat", "xalignat", "xxalignat", "eqnarray", "displaymath",
+    "math", "dmath", "dseries", "IEEEeqnarray", "numcases", "subnumcases", "empheq",
+})  # fmt: skip
 # Inside these a label still belongs to the group of equations around it.
 _TRANSPARENT = frozenset(["center", "minipage", "small", "footnotesize", "scriptsize"])
 _VERBATIM = re.compile(r"\\begin\{(verbatim\*?|lstlisting|comment|minted)\}.*?\\end\{\1\}", re.DOTALL)

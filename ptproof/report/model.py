@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from ptproof.proof.verdict import Evidence
 from ptproof.report.content import Figure, Table
 from ptproof.report.formula import Line, width
 from ptproof.report.graph import Node
@@ -25,15 +26,6 @@ class Ref:
 
 
 @dataclass(frozen=True)
-class EvidenceView:
-    """What one engine said."""
-
-    engine: str
-    verdict: str
-    detail: str
-
-
-@dataclass(frozen=True)
 class ClaimView:
     """Everything that the report says of one claim."""
 
@@ -48,7 +40,7 @@ class ClaimView:
     same: bool
     domain: tuple[str, ...]
     given: tuple[tuple[Line, ...], ...]
-    evidence: tuple[EvidenceView, ...]
+    evidence: tuple[Evidence, ...]
     witness: WitnessView | None
     uses: tuple[Ref, ...]
     used_by: tuple[Ref, ...]
