@@ -233,7 +233,7 @@ def _summary(result: Study, simulated: Simulated) -> None:
         shown, ratio = "—" if text is None else f"≤ {text}", ratios.get(name)
         click.echo(f"  {label:<26} {shown:<14}" + ("" if ratio is None else f"{ratio:.3g} × the worst simulated"))
     if worst is None:
-        click.echo(f"  not simulated: {simulated.why}")
+        click.echo(f"  no worst simulated distance: {simulated.why}")
     else:
         click.echo(f"  {'worst simulated':<26} {worst:.6g}        (observed, not a bound)")
     if str(curve.evidence.verdict) != "proved":

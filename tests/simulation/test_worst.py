@@ -45,3 +45,13 @@ def test_without_a_clip_there_is_nothing_to_compare():
     base = example("saturated")
     problem = dataclasses.replace(base, tuning=dataclasses.replace(base.tuning, nu_min=None))
     assert worst_distance(problem, sp.Integer(1)).worst is None
+
+
+def test_a_distance_below_what_a_run_resolves_is_not_compared_with_a_bound():
+    problem = example("vanishing")
+    fast = dataclasses.replace(
+        problem, tuning=dataclasses.replace(problem.tuning, nu_min=sp.Rational(1, 10), clock="power", exponent=sp.S(2))
+    )
+    found = worst_distance(fast, sp.sqrt(8), starts=4)
+    assert found.worst is None
+    assert "closer than a run can tell" in found.why
