@@ -27,8 +27,9 @@ def _seeker(context: click.Context, option: click.Parameter, name: str | None) -
 @click.command()
 @click.argument("problem", metavar="NAME|PROBLEM.toml")
 @click.option(
-    "--seeker", metavar="[pt|asymptotic|saturated|saturated-constant]", callback=_seeker,
-    help="Left out: the one whose tables the problem has, such as saturated for [saturation]; pt where it has none.",
+    "--seeker", metavar="NAME", callback=_seeker,
+    help="Left out: the one whose tables the problem has, such as saturated for [saturation]; pt where it has none. "
+    "A name that is none is refused with those that there are.",
 )  # fmt: skip
 @click.option("--frame", type=click.Choice(["t", "tau"]), default="t", show_default=True, help="The time to run in.")
 @click.option("--engine", type=click.Choice(names()), help="Left out: chosen to fit.")

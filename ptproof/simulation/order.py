@@ -103,13 +103,11 @@ def gap_order(
         A system whose states are among the first's, by name; or a ``Correction``, to first order.
     initial
         The system's initial state, in order or by name; the average starts in its part of it.
-    start, end
-        The fixed interval of time.
+    start, end, omegas
+        The fixed interval of time, and the ladder, increasing.
     values
         Values for parameters and undefined functions of both; they may contain ω, such as ``{mu: omega**-2 / 5}``, a
         filter so fast that it does not interfere with the order.
-    omegas
-        The ladder, increasing.
     expected
         −1/2 for a plain average and −1 for a ``Correction`` if left out.
     sharp
@@ -123,20 +121,34 @@ def gap_order(
     GapOrder
         ``agrees`` says whether the theoretical order was met. A wrong average leaves a gap that does not fall.
 
-    Raises
-    ------
-    InputError
-        If states or parameters don't fit.
+    Raises :class:`InputError` if states or parameters don't fit.
     """
-    ladder = tuple(as_float(value, "omegas") for value in omegas)
-    if len(ladder) < 3 or any(b <= a for a, b in itertools.pairwise(ladder)) or ladder[0] <= 0:
-        raise InputError("omegas: expected at least three positive numbers in increasing order")
+    ladder = _ladder(omegas)
     if sharp:
         if not isinstance(system, DitherSystem) or isinstance(average, Correction):
             raise InputError("sharp: needs a dither system and a plain average of it")
         average = replace(first_correction(system), average=average)
-    span, values = (as_float(start, "start"), as_float(end, "end")), dict(values or {})
+    if expected is None:
+        expected = -1.0 if isinstance(average, Correction) else -0.5
     symbol = omega if omega is not None else getattr(system, "omega", None) or sp.Symbol("omega", positive=True)
+    span = (as_float(start, "start"), as_float(end, "end"))
+    gaps = list(map(_pair(system, average, symbol, initial, span, dict(values or {}), settings).gap, ladder))
+    message = next((message for _, message in reversed(gaps) if message), "")
+    return fit_order(ladder, tuple(gap for gap, _ in gaps), expected, message)
+
+
+def _ladder(omegas: Sequence[float]) -> tuple[float, ...]:
+    ladder = tuple(as_float(value, "omegas") for value in omegas)
+    if len(ladder) < 3 or any(b <= a for a, b in itertools.pairwise(ladder)) or ladder[0] <= 0:
+        raise InputError("omegas: expected at least three positive numbers in increasing order")
+    return ladder
+
+
+def _pair(
+    system: DitherSystem | System, average: System | Correction, omega: sp.Symbol,
+    initial: Mapping[Any, Any] | Sequence[Any], span: tuple[float, float], values: dict[Any, Any], settings: Settings,
+) -> _Pair:  # fmt: skip
+    """The two systems that are run, with the values put in."""
     full, slow = (
         made.with_values(values) if values else made
         for made in (
@@ -148,12 +160,7 @@ def gap_order(
     if missing := [state.name for state in slow.state if state.name not in names]:
         raise InputError(f"{slow.name}: {', '.join(missing)} is not a state of {full.name}")
     table = by_name(initial) if isinstance(initial, Mapping) else dict(zip(names, initial, strict=False))
-    pair = _Pair(full, slow, symbol, table, span, *_correction(average, values), settings)
-    gaps = [pair.gap(rung) for rung in ladder]
-    if expected is None:
-        expected = -1.0 if isinstance(average, Correction) else -0.5
-    message = next((message for _, message in reversed(gaps) if message), "")
-    return fit_order(ladder, tuple(gap for gap, _ in gaps), expected, message)
+    return _Pair(full, slow, omega, table, span, *_correction(average, values), settings)
 
 
 def fit_order(omegas: Sequence[float], gaps: Sequence[float], expected: float, message: str = "") -> GapOrder:

@@ -101,12 +101,7 @@ def ensemble(
     Returns
     -------
     Ensemble
-        With an outcome for each member.
-
-    Raises
-    ------
-    InputError
-        For bad input.
+        With an outcome for each member; bad input raises :class:`InputError`.
 
     Examples
     --------
