@@ -15,7 +15,6 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from ptproof.errors import InputError
-from ptproof.system import differentiated
 
 RelationSign: TypeAlias = Literal["=", "<=", "<", ">=", ">", "!="]
 _LATEX = {"=": "=", "<=": r"\le", "<": "<", ">=": r"\ge", ">": ">", "!=": r"\ne"}
@@ -190,8 +189,6 @@ class Implication:
         return f"{' and '.join(map(str, self.hypotheses)) or 'true'} => {self.conclusion}"
 
 
-_BINDERS = (sp.Derivative, sp.Integral, sp.Limit, sp.Subs, sp.Sum, sp.Product, sp.Lambda)
-
 Statement: TypeAlias = Relation | All | Exists | Smooth | Prose
 Assumption: TypeAlias = Relation | ForAll
 
@@ -292,21 +289,3 @@ def free_symbols(statements: Sequence[Statement | Assumption]) -> set[sp.Symbol]
 def undefined_functions(statements: Sequence[Statement | Assumption]) -> set[AppliedUndef]:
     """The applied undefined functions that occur."""
     return set().union(*(expression.atoms(AppliedUndef) for expression in expressions_of(statements)))
-
-
-def substitute_in(relation: Relation, values: Mapping[Any, Any]) -> Relation:
-    """Replace symbols and undefined functions in both sides, without carrying out limits or integrals."""
-    symbols = {key: sp.sympify(value) for key, value in values.items() if isinstance(key, sp.Symbol)}
-    functions = {key: value for key, value in values.items() if not isinstance(key, sp.Symbol)}
-
-    def change(expression: sp.Expr) -> sp.Expr:
-        for applied, value in functions.items():
-            expression = expression.replace(applied.func, sp.Lambda(applied.args, value))
-        if functions:
-            expression = differentiated(expression)
-        if expression.has(*_BINDERS):
-            return expression.subs(symbols, simultaneous=True)
-        # All at once, from the leaves up: a Min or Max is then compared once, between its final arguments.
-        return expression.xreplace(symbols)
-
-    return relation.map(change)

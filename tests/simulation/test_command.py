@@ -201,7 +201,7 @@ def test_a_file_with_a_saturation_table_gets_the_saturated_seeker(call, tmp_path
 
 def test_a_seeker_that_is_none_is_refused_with_all_that_there_are(call):
     refused = call("vanishing", "--seeker", "nobody")
-    assert refused.returncode == 2
+    assert refused.exit_code == 2
     assert all(repr(name) in refused.stderr for name in seekers_of("simulate"))
 
 

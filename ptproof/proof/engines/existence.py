@@ -10,7 +10,8 @@ import sympy as sp
 
 from ptproof.proof.claim import Goal, admissible, engine
 from ptproof.proof.engines.reals import follows, reals
-from ptproof.proof.statement import All, Exists, Implication, Relation, substitute_in
+from ptproof.proof.statement import All, Exists, Implication, Relation
+from ptproof.proof.substitution import substitute_in
 from ptproof.proof.verdict import Evidence, Verdict, Witness
 
 

@@ -28,8 +28,8 @@ from ptproof.proof.statement import (
     gt,
     plain,
     relations_of,
-    substitute_in,
 )
+from ptproof.proof.substitution import substitute_in
 
 _SECONDS = 4.0
 

@@ -11,7 +11,8 @@ from sympy.core.function import AppliedUndef
 from ptproof.proof.claim import admissible
 from ptproof.proof.kinks import resolved, switching
 from ptproof.proof.signs import holds, sign_of
-from ptproof.proof.statement import Relation, substitute_in
+from ptproof.proof.statement import Relation
+from ptproof.proof.substitution import substitute_in
 from ptproof.proof.verdict import Witness
 from ptproof.system import substitute
 

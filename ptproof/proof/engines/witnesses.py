@@ -20,15 +20,8 @@ from ptproof.proof.claim import Goal, admissible, engine
 from ptproof.proof.engines.evaluation import carried_out
 from ptproof.proof.engines.reals import follows
 from ptproof.proof.signs import holds
-from ptproof.proof.statement import (
-    Assumption,
-    ForAll,
-    Relation,
-    free_symbols,
-    relations_of,
-    substitute_in,
-    undefined_functions,
-)
+from ptproof.proof.statement import Assumption, ForAll, Relation, free_symbols, relations_of, undefined_functions
+from ptproof.proof.substitution import substitute_in
 from ptproof.proof.verdict import Evidence, Verdict, Witness
 from ptproof.system import differentiated
 
