@@ -40,7 +40,7 @@ def save(figure: Any, path: str | Path) -> None:
         figure.savefig(file, metadata=metadata)
 
 
-_COLOURS = 64
+_COLOURS = 128
 
 
 def png(figure: Any) -> bytes:
