@@ -207,7 +207,7 @@ def facts_of(used: Claim) -> tuple[Implication, ...]:
 def engine(proof: Callable[Concatenate[Goal, P], Evidence]) -> Callable[Concatenate[Goal, P], Evidence]:
     """Mark a function as an engine: its evidence carries the goal that it was asked about.
 
-    A claim takes evidence about nothing but its own goal (:func:`ptproof.proof.run.run_one`), so that a proof that
+    A claim takes evidence about nothing but its own goal (:func:`ptproof.proof.deciding.run_one`), so that a proof that
     changes the statement or adds an assumption shows nothing.
     """
 

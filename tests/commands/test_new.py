@@ -53,8 +53,9 @@ def test_json_names_the_files_and_nothing_else_is_printed(tmp_path, capsys):
 
 
 def test_its_claims_come_out_as_expected_and_one_of_them_is_refuted(tmp_path):
+    from ptproof.proof.deciding import run_one
     from ptproof.proof.load import load
-    from ptproof.proof.run import conclude, run_one
+    from ptproof.proof.run import conclude
 
     write_starter(tmp_path / "my_seeker")
     claims = load([tmp_path / "my_seeker"]).claims
@@ -66,8 +67,8 @@ def test_its_claims_come_out_as_expected_and_one_of_them_is_refuted(tmp_path):
 
 
 def test_a_corrupted_claim_does_not_come_out_as_expected(tmp_path):
+    from ptproof.proof.deciding import run_one
     from ptproof.proof.load import load
-    from ptproof.proof.run import run_one
     from ptproof.proof.verdict import Verdict
 
     write_starter(tmp_path / "my_seeker")

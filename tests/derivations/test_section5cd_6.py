@@ -13,9 +13,9 @@ import sympy as sp
 import ptproof.proof.engines.reals
 import ptproof.proof.settling
 from ptproof.proof.claim import Claim
+from ptproof.proof.deciding import run_one
 from ptproof.proof.engines.witnesses import refute
 from ptproof.proof.load import load
-from ptproof.proof.run import run_one
 from ptproof.proof.statement import All, Exists, ForAll, Relation, eq, ge, gt, le, lt
 from ptproof.proof.verdict import Verdict
 

@@ -11,8 +11,8 @@ import pytest
 import sympy as sp
 
 from ptproof.proof.claim import Claim
+from ptproof.proof.deciding import run_one
 from ptproof.proof.load import load
-from ptproof.proof.run import run_one
 from ptproof.proof.statement import All, Exists, Relation, Smooth, eq, ge, gt, le, lt
 from ptproof.proof.verdict import Verdict
 

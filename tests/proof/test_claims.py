@@ -11,11 +11,12 @@ import sympy as sp
 
 from ptproof.errors import InputError
 from ptproof.proof.claim import Goal, cited, claim
+from ptproof.proof.deciding import run_one
 from ptproof.proof.engines.exact import exact
 from ptproof.proof.engines.existence import defeats_every_choice, exists_by
 from ptproof.proof.engines.reals import reals
 from ptproof.proof.load import load
-from ptproof.proof.run import conclude, run_one, verify
+from ptproof.proof.run import conclude, verify
 from ptproof.proof.statement import Exists, Prose, Relation, eq, ge, le
 from ptproof.proof.verdict import Evidence, Verdict
 
