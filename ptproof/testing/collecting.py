@@ -5,9 +5,10 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
+from ptproof.proof.answering import evidence_for, read, run_by_id
 from ptproof.proof.claim import Claim, Result
 from ptproof.proof.load import NoClaims, load, twice, with_ancestors
-from ptproof.proof.run import conclude, evidence_of, read, run_by_id
+from ptproof.proof.run import conclude
 from ptproof.proof.verdict import Evidence
 from ptproof.reading.limits import Workers
 from ptproof.testing.wording import lines, witness_text
@@ -68,7 +69,7 @@ class Claims:
             if folder not in self._workers:  # one process for each folder
                 self._workers[folder] = Workers(start=read, arguments=(sorted(self._files[folder]),))
             outcome = self._workers[folder].run(self.seconds, run_by_id, claim.id)
-            self._evidence[folder, claim.id] = evidence_of(outcome, self.seconds)
+            self._evidence[folder, claim.id] = evidence_for(claim, outcome, self.seconds)
         return self._evidence[folder, claim.id]
 
 
