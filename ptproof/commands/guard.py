@@ -22,7 +22,7 @@ from ptproof.reading.system import MEMORY, end_with_parent, kill, limit_memory
 
 PATIENCE = 1.5  # after the first Ctrl-C [s]
 _SIGNALS = (signal.SIGINT, signal.SIGTERM)
-_state = {"guarded": False, "signal": 0, "pipe": -1}
+_state: dict[str, int] = {"guarded": False, "signal": 0, "pipe": -1}
 
 
 def possible() -> bool:
@@ -45,7 +45,7 @@ def limit() -> None:
 
 def own_interrupt() -> bool:
     """Whether a KeyboardInterrupt that was raised comes from the work itself and not from a person."""
-    return _state["guarded"] and not _state["signal"]
+    return bool(_state["guarded"]) and not _state["signal"]
 
 
 def interrupt_status() -> int:
@@ -110,7 +110,8 @@ def _interrupt(number: int, _: object) -> None:
 
 def _watch(pid: int, heard: int, wake: int) -> int:
     """Wait for the process that works; its status, or what its end means."""
-    until, interrupted, ended = None, 0, None
+    until: float | None = None
+    interrupted, ended = 0, None
     said = b""
     while ended is None:
         left = None if until is None else max(0.0, until - time.monotonic())

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -46,7 +46,7 @@ def _contained(claim: Claim) -> Evidence:
 
 def in_workers(
     claims: Sequence[Claim], files: tuple[str, ...], workers: int, timeout: float
-) -> Iterator[tuple[Claim, Evidence]]:
+) -> Generator[tuple[Claim, Evidence], None, None]:
     """Each claim with its evidence, as they finish; a worker over its time is killed, and only its claim is lost."""
     # What may take longest comes first: the runs behind an observation.
     ordered = sorted(claims, key=lambda claim: not isinstance(claim.statement, Prose))
@@ -58,7 +58,7 @@ def in_workers(
 
 def on_cluster(
     claims: Sequence[Claim], files: tuple[str, ...], client: Any, timeout: float
-) -> Iterator[tuple[Claim, Evidence]]:
+) -> Generator[tuple[Claim, Evidence], None, None]:
     """Each claim with its evidence, as the workers of a ``distributed.Client`` finish."""
     from distributed import as_completed
 

@@ -52,6 +52,7 @@ class Copies:
         self._given = (count, start, arguments, memory)
         self._host: Any = None
         self._to_host: Connection | None = None
+        self._ready = False
 
     def stop(self) -> None:
         """End the processes, and what still runs in them."""
@@ -122,8 +123,8 @@ def _read(outcome: Any) -> Answered[Any] | Unanswered:
         return outcome
     try:
         kind, value, error = pickle.loads(outcome)
-    except BaseException as error:
-        return Unanswered(Why.FAILED, f"the answer cannot be read: {in_words(error)}")
+    except BaseException as unreadable:
+        return Unanswered(Why.FAILED, f"the answer cannot be read: {in_words(unreadable)}")
     if kind == "answer":
         return Answered(value)
     return Unanswered(Why(kind), str(value), error)
