@@ -17,6 +17,7 @@ from collections.abc import Callable
 from contextlib import suppress
 from typing import NoReturn
 
+from ptproof.commands import streams
 from ptproof.reading.outcomes import end_in_words
 from ptproof.reading.system import MEMORY, end_with_parent, kill, limit_memory
 
@@ -55,6 +56,7 @@ def interrupt_status() -> int:
 
 def guarded(work: Callable[[], int]) -> NoReturn:
     """Do the work in a process of its own, and end with its status."""
+    closed = streams.take()
     heard, say = os.pipe()
     wake, woken = os.pipe()
     for end in (wake, woken):
@@ -67,15 +69,13 @@ def guarded(work: Callable[[], int]) -> NoReturn:
         signal.set_wakeup_fd(-1)
         for end in (heard, wake, woken):
             os.close(end)
-        _work(work, say)
+        _work(work, say, closed)
     os.close(say)
     os._exit(_watch(pid, heard, wake))
 
 
-def _work(work: Callable[[], int], say: int) -> NoReturn:
+def _work(work: Callable[[], int], say: int, closed: set[int]) -> NoReturn:
     """In the process that works."""
-    from ptproof.commands import streams
-
     status = 1
     try:
         os.setsid()
@@ -86,7 +86,7 @@ def _work(work: Callable[[], int], say: int) -> NoReturn:
             signal.signal(number, _interrupt)
         _state.update(guarded=True, pipe=say)
         streams.private(say)
-        results, own = streams.settle(), os.getpid()
+        results, own = streams.settle(closed), os.getpid()
         try:
             status = work()
         except BaseException:

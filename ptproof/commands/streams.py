@@ -79,15 +79,20 @@ class Warnings(io.TextIOWrapper):
             super().flush()
 
 
-def settle() -> Output:
-    """Set up the streams of a process that is the program's own, and give the stream of its results.
-
-    The file numbers 0, 1 and 2 are taken, so that no other file can become one of them; 1 then is standard error.
-    """
-    closed = [number for number in range(3) if not _is_open(number)]
-    for number in closed:  # the lowest free number is taken
+def take() -> set[int]:
+    """Take the file numbers 0, 1 and 2, so that no other file can become one of them; gives those that were closed."""
+    closed = {number for number in range(3) if not _is_open(number)}
+    for number in sorted(closed):  # the lowest free number is taken
         os.open(os.devnull, os.O_RDWR)
         os.set_inheritable(number, True)
+    return closed
+
+
+def settle(closed: set[int]) -> Output:
+    """Set up the streams of a process that is the program's own, and give the stream of its results.
+
+    Standard output then is standard error for all but the results. ``closed`` is what :func:`take` gave.
+    """
     if os.isatty(1) and not os.isatty(2):
         with suppress(OSError):  # libraries look at 0, 1 and 2 for the width
             os.environ.setdefault("COLUMNS", str(os.get_terminal_size(1).columns))
