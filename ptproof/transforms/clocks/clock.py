@@ -91,7 +91,7 @@ class Clock:
         self._check_symbols()
         for what, shown in (
             ("both times agree at the start", self._agree_at_start),
-            ("the map is smooth", lambda: self._is_smooth_on_interval(self.to_tau)),
+            ("the map is smooth", lambda: self.is_smooth_on_interval(self.to_tau)),
             ("the inverse undoes the map", lambda: self._undoes_map or self._is_undone),
             ("the map increases", self._is_increasing_inverse),
         ):
@@ -160,7 +160,7 @@ class Clock:
         starts = (self.to_tau.subs(self.t, self.start), self.to_t.subs(self.tau, self.start))
         return all(vanishes(instant - self.start) for instant in starts)
 
-    def _is_smooth_on_interval(self, expression: sp.Expr) -> bool:
+    def is_smooth_on_interval(self, expression: sp.Expr) -> bool:
         """Whether an expression in t is continuously differentiable on the interval, as it is written."""
         w = sp.Dummy("w", nonnegative=True)
         elapsed = w if self.horizon is sp.oo else self.horizon * w / (1 + w)
@@ -206,7 +206,7 @@ class Clock:
         return self._undoes_map and is_nonnegative(self.on_interval(self.to_tau - self.start))
 
     def _is_smooth_where_a_leads(self) -> bool:
-        return self._inverse_is_smooth or self._is_smooth_on_interval(self.to_t.subs(self.tau, self.to_tau))
+        return self._inverse_is_smooth or self.is_smooth_on_interval(self.to_t.subs(self.tau, self.to_tau))
 
     def _stays_inside(self) -> bool:
         elapsed = self._later(self.to_t - self.start)
