@@ -42,7 +42,7 @@ class Calculus:
     def add(self, terms: list[Value]) -> Value:
         series = [term for term in terms if isinstance(term, Series)]
         if not series:
-            return self.numbers.add(terms)
+            return self.numbers.add([term for term in terms if not isinstance(term, Series)])
         tag = max(term.tag for term in series)
         order = next(len(term.terms) for term in series if term.tag == tag)
         rows: list[list[Value]] = [[] for _ in range(order)]
