@@ -23,7 +23,9 @@ from ptproof.proof.statement import Exists, Prose, Relation, Smooth
 FAILS = "the relation fails"
 UNDEFINED = "a side is undefined"
 NOT_REAL = "a side is not real"
-_MISSES_IN_A_ROW = 400
+_MISSES_IN_A_ROW = 300
+_WORK = 60_000  # evaluated nodes: about half a second
+_FEW = 12  # points, with which a third of the work is enough
 _DIGITS = (50, 100, 200)
 
 
@@ -106,11 +108,14 @@ def points_of(goal: Goal, *, seed: int = 0, points: int = 60, seconds: float = 2
 
 
 def _candidates(ready: Prepared, goal: Goal, seed: int, end: float) -> Iterator[Point | None]:
-    misses = 0
-    for point in Sampler(ready, f"{goal.id}:{seed}").points():
+    """Points and misses, until the work is done: the same number of them on every machine that is not too slow."""
+    misses, found = 0, 0
+    sampler = Sampler(ready, f"{goal.id}:{seed}")
+    for point in sampler.points():
         yield point
-        misses = misses + 1 if point is None else 0
-        if misses > _MISSES_IN_A_ROW or time.process_time() > end:
+        misses, found = (misses + 1, found) if point is None else (0, found + 1)
+        enough = _WORK if found < _FEW else _WORK / 3
+        if misses > _MISSES_IN_A_ROW or sampler.work.steps > enough or time.process_time() > end:
             return
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 from typing import Any
@@ -32,15 +33,24 @@ class Inadmissible(Exception):
     """A concrete function takes a value that the function was not declared to take."""
 
 
+@dataclass
+class Work:
+    """How many nodes have been evaluated: the measure of what an attack costs, the same on every machine."""
+
+    steps: int = 0
+
+
 class Evaluator:
     """Values of expressions at one precision, with ``functions`` in place of the undefined ones."""
 
-    def __init__(self, digits: int, functions: Mapping[Any, Concrete]) -> None:
+    def __init__(self, digits: int, functions: Mapping[Any, Concrete], work: Work | None = None) -> None:
         self.calculus = Calculus(digits)
         self.functions = functions
+        self.work = work if work is not None else Work()
         self.point = Scope({})
         self._tag = itertools.count(1)
         self._depth = 0
+        self._integrals: dict[Any, Number] = {}
 
     @property
     def digits(self) -> int:
@@ -56,6 +66,7 @@ class Evaluator:
     def value(self, expression: sp.Expr, scope: Scope) -> Value:
         found = scope.known.get(expression)
         if found is None:
+            self.work.steps += 1
             found = scope.known[expression] = self._value(expression, scope)
         return found
 
@@ -250,7 +261,11 @@ class Evaluator:
         return product
 
     def _integral(self, node: sp.Expr, scope: Scope) -> Value:
-        return integral(self, node, scope)
+        inside = tuple(sorted(node.free_symbols, key=str))
+        key = (node, tuple(scope.symbols.get(symbol) for symbol in inside))
+        if key not in self._integrals:
+            self._integrals[key] = integral(self, node, scope)
+        return self._integrals[key]
 
     def _limit(self, node: sp.Expr, scope: Scope) -> Value:
         return limit(self, node, scope)

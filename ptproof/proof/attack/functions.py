@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import random
+from collections.abc import Collection
 from dataclasses import dataclass
 from typing import Any
 
@@ -25,12 +26,16 @@ def _arguments(count: int) -> tuple[sp.Symbol, ...]:
     return tuple(sp.Symbol(f"_argument{i}", real=True) for i in range(count))
 
 
-def drawn(applied: Any, generator: random.Random, attempt: int) -> Concrete:
-    """A function for ``applied``, of its declared kind: the plainest first, then any."""
+def drawn(applied: Any, generator: random.Random, attempt: int, known: Collection[Any] = ()) -> Concrete:
+    """A function for ``applied``, of its declared kind: the plainest first, then any.
+
+    Some vanish, or have an extremum, where the arguments of ``applied`` are, if these are symbols that are ``known``.
+    """
     places = _arguments(len(applied.args))
     if applied.is_integer:
         return Concrete(places, sp.Integer(_whole(applied, generator)))
-    body = _real(places, generator, attempt)
+    centre = applied.args if all(argument in known for argument in applied.args) else None
+    body = _real(places, generator, attempt, centre)
     if applied.is_positive:
         body = (sp.exp(body / 4), 1 + body**2, sp.Integer(generator.randint(1, 3)))[attempt % 3]
     elif applied.is_negative:
@@ -55,11 +60,17 @@ def _may_be(applied: Any, value: int) -> bool:
     return all(getattr(applied, f"is_{word}") in (None, held) for word, held in signs.items())
 
 
-def _real(places: tuple[sp.Symbol, ...], generator: random.Random, attempt: int) -> sp.Expr:
+def _real(places: tuple[sp.Symbol, ...], generator: random.Random, attempt: int, centre: Any) -> sp.Expr:
     def small() -> sp.Rational:
         return sp.Rational(generator.choice((-3, -2, -1, 1, 2, 3, 5)), generator.choice((1, 1, 2, 3)))
 
-    kind = attempt % 7
+    kind = attempt % 10
+    if kind >= 7 and centre is not None:
+        away = [place - middle for place, middle in zip(places, centre, strict=True)]
+        if kind == 8:
+            return sum((small() * one for one in away), sp.S.Zero)
+        squares = (small() * a * b for a, b in itertools.combinations_with_replacement(away, 2))
+        return sum(squares, small() if kind == 7 else sp.S.Zero)
     if kind == 6:
         return sp.Integer(generator.choice((0, 0, 1, -1, 2)))
     body: sp.Expr = small() + sum(small() * place for place in places)

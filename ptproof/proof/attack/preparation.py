@@ -65,6 +65,9 @@ class Prepared:
         Functions that an assumption gives by an expression.
     solutions
         Functions that satisfy a differential inequality with equality.
+    special
+        An atom and a value of it, in the other atoms, at which something vanishes: a denominator, what is under a
+        root, the distance from a kink, or the difference of the two sides.
     """
 
     parts: tuple[Relation, ...]
@@ -74,6 +77,7 @@ class Prepared:
     functions: tuple[AppliedUndef, ...]
     defined: tuple[tuple[Any, Concrete], ...]
     solutions: tuple[tuple[Any, Concrete], ...]
+    special: tuple[tuple[Any, sp.Expr], ...]
 
 
 def prepared(goal: Goal) -> Prepared:
@@ -91,14 +95,16 @@ def prepared(goal: Goal) -> Prepared:
     pinned = [node for node in applied if node.func in assumed and node.func not in bound_inside]
     functions = {node.func: node for node in applied if node not in pinned and node.func not in defined}
     relations = plain(goal.assumptions)
+    parts = _parts(goal.statement)
     return Prepared(
-        _parts(goal.statement),
+        parts,
         tuple(_bound(relation, (*symbols, *pinned)) for relation in relations),
         quantified,
         (*symbols, *pinned),
         tuple(functions.values()),
         tuple(defined.items()),
         tuple(itertools.chain.from_iterable(solutions(item) for item in quantified)),
+        tuple(itertools.islice(_special(parts, (*symbols, *pinned)), 60)),
     )
 
 
@@ -155,7 +161,9 @@ def _bound(relation: Relation, atoms: tuple[Any, ...]) -> Bound:
         one = _isolated(difference, atom)
         if one is not None:
             found.append(one)
-    roots = _roots(difference, inside) if relation.sign == "=" and not found else ()
+    roots: tuple[tuple[Any, sp.Expr], ...] = ()
+    if relation.sign == "=" and not found:
+        roots = _roots(difference, inside) or tuple(_special((relation,), tuple(inside)))
     return Bound(relation, tuple(found), roots, inside)
 
 
@@ -189,3 +197,33 @@ def _isolated(difference: sp.Expr, atom: Any) -> Isolated | None:
             return None
         factor += other
     return None if factor == 0 else Isolated(atom, factor, rest)
+
+
+def _special(parts: Iterable[Relation], atoms: tuple[Any, ...]) -> Iterable[tuple[Any, sp.Expr]]:
+    """Where something in the relations vanishes, for every atom in which it is linear."""
+    seen: set[sp.Expr] = set()
+    for part in parts:
+        sides = (part.left, part.right)
+        inside = [node for side in sides for node in sp.preorder_traversal(side)]
+        for expression in (part.left - part.right, *itertools.chain.from_iterable(map(_critical, inside))):
+            if expression in seen or expression.is_number or len(seen) > 40:
+                continue
+            seen.add(expression)
+            expanded = sp.expand(expression) if expression.count_ops() < 80 else expression
+            for atom in atoms:
+                one = _isolated(expanded, atom) if expanded.has(atom) else None
+                if one is not None:
+                    yield atom, one.bound
+
+
+def _critical(node: sp.Basic) -> Iterable[sp.Expr]:
+    """What an expression depends on in another way on either side of 0."""
+    if isinstance(node, sp.Pow) and not (node.exp.is_nonnegative and node.exp.is_integer):
+        return [node.base]
+    if isinstance(node, sp.log | sp.Abs | sp.sign | sp.Heaviside):
+        return [node.args[0]]
+    if isinstance(node, sp.Max | sp.Min):
+        return [*node.args, *(a - b for a, b in itertools.combinations(node.args, 2))]
+    if isinstance(node, sp.core.relational.Relational):
+        return [node.lhs - node.rhs]
+    return []

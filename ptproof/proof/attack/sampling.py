@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import random
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import Any
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ptproof.proof.attack.evaluator import Evaluator, Inadmissible, fits
+from ptproof.proof.attack.evaluator import Evaluator, Inadmissible, Work, fits
 from ptproof.proof.attack.functions import START, Concrete, drawn
 from ptproof.proof.attack.kinds import fits_kind, holds
 from ptproof.proof.attack.numbers import NotReal, Number, Undefined, Unsure
@@ -22,7 +22,7 @@ from ptproof.proof.attack.values import Drawer
 
 MISSES = (Unsure, Undefined, NotReal, Inadmissible, OverflowError, ZeroDivisionError, ValueError, RecursionError)
 _SWEEPS = 5
-_POOL = 21  # functions for each undefined one
+_POOL = 30  # functions for each undefined one
 
 
 @dataclass(frozen=True)
@@ -32,10 +32,11 @@ class Point:
     values: Mapping[Any, Fraction]
     defined: tuple[tuple[Any, sp.Expr], ...] = ()
     functions: Mapping[Any, Concrete] = field(default_factory=dict)
+    work: Work = field(default_factory=Work, compare=False)
 
     def evaluator(self, digits: int) -> Evaluator:
         """An evaluator at this point; raises what evaluating a value that is defined may raise."""
-        evaluator = Evaluator(digits, self.functions)
+        evaluator = Evaluator(digits, self.functions, self.work)
         evaluator.point = Scope(dict(self.values))
         for atom, expression in self.defined:
             value = evaluator.number(expression, evaluator.point)
@@ -53,6 +54,7 @@ class Sampler:
         self.random = random.Random(seed)
         self.drawer = Drawer(goal.atoms, goal.parts, self.random, moderate=_needs_moderation(goal))
         self.attempt = 0
+        self.work = Work()
         self.pool: dict[tuple[Any, int], Concrete] = {}
 
     def points(self) -> Iterator[Point | None]:
@@ -74,13 +76,13 @@ class Sampler:
         defined, taken = self._definitions()
         values = self.drawer.values(self.attempt, taken)
         values[START] = generator.choice((Fraction(1), Fraction(1, 3), Fraction(5), Fraction(1, 50)))
-        return Point(values, defined, functions)
+        return Point(values, defined, functions, self.work)
 
     def _function(self, node: Any) -> Concrete:
         """One of a few functions of the declared kind, which are drawn once."""
         number = self.attempt % _POOL
         if (node.func, number) not in self.pool:
-            self.pool[node.func, number] = drawn(node, self.random, number)
+            self.pool[node.func, number] = drawn(node, self.random, number, self.goal.atoms)
         return self.pool[node.func, number]
 
     def _definitions(self) -> tuple[tuple[tuple[Any, sp.Expr], ...], set[Any]]:
@@ -103,6 +105,10 @@ class Sampler:
                 atom, root = self.random.choice(bound.roots)
                 if atom not in found and not _reaches(root, atom, found):
                     found[atom] = root
+        if self.goal.special and self.attempt % 3 == 1:
+            atom, value = self.random.choice(self.goal.special)
+            if atom not in found and not _reaches(value, atom, found):
+                found[atom] = value
         return _ordered(found), set(found)
 
     def _settled(self, point: Point) -> Point | None:
@@ -127,7 +133,7 @@ class Sampler:
         for atom in atoms:
             value = self._within(atom, evaluator)
             if value is not None:
-                return Point({**point.values, atom: value}, point.defined, point.functions)
+                return replace(point, values={**point.values, atom: value})
         rest = sorted((atom for atom in bound.atoms if atom in point.values), key=str)
         return self._tried(point, bound, rest)
 
@@ -156,7 +162,7 @@ class Sampler:
         """The first of some other values of one atom at which the assumption holds."""
         for atom in self.random.sample(atoms, min(3, len(atoms))):
             for value in self.drawer.others(atom, point.values[atom]):
-                changed = Point({**point.values, atom: value}, point.defined, point.functions)
+                changed = replace(point, values={**point.values, atom: value})
                 try:
                     if holds(bound.relation, changed.evaluator(50)):
                         return changed
