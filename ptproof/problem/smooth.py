@@ -1,4 +1,4 @@
-"""Whether a field may be differentiated: SymPy gives a jump the derivative 0, so smoothness comes first, by structure."""
+"""Whether a field may be differentiated: for SymPy a jump has the derivative 0, so smoothness is shown first."""
 
 from __future__ import annotations
 
