@@ -42,13 +42,14 @@ class GainData:
     t0, tau_star
         The start, and a stretched time τ* > t₀.
     residual
-        A distance to the source that is wanted at t₀ + T.
+        A distance to the source that is wanted at t₀ + T. Bounds are of the average; the vehicle circles around it.
     omega, mu
         The seeker's frequency and filter constant, for the peak inputs.
     filter_error
         |y − z| at the start: 0 where the filter starts at the measured field.
     radius
-        Of the ball around the source on which the constants hold; None for the whole space.
+        Of the ball around the source on which the constants hold; None for the whole space. Thresholds then are such
+        that the average stays in it up to t₀ + T; that it does is the caller's to show for all other bounds.
 
     Raises
     ------

@@ -193,6 +193,15 @@ def _residual(data: GainData, chain: Chain) -> sp.Expr:
     return value
 
 
+def _hover(data: GainData, omega: sp.Expr) -> sp.Expr:
+    """1/√ω: how far the vehicle circles around its average, to leading order.
+
+    It is the length of the first correction of the average, (sin θ, −cos θ)/√ω, whatever the field and the gain are
+    (:func:`ptproof.simulation.order.hover_radius` has the derivation).
+    """
+    return 1 / sp.sqrt(omega)
+
+
 def _nu_min_for_residual(data: GainData, residual: sp.Expr) -> sp.Expr:
     if data.drift_bound is not None:
         raise NotApplicable("solved in closed form only without a bounded drift")
@@ -205,6 +214,7 @@ def _nu_min_for_residual(data: GainData, residual: sp.Expr) -> sp.Expr:
 TITLES: Mapping[str, str] = MappingProxyType({
     "constants": "Constants", "asymptotic": "Asymptotic seeker", "prescribed_time": "Prescribed time",
     "critical": "Critical start and time", "nonvanishing": "Drift that does not vanish", "clip": "Clipped gain",
+    "vehicle": "The vehicle beside its average, to leading order",
 })  # fmt: skip
 _TABLE: Mapping[str, Entry] = {
     "constants.q": Entry("exponent q", lambda data: data.bounds.q),
@@ -216,15 +226,15 @@ _TABLE: Mapping[str, Entry] = {
         lambda data: vanishing.smallest_gain_printed(data.bounds, data.norm), check=_along_gradient),
     "asymptotic.k_min": Entry(
         "least k that suffices", lambda data: vanishing.smallest_gain(data.push), check=_along_gradient),
-    "prescribed_time.overshoot": Entry("overshoot factor, as printed", _overshoot, check=_quadratic),
+    "prescribed_time.overshoot": Entry("overshoot up to t₀ + T, as printed", _overshoot, check=_quadratic),
     "prescribed_time.rate": Entry(
         "decay rate in τ", lambda data, k: vanishing.decay_rate(data.bounds, k), ("k",), _quadratic),
-    "prescribed_time.overshoot_split": Entry("overshoot factor, sharper", _overshoot_split, check=_along_gradient),
+    "prescribed_time.overshoot_split": Entry("overshoot up to t₀ + T, sharper", _overshoot_split, check=_along_gradient),
     "critical.V0_at_tau_star": Entry("V₀ that escapes at τ*", _at_tau_star),
     "critical.V0_threshold_printed": Entry("safe V₀ below, as printed", partial(_V0_threshold, chain="printed")),
-    "critical.V0_threshold": Entry("safe V₀ below", partial(_V0_threshold, chain="split")),
+    "critical.V0_threshold": Entry("safe V₀ below, up to t₀ + T", partial(_V0_threshold, chain="split")),
     "critical.T_threshold_printed": Entry("safe T below, as printed", partial(_T_threshold, chain="printed")),
-    "critical.T_threshold": Entry("safe T below", partial(_T_threshold, chain="split")),
+    "critical.T_threshold": Entry("safe T below, up to t₀ + T", partial(_T_threshold, chain="split")),
     "critical.escape_time": Entry("the printed bound escapes at τ", partial(_escape, chain="printed")),
     "critical.escape_time_split": Entry("the sharper bound escapes at τ", partial(_escape, chain="split")),
     "nonvanishing.h1": Entry("h₁", lambda data, k: nonvanishing.damping(data.bounds, k), ("k",)),
@@ -249,9 +259,13 @@ _TABLE: Mapping[str, Entry] = {
     "clip.u1_peak": Entry(
         "peak of u₁", lambda data, omega, _: sp.sqrt(omega) * data.unit.cap, ("omega", "nu_min")),
     "clip.u2_peak": Entry("peak of |u₂| while r ≤ r₀", _u2_peak, ("omega", "nu_min", "k", "x0_norm")),
-    "clip.residual_bound": Entry("distance at t₀ + T is at most", partial(_residual, chain="split")),
-    "clip.residual_bound_printed": Entry("distance at t₀ + T, as printed", partial(_residual, chain="printed")),
-    "clip.nu_min_for_residual": Entry("largest ν_min for the residual", _nu_min_for_residual, ("residual",)),
+    "clip.residual_bound": Entry("average at t₀ + T within", partial(_residual, chain="split")),
+    "clip.residual_bound_printed": Entry("average at t₀ + T within, as printed", partial(_residual, chain="printed")),
+    "clip.nu_min_for_residual": Entry(
+        "largest ν_min for the average's residual", _nu_min_for_residual, ("residual",)),
+    "vehicle.hover_radius": Entry("the vehicle circles at 1/√ω", _hover, ("omega",)),
+    "vehicle.omega_for_residual": Entry(
+        "least ω with 1/√ω within the residual", lambda data, residual: 1 / residual**2, ("residual",)),
 }  # fmt: skip
 ENTRIES: Mapping[str, Mapping[str, Entry]] = MappingProxyType({
     section: {key.split(".")[1]: entry for key, entry in _TABLE.items() if key.startswith(f"{section}.")}
