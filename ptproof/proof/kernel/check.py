@@ -114,7 +114,7 @@ def _answers(folder, number, part, timeout):
     run = 0
     while rest:
         propositions = {item.name: item.text for _, item in rest}
-        theorems = [coq.Theorem(item.name, item.text, script(claim).replace("claim;", f"{item.name};")) for claim, item in rest]
+        theorems = [coq.Theorem(item.name, item.text, script(item)) for claim, item in rest]
         file = folder / f"claims_{number:03d}_{run}.v"
         run += 1
         file.write_text(coq.source(propositions, theorems, int(timeout)))

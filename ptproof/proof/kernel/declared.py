@@ -41,11 +41,15 @@ def of_functions(applied: Iterable[AppliedUndef], free: set[sp.Symbol], names: N
     it has it there.
     """
     found: list[str] = []
+    seen: set[Any] = set()
     for call in sorted(applied, key=sp.default_sort_key):
         if not call.is_real:
             raise NoTranslation(f"no translation for {call.func}, which is not declared real")
-        kinds = [text for (word, truth), text in _KINDS.items() if _own(call.func).get(word) is truth]
-        for kind in kinds:
+        signature = (call.func, bare(call) and tuple(of_symbol(item, "x") for item in call.args))
+        if signature[1] and signature in seen:
+            continue
+        seen.add(signature)
+        for kind in _strongest(call.func):
             if bare(call):
                 found.append(everywhere(call, kind.format(term(call, names)), names))
             elif call.free_symbols <= free:
@@ -82,5 +86,8 @@ def everywhere(call: AppliedUndef, proposition: str, names: Names) -> str:
     return f"(forall {variables} : R, {' -> '.join([*kinds, proposition])})"
 
 
-def _own(function: Any) -> dict[str, bool]:
-    return {word: truth for word, truth in function._kwargs.items() if truth is not None}
+def _strongest(function: Any) -> list[str]:
+    """What the function's values are declared to be, without what follows from the first sign."""
+    own = {word for word, truth in function._kwargs.items() if truth is True}
+    signs = next((word for word in ("zero", "positive", "negative", "nonnegative", "nonpositive", "nonzero") if word in own), "")
+    return [_KINDS[word, True] for word in (signs, "integer") if word in own]

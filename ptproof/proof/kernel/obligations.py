@@ -2,13 +2,26 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+
 import sympy as sp
 
 from ptproof.proof.kernel.names import Names
 from ptproof.proof.kernel.terms import SIGNS, NoTranslation, positive_base, term
+from ptproof.proof.statement import Relation, RelationSign
 
 
-def obligations(expression: sp.Basic, names: Names) -> tuple[str, ...]:
+@dataclass(frozen=True)
+class Part:
+    """One proposition: as text for Coq and, where it is a plain relation, as that relation."""
+
+    text: str
+    relation: Relation | None = field(default=None, compare=False)
+
+
+def obligations(expression: sp.Basic, names: Names) -> tuple[Part, ...]:
     """Propositions of which all hold exactly where the expression is defined and real (or in fewer places).
 
     Raises
@@ -19,12 +32,13 @@ def obligations(expression: sp.Basic, names: Names) -> tuple[str, ...]:
     return tuple(dict.fromkeys(_parts(expression, names)))
 
 
-def conjunction(parts: tuple[str, ...] | list[str]) -> str:
-    """All of them, or True."""
-    return " /\\ ".join(parts) or "True"
+def _signed(expression: sp.Basic, sign: RelationSign, names: Names) -> Part:
+    text = term(expression, names)
+    words = {"!=": f"{text} <> 0", ">": f"0 < {text}", ">=": f"0 <= {text}"}
+    return Part(words[sign], Relation(expression, sign, sp.Integer(0)))
 
 
-def _parts(expression: sp.Basic, names: Names) -> list[str]:
+def _parts(expression: sp.Basic, names: Names) -> list[Part]:
     if expression.is_Atom:
         return []
     match expression:
@@ -44,33 +58,33 @@ def _parts(expression: sp.Basic, names: Names) -> list[str]:
     if isinstance(expression, sp.Pow):
         found += _power(expression, names)
     elif isinstance(expression, sp.log):
-        found.append(f"0 < {term(expression.args[0], names)}")
+        found.append(_signed(expression.args[0], ">", names))
     elif isinstance(expression, sp.tan):
-        found.append(f"cos {term(expression.args[0], names)} <> 0")
+        found.append(_signed(sp.cos(expression.args[0]), "!=", names))
     return found
 
 
-def _at(proposition: str, subs: sp.Subs, names: Names) -> str:
+def _at(part: Part, subs: sp.Subs, names: Names) -> Part:
     variables = " ".join(term(variable, names) for variable in subs.variables)
-    return f"((fun {variables} => {proposition}) {' '.join(term(point, names) for point in subs.point)})"
+    return Part(f"((fun {variables} => {part.text}) {' '.join(term(point, names) for point in subs.point)})")
 
 
-def _power(power: sp.Pow, names: Names) -> list[str]:
+def _power(power: sp.Pow, names: Names) -> list[Part]:
     base, exponent = power.args
     if base.is_Rational and base > 0:
         return []
-    text = term(base, names)
     if exponent.is_Integer:
-        return [f"{text} <> 0"] if exponent < 0 else []
+        return [_signed(base, "!=", names)] if exponent < 0 else []
     if exponent.is_Rational and exponent.q == 2:
-        return [f"0 < {text}" if exponent < 0 else f"0 <= {text}"]
+        return [_signed(base, ">" if exponent < 0 else ">=", names)]
     if positive_base(power):
-        return [f"0 < {text}"]
-    return [f"(0 < {text} \\/ ({text} = 0 /\\ 0 < {term(exponent, names)}))"]
+        return [_signed(base, ">", names)]
+    text = term(base, names)
+    return [Part(f"(0 < {text} \\/ ({text} = 0 /\\ 0 < {term(exponent, names)}))")]
 
 
-def _branches(expression: sp.Piecewise, names: Names) -> list[str]:
-    found: list[str] = []
+def _branches(expression: sp.Piecewise, names: Names) -> list[Part]:
+    found: list[Part] = []
     past: list[str] = []
     for value, condition in expression.args:
         if condition == sp.true:
@@ -85,26 +99,26 @@ def _branches(expression: sp.Piecewise, names: Names) -> list[str]:
     return found
 
 
-def _under(conditions: list[str], parts: tuple[str, ...] | list[str]) -> list[str]:
-    return [f"({' -> '.join([*conditions, part])})" for part in parts]
+def _under(conditions: Sequence[str], parts: Iterable[Part]) -> list[Part]:
+    return [Part(f"({' -> '.join([*conditions, part.text])})") if conditions else part for part in parts]
 
 
-def _derivative(expression: sp.Derivative, names: Names) -> list[str]:
+def _derivative(expression: sp.Derivative, names: Names) -> list[Part]:
     """That every step can be differentiated here, and that what is differentiated is defined near by."""
-    found: list[str] = []
+    found: list[Part] = []
     inner = expression.expr
     parts = list(obligations(inner, names))
     for variable in expression.variables:
         name, text = term(variable, names), term(inner, names)
-        around = [f"locally {name} (fun {name} => {part})" if _mentions(part, name) else part for part in parts]
-        found = [*around, f"ex_derive (fun {name} => {text}) {name}"]
+        around = [Part(f"locally {name} (fun {name} => {part.text})") if _mentions(part, name) else part for part in parts]
+        found = [*around, Part(f"ex_derive (fun {name} => {text}) {name}")]
         inner = sp.Derivative(inner, variable, evaluate=False) if inner is expression.expr else inner.func(
             expression.expr, *inner.variables, variable, evaluate=False)  # fmt: skip
         parts = found
     return found
 
 
-def _integral(expression: sp.Integral, names: Names) -> list[str]:
+def _integral(expression: sp.Integral, names: Names) -> list[Part]:
     """That the integrand is defined on the closed interval, and integrable there."""
     inner, parts = expression.function, list(obligations(expression.function, names))
     for limits in expression.limits:
@@ -113,13 +127,12 @@ def _integral(expression: sp.Integral, names: Names) -> list[str]:
         variable, lower, upper = (term(item, names) for item in limits)
         between = f"Rmin {lower} {upper} <= {variable} <= Rmax {lower} {upper}"
         found = [part for bound in limits[1:] for part in obligations(bound, names)]
-        found += [f"(forall {variable} : R, {between} -> {part})" if _mentions(part, variable) else part for part in parts]
-        found.append(f"ex_RInt (fun {variable} => {term(inner, names)}) {lower} {upper}")
+        found += [Part(f"(forall {variable} : R, {between} -> {part.text})") if _mentions(part, variable) else part
+                  for part in parts]  # fmt: skip
+        found.append(Part(f"ex_RInt (fun {variable} => {term(inner, names)}) {lower} {upper}"))
         inner, parts = sp.Integral(inner, limits), found
     return parts
 
 
-def _mentions(proposition: str, name: str) -> bool:
-    import re
-
-    return re.search(rf"(?<![A-Za-z0-9_]){re.escape(name)}(?![A-Za-z0-9_])", proposition) is not None
+def _mentions(part: Part, name: str) -> bool:
+    return re.search(rf"(?<![A-Za-z0-9_]){re.escape(name)}(?![A-Za-z0-9_])", part.text) is not None

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -11,7 +12,7 @@ from sympy.core.function import AppliedUndef
 from ptproof.proof.claim import Claim
 from ptproof.proof.kernel import declared
 from ptproof.proof.kernel.names import Names, identifiers, plain
-from ptproof.proof.kernel.obligations import conjunction, obligations
+from ptproof.proof.kernel.obligations import Part, obligations
 from ptproof.proof.kernel.terms import SIGNS, NoTranslation, term
 from ptproof.proof.statement import (
     All,
@@ -40,12 +41,16 @@ class Proposition:
         The proposition.
     names
         Which symbol or function became which identifier.
+    premises, conclusions
+        Its parts.
     """
 
     id: str
     name: str
     text: str
     names: Names
+    premises: tuple[Part, ...]
+    conclusions: tuple[Part, ...]
 
 
 def proposition(claim: Claim) -> Proposition:
@@ -62,13 +67,10 @@ def proposition(claim: Claim) -> Proposition:
     functions = {call.func for call in applied}
     bound = {s for expression in expressions_of(statements) for s in expression.atoms(sp.Symbol)} | _bound(statements)
     names = identifiers([*_sorted(functions), *_sorted(free), *_sorted(bound - free)])
-    lines = [f"forall {names[function]} : {_type(function, applied)}" for function in _sorted(functions)]
-    premises: list[str] = []
-    for symbol in _sorted(free):
-        premises += declared.of_symbol(symbol, names[symbol])
-    premises += declared.of_functions(applied, free, names)
+    premises = [Part(text) for symbol in _sorted(free) for text in declared.of_symbol(symbol, names[symbol])]
+    premises += map(Part, declared.of_functions(applied, free, names))
     derivatives = {part for expression in expressions_of(statements) for part in expression.atoms(sp.Derivative)}
-    premises += declared.of_derivatives(derivatives, names)
+    premises += map(Part, declared.of_derivatives(derivatives, names))
     for item in claim.assumptions:
         premises += _given(item, names)
     conclusions, domain = _said(claim.statement, names)
@@ -76,10 +78,20 @@ def proposition(claim: Claim) -> Proposition:
         premises += domain
     else:
         conclusions = [*domain, *conclusions]
+    return Proposition(claim.id, f"claim_{plain(claim.id)}",
+                       _text(names, _sorted(functions), applied, _sorted(free), premises, conclusions), names,
+                       tuple(premises), tuple(conclusions))  # fmt: skip
+
+
+def _text(
+    names: Names, functions: Sequence[Any], applied: set[AppliedUndef], free: Sequence[sp.Symbol],
+    premises: Sequence[Part], conclusions: Sequence[Part],
+) -> str:  # fmt: skip
+    lines = [f"forall {names[function]} : {_type(function, applied)},\n  " for function in functions]
     if free:
-        lines.append(f"forall {' '.join(names[symbol] for symbol in _sorted(free))} : R")
-    body = "\n  -> ".join([*premises, conjunction(conclusions)])
-    return Proposition(claim.id, f"claim_{plain(claim.id)}", "".join(f"{line},\n  " for line in lines) + body, names)
+        lines.append(f"forall {' '.join(names[symbol] for symbol in free)} : R,\n  ")
+    said = "\n  /\\ ".join(part.text for part in conclusions) or "True"
+    return "".join(lines) + "\n  -> ".join([*(part.text for part in premises), said])
 
 
 def _free(claim: Claim) -> set[sp.Symbol]:
@@ -118,27 +130,34 @@ def _type(function: sp.Basic, applied: set[AppliedUndef]) -> str:
     return " -> ".join(["R"] * (lengths.pop() + 1))
 
 
-def _given(item: Assumption, names: Names) -> list[str]:
+def _given(item: Assumption, names: Names) -> list[Part]:
     """The assumption, and that its sides are defined: it allows only such values."""
     if isinstance(item, Relation):
         return [part for relation in item.components() for part in _relation(relation, names)]
     premises: list[str] = []
     for symbol in item.variables:
         premises += declared.of_symbol(symbol, names[symbol])
-    for part in (component for given in item.domain for component in given.components()):
-        premises += _relation(part, names)
-    variables = " ".join(names[symbol] for symbol in item.variables)
-    said = conjunction([text for part in item.relation.components() for text in _relation(part, names)])
-    return [f"(forall {variables} : R, {' -> '.join([*premises, f'({said})'])})"]
+    for given in (component for part in item.domain for component in part.components()):
+        premises += [part.text for part in _relation(given, names)]
+    said = _conjunction(part for component in item.relation.components() for part in _relation(component, names))
+    return [Part(f"(forall {_variables(item.variables, names)} : R, {' -> '.join([*premises, f'({said})'])})")]
 
 
-def _relation(relation: Relation, names: Names) -> list[str]:
+def _variables(symbols: Sequence[sp.Symbol], names: Names) -> str:
+    return " ".join(names[symbol] for symbol in symbols)
+
+
+def _conjunction(parts: Iterable[Part]) -> str:
+    return " /\\ ".join(dict.fromkeys(part.text for part in parts)) or "True"
+
+
+def _relation(relation: Relation, names: Names) -> list[Part]:
     """What has to be defined for the relation, and then the relation itself."""
-    domain, text = _sides(relation, names)
-    return [*domain, text]
+    domain, said = _sides(relation, names)
+    return [*domain, said]
 
 
-def _sides(relation: Relation, names: Names) -> tuple[tuple[str, ...], str]:
+def _sides(relation: Relation, names: Names) -> tuple[tuple[Part, ...], Part]:
     if relation.sign == "=":
         for side, other in ((relation.left, relation.right), (relation.right, relation.left)):
             if isinstance(side, sp.Limit):
@@ -146,10 +165,11 @@ def _sides(relation: Relation, names: Names) -> tuple[tuple[str, ...], str]:
             if isinstance(side, sp.Integral) and any(end.is_infinite for end in side.limits[0][1:]):
                 return _improper(side, other, names)
     domain = tuple(dict.fromkeys([*obligations(relation.left, names), *obligations(relation.right, names)]))
-    return domain, f"{term(relation.left, names)} {SIGNS[relation.sign]} {term(relation.right, names)}"
+    text = f"{term(relation.left, names)} {SIGNS[relation.sign]} {term(relation.right, names)}"
+    return domain, Part(text, relation)
 
 
-def _limit(limit: sp.Limit, value: sp.Basic, names: Names) -> tuple[tuple[str, ...], str]:
+def _limit(limit: sp.Limit, value: sp.Basic, names: Names) -> tuple[tuple[Part, ...], Part]:
     """A limit exists and is the value; near the place, what is followed is defined."""
     expression, variable, place, side = limit.args
     infinite = {sp.oo: "(Rbar_locally p_infty)", -sp.oo: "(Rbar_locally m_infty)"}
@@ -162,23 +182,25 @@ def _limit(limit: sp.Limit, value: sp.Basic, names: Names) -> tuple[tuple[str, .
     target = infinite.get(value) or f"(locally {term(value, names)})"
     domain = [] if place in infinite else list(obligations(place, names))
     domain += [] if value in infinite else list(obligations(value, names))
-    domain += [f"{where} (fun {name} => {part})" for part in obligations(expression, names)]
-    return tuple(domain), f"filterlim (fun {name} => {term(expression, names)}) {where} {target}"
+    domain += [Part(f"{where} (fun {name} => {part.text})") for part in obligations(expression, names)]
+    return tuple(domain), Part(f"filterlim (fun {name} => {term(expression, names)}) {where} {target}")
 
 
-def _improper(integral: sp.Integral, value: sp.Basic, names: Names) -> tuple[tuple[str, ...], str]:
+def _improper(integral: sp.Integral, value: sp.Basic, names: Names) -> tuple[tuple[Part, ...], Part]:
     """An integral to infinity exists and is the value."""
     ((variable, lower, upper),) = integral.limits
     if upper is not sp.oo or lower.is_infinite:
         raise NoTranslation(f"no translation for an integral from {lower} to {upper}")
     name, start = term(variable, names), term(lower, names)
-    inside = [f"(forall {name} : R, {start} <= {name} -> {part})" for part in obligations(integral.function, names)]
+    inside = [Part(f"(forall {name} : R, {start} <= {name} -> {part.text})")
+              for part in obligations(integral.function, names)]  # fmt: skip
     domain = (*obligations(lower, names), *obligations(value, names), *inside)
     function = f"(fun {name} => {term(integral.function, names)})"
-    return domain, f"is_RInt_gen {function} (at_point {start}) (Rbar_locally p_infty) {term(value, names)}"
+    said = f"is_RInt_gen {function} (at_point {start}) (Rbar_locally p_infty) {term(value, names)}"
+    return domain, Part(said)
 
 
-def _said(statement: Statement, names: Names) -> tuple[list[str], list[str]]:
+def _said(statement: Statement, names: Names) -> tuple[list[Part], list[Part]]:
     """The conclusions, and what has to be defined for them."""
     match statement:
         case Relation():
@@ -186,7 +208,7 @@ def _said(statement: Statement, names: Names) -> tuple[list[str], list[str]]:
         case All(every):
             parts = [component for part in every for component in part.components()]
         case Exists():
-            return [_exists(statement, names)], []
+            return [Part(_exists(statement, names))], []
         case _:
             raise NoTranslation(f"no translation for a statement of the kind {type(statement).__name__.lower()}")
     said = [_sides(part, names) for part in parts]
@@ -195,15 +217,11 @@ def _said(statement: Statement, names: Names) -> tuple[list[str], list[str]]:
 
 
 def _exists(statement: Exists, names: Names) -> str:
-    body = [text for part in statement.body for relation in part.components() for text in _relation(relation, names)]
-    text = conjunction(list(dict.fromkeys(body)))
+    text = _conjunction(part for item in statement.body for given in item.components() for part in _relation(given, names))
     if statement.over:
         kinds = [kind for symbol in statement.over for kind in declared.of_symbol(symbol, names[symbol])]
-        variables = " ".join(names[symbol] for symbol in statement.over)
-        text = f"(forall {variables} : R, {' -> '.join([*kinds, f'({text})'])})"
+        text = f"(forall {_variables(statement.over, names)} : R, {' -> '.join([*kinds, f'({text})'])})"
     for symbol in reversed(statement.variables):
         text = " /\\ ".join([*declared.of_symbol(symbol, names[symbol]), text])
         text = f"(exists {names[symbol]} : R, {text})"
     return text
-
-

@@ -5,6 +5,9 @@ From Interval Require Import Tactic.
 Open Scope R_scope.
 
 (* The declarations of symbols. *)
+Lemma Rlt_Rminus_rev : forall a b, 0 < b - a -> a < b.
+Proof. intros. lra. Qed.
+
 Definition is_integer (x : R) : Prop := exists z : Z, x = IZR z.
 
 (* x^y for x >= 0: Coq's Rpower is 1 where x = 0. *)
@@ -299,5 +302,61 @@ Ltac leaf :=
   | |- _ => first [ inequality | solve [derivatives; inequality] ]
   end.
 
-Ltac ptproof := intros; facts; pieces;
-  first [ leaf | lazymatch goal with |- ?g => fail 1 "at" g end ].
+Ltac leaf_or_say := first [ leaf | lazymatch goal with |- ?g => fail 1 "at" g end ].
+
+(* A variable replaced: by what it is equal to, or by a bound and what is above the bound. *)
+Ltac replace_by v e :=
+  let E := fresh in assert (E : v = e) by (first [ lra | field_simplify_eq; [ lra | sides ] ]); subst v.
+Ltac at_least v e s :=
+  let P := fresh in let E := fresh in
+  pose (s := v - e); assert (P : 0 <= s) by (unfold s; lra); assert (E : v = e + s) by (unfold s; ring);
+  clearbody s; subst v.
+Ltac above v e s :=
+  let P := fresh in let E := fresh in
+  pose (s := v - e); assert (P : 0 < s) by (unfold s; lra); assert (E : v = e + s) by (unfold s; ring);
+  clearbody s; subst v.
+
+(* The difference of the two sides is e, whose sign is seen by its structure. *)
+Ltac to_difference :=
+  lazymatch goal with
+  | |- ?a < ?b => apply Rlt_Rminus_rev
+  | |- ?a <= ?b => apply Rminus_le_0
+  | |- ?a > ?b => change (b < a); apply Rlt_Rminus_rev
+  | |- ?a >= ?b => apply Rle_ge; apply Rminus_le_0
+  end.
+Ltac difference_as e :=
+  to_difference;
+  lazymatch goal with
+  | |- 0 < ?d => replace d with e by rational
+  | |- 0 <= ?d => replace d with e by rational
+  end; sign.
+Ltac nonzero_as e := lazymatch goal with |- ?d <> 0 => replace d with e by rational end; sign.
+
+(* The difference is top / bottom with bottom > 0: what is left is the sign of the polynomial top. *)
+Ltac top_of top bottom :=
+  to_difference;
+  lazymatch goal with
+  | |- 0 < ?d => replace d with (top / bottom) by rational; apply Rdiv_lt_0_compat; [ | sign ]
+  | |- 0 <= ?d => replace d with (top / bottom) by rational; apply Rdiv_le_0_compat; [ | sign ]
+  end.
+Lemma top_nonneg : forall a b top bottom, a <= b -> 0 < bottom -> b - a = top / bottom -> 0 <= top.
+Proof.
+  intros a b top bottom L P E. replace top with ((b - a) * bottom) by (rewrite E; field; lra).
+  apply Rmult_le_pos; lra.
+Qed.
+Lemma top_positive : forall a b top bottom, a < b -> 0 < bottom -> b - a = top / bottom -> 0 < top.
+Proof.
+  intros a b top bottom L P E. replace top with ((b - a) * bottom) by (rewrite E; field; lra).
+  apply Rmult_lt_0_compat; lra.
+Qed.
+Ltac fact_from bottom top :=
+  match goal with
+  | H : ?a < ?b |- _ => assert (0 < top) by (apply (top_positive a b top bottom H); [ sign | rational ])
+  | H : ?a > ?b |- _ => assert (0 < top) by (apply (top_positive b a top bottom H); [ sign | rational ])
+  | H : ?a <= ?b |- _ => assert (0 <= top) by (apply (top_nonneg a b top bottom H); [ sign | rational ])
+  | H : ?a >= ?b |- _ => assert (0 <= top) by (apply (top_nonneg b a top bottom (Rge_le _ _ H)); [ sign | rational ])
+  | H : ?a = ?b |- _ => assert (0 <= top) by (apply (top_nonneg a b top bottom (Req_le _ _ H)); [ sign | rational ])
+  | H : ?a = ?b |- _ => assert (0 <= top) by (apply (top_nonneg b a top bottom (Req_le_sym _ _ H)); [ sign | rational ])
+  end.
+Ltac product p := first [ assert (0 < p) by sign | assert (0 <= p) by sign ].
+Ltac linear := first [ lra | timeout 5 nra ].
