@@ -67,6 +67,10 @@ def claim_progress(total: int) -> Iterator[Callable[[Claim, Evidence], None]]:
 def verification_table(verification: Verification) -> None:
     """The claims with their verdicts, grouped by section, then the witnesses of what is false."""
     console = output(highlight=False)
+    for result in verification.results:
+        if result.hit is not None:
+            console.print(Text(f"{result.claim.id}: {result.hit.detail}", style="bold white on red"))
+            console.print()
     sections: dict[str, list[Result]] = {}
     for result in verification.results:
         sections.setdefault(result.claim.section, []).append(result)

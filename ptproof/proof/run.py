@@ -12,6 +12,7 @@ from ptproof.errors import InputError
 from ptproof.proof.answering import in_workers, on_cluster, run_here
 from ptproof.proof.claim import Claim, Result
 from ptproof.proof.load import Derivation, homes_of, with_ancestors
+from ptproof.proof.settling import ATTACK
 from ptproof.proof.verdict import Evidence, Verdict
 
 SECONDS_PER_CLAIM = 60.0
@@ -31,13 +32,14 @@ class Verification:
         return all(result.as_expected for result in self.results)
 
     def summary(self) -> dict[str, int]:
-        """How many claims ended in each verdict, and how many are fully proved or not as expected."""
+        """How many claims ended in each verdict, are fully proved, not as expected, or proved and yet hit."""
         counts = {str(verdict): 0 for verdict in Verdict}
         for result in self.results:
             counts[str(result.verdict)] += 1
         counts["total"] = len(self.results)
         counts["fully_proved"] = sum(result.fully_proved for result in self.results)
         counts["unexpected"] = sum(not result.as_expected for result in self.results)
+        counts["hit"] = sum(result.hit is not None for result in self.results)
         return counts
 
     def to_json(self) -> dict[str, Any]:
@@ -75,7 +77,8 @@ def conclude(claims: Sequence[Claim], evidence: Mapping[str, Evidence]) -> tuple
 
 def _concluded(claim: Claim, own: Evidence, used: Sequence[Result], others: Sequence[str]) -> Result:
     """One claim's result from its own evidence, from what it uses, and from the ids that it uses but nobody decided."""
-    verdict, items = own.verdict, [replace(own, besides=()), *own.besides]
+    sound = not others and all(item.fully_proved for item in used)
+    verdict, items = own.verdict, [replace(own, besides=()), *(_blamed(item, sound) for item in own.besides)]
     false = [item.claim.id for item in used if item.verdict is Verdict.REFUTED]
     for engine, reason in (
         ("content", "what was decided is not what this claim says" if own.content != claim.content else ""),
@@ -94,6 +97,17 @@ def _concluded(claim: Claim, own: Evidence, used: Sequence[Result], others: Sequ
     fully = verdict is Verdict.PROVED and not open_ones
     rests = open_ones if verdict is Verdict.PROVED else (claim.id,)
     return Result(claim, verdict, tuple(items), fully, () if fully else rests)
+
+
+def _blamed(item: Evidence, sound: bool) -> Evidence:
+    """A hit of the attacker with what is to blame: ptproof itself, or something unproved that the claim uses."""
+    if (item.engine, item.verdict) != (ATTACK, Verdict.REFUTED):
+        return item
+    if sound:
+        return replace(item, detail=f"ptproof contradicts itself; please report this: {item.detail}")
+    return replace(
+        item, verdict=Verdict.OBSERVED, detail=f"what it uses is not all proved, and is false: {item.detail}"
+    )
 
 
 def verify(

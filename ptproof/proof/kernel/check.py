@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import os
-import re
 import signal
 import subprocess
 import tempfile
 import threading
 import time
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
@@ -124,10 +123,18 @@ def _answers(folder, number, part, timeout):
         heard = list(coq.heard(output, theorems))
         for (claim, item), (_, said) in zip(rest, heard):
             yield claim, Confirmation(not said.reason, said.reason, item.text, seconds)
-        rest = rest[len(heard):]
+        rest = rest[len(heard) :]
         if rest:
             claim, item = rest.pop(0)
-            yield claim, Confirmation(False, "time limit" if late or "Timeout" in error else "no tactic proved it: " + error[-300:], item.text, seconds)
+            yield (
+                claim,
+                Confirmation(
+                    False,
+                    "time limit" if late or "Timeout" in error else "no tactic proved it: " + error[-300:],
+                    item.text,
+                    seconds,
+                ),
+            )
 
 
 def _coqc(folder: Path, file: str, seconds: float) -> tuple[str, str, bool]:

@@ -46,7 +46,13 @@ class Atoms:
     def _atom(self, expression: sp.Basic) -> sp.Symbol:
         if expression not in self.symbols:
             text = term(expression, self.names)
-            signs = {"positive": True} if expression.is_positive else {"nonnegative": True} if expression.is_nonnegative else {}
+            signs = (
+                {"positive": True}
+                if expression.is_positive
+                else {"nonnegative": True}
+                if expression.is_nonnegative
+                else {}
+            )
             symbol = sp.Dummy(f"atom{len(self.symbols)}", real=True, **signs)
             self.symbols[expression] = symbol
             self.names[symbol] = text
@@ -89,7 +95,9 @@ def _slack(said: Proposition, atoms: Atoms) -> tuple[dict[sp.Symbol, sp.Expr], l
                 value = sp.together(rest) if not rest.is_Atom else rest
                 lines.append(f"try (replace_by {text} {_brackets(term(value, atoms.names))})")
             else:
-                slack = sp.Symbol(f"slack_{len(lines)}", **{"positive" if relation.sign == "<" else "nonnegative": True})
+                slack = sp.Symbol(
+                    f"slack_{len(lines)}", **{"positive" if relation.sign == "<" else "nonnegative": True}
+                )
                 atoms.names[slack] = _fresh(slack.name, atoms)
                 value = rest + slack
                 tactic = "above" if relation.sign == "<" else "at_least"
@@ -113,6 +121,7 @@ def _brackets(text: str) -> str:
 
 def _solvable(gap: sp.Expr, moved: dict[sp.Symbol, sp.Expr], sign: str) -> sp.Symbol | None:
     """A symbol that the gap holds once and with the factor 1 (or -1, for an equation); those without a sign first."""
+
     def fits(symbol: sp.Symbol) -> bool:
         factor = gap.coeff(symbol)
         return factor == 1 or (sign == "=" and factor == -1)
@@ -140,7 +149,8 @@ def _leaf(part: Part, moved: dict[sp.Symbol, sp.Expr], atoms: Atoms, known: list
         return ""
     try:
         gap = atoms(relation.standard().map(lambda side: side.xreplace(moved)).right) - atoms(
-            relation.standard().map(lambda side: side.xreplace(moved)).left)
+            relation.standard().map(lambda side: side.xreplace(moved)).left
+        )
         if relation.sign == "!=":
             gap = -gap
         rational = sp.factor(sp.together(gap))
@@ -159,7 +169,9 @@ def _products(rational: sp.Expr, relation: Relation, atoms: Atoms, known: list[R
     lines = []
     top, bottom = sp.fraction(rational)
     for fact in found.facts:
-        lines.append(f"fact_from {_brackets(term(fact.relation_bottom, atoms.names))} {_brackets(term(fact.top, atoms.names))}")
+        lines.append(
+            f"fact_from {_brackets(term(fact.relation_bottom, atoms.names))} {_brackets(term(fact.top, atoms.names))}"
+        )
     for product in found.products:
         factors = " * ".join(_brackets(term(factor, atoms.names)) for factor in product)
         lines.append(f"product ({factors})")

@@ -60,11 +60,16 @@ def products(rational: sp.Expr, strict: bool, known: Sequence[Relation]) -> Sum 
     candidates: list[tuple[tuple[sp.Expr, ...], sp.Poly, bool]] = []
     for factors, poly, positive in bases:
         room = total - poly.total_degree()
-        free = [max(0, degrees[i] - min(m[i] for m in poly.monoms())) if s in signed else 0 for i, s in enumerate(generators)]
+        free = [
+            max(0, degrees[i] - min(m[i] for m in poly.monoms())) if s in signed else 0
+            for i, s in enumerate(generators)
+        ]
         for powers in _monomials(free, room):
             monomial = sp.Poly({powers: 1}, *generators)
             expressions = tuple(s for s, n in zip(generators, powers, strict=True) for _ in range(n))
-            candidates.append(((*expressions, *factors), monomial * poly, positive and all(s.is_positive for s in expressions)))
+            candidates.append(
+                ((*expressions, *factors), monomial * poly, positive and all(s.is_positive for s in expressions))
+            )
             if len(candidates) > _MOST:
                 return None
     chosen = _combination(target, candidates, strict)
@@ -79,7 +84,7 @@ def _facts(relation: Relation) -> list[Fact]:
     gap = sp.together(relation.right - relation.left)
     top, bottom = sp.fraction(gap)
     top = sp.expand(top)
-    if not top.free_symbols or top.is_nonnegative and top.is_Symbol:
+    if not top.free_symbols or (top.is_nonnegative and top.is_Symbol):
         return []
     if relation.sign == "=":
         return [Fact(top, bottom, False), Fact(-top, bottom, False)]
@@ -114,7 +119,10 @@ def _combination(target: sp.Poly, candidates, strict: bool):
     vector = np.zeros(len(rows))
     for m, v in right.items():
         vector[rows[m]] = v
-    matrix = coo_matrix(([e[2] for e in entries], ([e[0] for e in entries], [e[1] for e in entries])), shape=(len(rows), len(candidates)))
+    matrix = coo_matrix(
+        ([e[2] for e in entries], ([e[0] for e in entries], [e[1] for e in entries])),
+        shape=(len(rows), len(candidates)),
+    )
     cost = np.array([1.0 + len(c[0]) for c in candidates])
     done = linprog(cost, A_eq=matrix.tocsr(), b_eq=vector, bounds=(0, None), method="highs", options={"time_limit": 5})
     if done.status != 0:
