@@ -198,7 +198,7 @@ def _is_continuous(fast: FastStates, domain: Sequence[Relation]) -> bool:
 
 
 def _monotone(fast: FastStates, domain: Sequence[Relation]) -> bool:
-    """Whether the symmetric part of −∂g/∂z is positive definite everywhere, by its leading minors, for a continuous g."""
+    """Whether g is continuous, and the symmetric part of −∂g/∂z is positive definite by its leading minors."""
     if not _is_continuous(fast, domain):
         return False
     matrix = -sp.Matrix(list(fast.rate)).jacobian(list(fast.state))
