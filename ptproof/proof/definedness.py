@@ -233,7 +233,9 @@ def _integral(node: sp.Integral, place: _Place) -> Iterator[Obligation]:
         fresh = like(variable)
         function = function.xreplace({variable: fresh})
         if len(finite) < 2:
-            between = tuple(relation for relation, end in ((ge(fresh, low), low), (le(fresh, high), high)) if end in finite)
+            between = tuple(
+                relation for relation, end in ((ge(fresh, low), low), (le(fresh, high), high)) if end in finite
+            )
         elif (high - low).is_nonnegative:
             between = (ge(fresh, low), le(fresh, high))
         else:
