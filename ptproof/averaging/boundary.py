@@ -14,7 +14,7 @@ from ptproof.proof.engines.reals import follows
 from ptproof.proof.kinks import KINKS
 from ptproof.proof.signs import sign_of, vanishes
 from ptproof.proof.statement import Relation
-from ptproof.proof.substitution import substitute_in
+from ptproof.proof.substitution import Substitution
 from ptproof.proof.verdict import Evidence, Verdict, Witness
 
 ENGINE = "boundary layer"
@@ -103,7 +103,7 @@ def _unstable(
         return None  # it may have no linearisation
     there = dict(zip(fast.state, steady, strict=True))
     entries = [entry.subs(there, simultaneous=True) for entry in (*matrix, *fast.rate)]
-    within = [substitute_in(relation, there) for relation in domain if relation.free_symbols & set(fast.state)]
+    within = [Substitution(there).relation(relation) for relation in domain if relation.free_symbols & set(fast.state)]
     sides = [side for relation in within for side in (relation.left, relation.right)]
     everything, back = masked_functions(sp.Tuple(*entries, *sides))
     local = sp.Matrix(matrix.rows, matrix.cols, everything[: len(matrix)]).applyfunc(sp.expand)

@@ -17,7 +17,7 @@ from ptproof.proof.engines.reals import follows
 from ptproof.proof.engines.smoothness import smoothness
 from ptproof.proof.signs import holds, sign_of, vanishes
 from ptproof.proof.statement import Relation
-from ptproof.proof.substitution import substitute_in
+from ptproof.proof.substitution import Substitution
 from ptproof.proof.verdict import Evidence, Verdict, Witness
 from ptproof.transforms import reduction
 
@@ -158,7 +158,7 @@ def _count(fast: FastStates, domain: Sequence[Relation]) -> tuple[str, Witness] 
         polynomial, bottom = numerator.subs(there), denominator.subs(there)
         if symbol not in polynomial.free_symbols:
             continue
-        roots = _roots_within(polynomial, bottom, symbol, [substitute_in(relation, there) for relation in own])
+        roots = _roots_within(polynomial, bottom, symbol, list(map(Substitution(there).relation, own)))
         if roots is not None and len(roots) != 1:
             names = {str(back.get(entry, entry)): str(value) for entry, value in there.items()}
             where = f" with {', '.join(map(str, own))}" if own else ""
@@ -180,7 +180,7 @@ def _roots_within(
     for root in sorted(set(scalar.real_roots()), key=float):
         if sign_of(bottom.subs(symbol, root)) not in (-1, 1):
             return None
-        here = [substitute_in(relation, {symbol: root}) for relation in domain]
+        here = list(map(Substitution({symbol: root}).relation, domain))
         if all(map(holds, here)):
             within.append(root)
         elif not any(holds(relation.negation()) for relation in here):

@@ -9,9 +9,8 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from ptproof.proof.declarations import admissible, declared
-from ptproof.proof.signs import holds
 from ptproof.proof.statement import Relation
-from ptproof.proof.substitution import substitute_in
+from ptproof.proof.substitution import holds_at
 from ptproof.system import differentiated
 
 _VALUES = (sp.S.Zero, sp.S.One, sp.Rational(-3, 2), sp.Integer(3), sp.Rational(1, 2), sp.Integer(-2))
@@ -57,7 +56,7 @@ def sample_points(
     pools = [[value for value in _pool(symbol, within) if admissible(symbol, value)] for symbol in ordered]
     for values in itertools.islice(itertools.product(*pools), 20 * _MOST):
         point = dict(zip(ordered, values, strict=True))
-        if all(holds(substitute_in(relation, point)) for relation in within) and _is_possible(point, meaning):
+        if holds_at(within, point) and _is_possible(point, meaning):
             yield point
 
 
@@ -74,7 +73,7 @@ def _pool(symbol: sp.Symbol, domain: Sequence[Relation]) -> list[sp.Expr]:
     middle = [sp.Add(*bounds) / len(bounds)]
     own = [relation for relation in domain if relation.free_symbols == {symbol}]
     values = dict.fromkeys([*middle, *_VALUES, *bounds])
-    return [value for value in values if all(holds(substitute_in(part, {symbol: value})) for part in own)]
+    return [value for value in values if holds_at(own, {symbol: value})]
 
 
 def _is_possible(point: Mapping[sp.Symbol, sp.Expr], meaning: Mapping[sp.Symbol, sp.Expr]) -> bool:

@@ -111,8 +111,8 @@ def obligations(expression: sp.Basic, shown: Collection[sp.Basic] = ()) -> Itera
 def domain_of(relation: Relation, shown: Collection[sp.Basic] = ()) -> Iterator[Obligation]:
     """What has to hold for both sides of a relation to be defined and real, and is not plain from declarations."""
     for side in (relation.left, relation.right):
-        if isinstance(relation.left, sp.Limit) and side in (sp.oo, -sp.oo):
-            continue  # the value of a limit may be infinite
+        if isinstance(relation.left, sp.Limit | sp.Integral) and side in (sp.oo, -sp.oo):
+            continue  # the value of a limit or an integral may be infinite
         yield from (need for need in obligations(side, shown) if not need.settled)
 
 

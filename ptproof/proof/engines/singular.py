@@ -12,9 +12,9 @@ from sympy.core.function import AppliedUndef
 from ptproof.proof.declarations import admissible, declared
 from ptproof.proof.engines.beside import is_analytic, is_not_real, is_pole, one_sided, sign_beside
 from ptproof.proof.kinks import switching
-from ptproof.proof.signs import holds, sign_of
+from ptproof.proof.signs import sign_of
 from ptproof.proof.statement import MEANING, Relation, RelationSign
-from ptproof.proof.substitution import substitute_in
+from ptproof.proof.substitution import Substitution, holds_at
 from ptproof.proof.verdict import Witness
 from ptproof.system import substitute
 
@@ -80,7 +80,7 @@ def _some_values(relations: Sequence[Relation]) -> dict[str, str] | None:
     """Values with which all of the relations hold, as text; None where none was found."""
     symbols = sorted(set().union(*(relation.free_symbols for relation in relations)), key=lambda symbol: symbol.name)
     for values in _choices(symbols, _MOST):
-        if all(holds(substitute_in(relation, values)) for relation in relations):
+        if holds_at(relations, values):
             return {str(symbol): str(value) for symbol, value in values.items()}
     return None
 
@@ -186,11 +186,11 @@ class _Place:
     def is_allowed(self, position: sp.Expr) -> bool:
         """Whether the domain certainly contains this position on the line."""
         point = {**self.values, self.variable: position}
-        return all(holds(substitute_in(relation, point)) for relation in self.domain)
+        return holds_at(self.domain, point)
 
     def is_inside(self, side: int) -> bool:
         """Whether the domain certainly contains all positions close to the root, on this side of it."""
-        return all(self._holds_beside(substitute_in(relation, self.values), side) for relation in self.domain)
+        return all(self._holds_beside(Substitution(self.values).relation(relation), side) for relation in self.domain)
 
     def _holds_beside(self, relation: Relation, side: int) -> bool:
         difference = relation.left - relation.right
