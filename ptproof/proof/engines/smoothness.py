@@ -12,7 +12,7 @@ from ptproof.errors import InputError
 from ptproof.proof.claim import Goal, engine
 from ptproof.proof.declarations import SIGNS, declared
 from ptproof.proof.engines.singular import find_singularity
-from ptproof.proof.engines.structure import Examiner, Known
+from ptproof.proof.engines.structure import Examiner, Known, Need
 from ptproof.proof.statement import Relation, Smooth
 from ptproof.proof.verdict import Evidence, Verdict
 
@@ -93,7 +93,8 @@ def smoothness(
         return Evidence(ENGINE, Verdict.UNDECIDED, f"not declared as real variables: {names}")
     known = tuple(Known.of(function, value) for function, value in (assumed or {}).items())
     examiner = Examiner(frozenset(variables), known, tuple(domain))
-    shown, left = [], []
+    shown: list[Need] = []
+    left: list[Need] = []
     for need in dict.fromkeys(examiner.needs(expression, order)):
         (shown if examiner.holds(need) else left).append(need)
     if not left:
