@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from rich.console import Console
 from rich.padding import Padding
@@ -12,12 +12,19 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from rich.table import Table
 from rich.text import Text
 
+from ptproof.commands import streams
+
 if TYPE_CHECKING:
     from ptproof.proof.claim import Claim, Result
     from ptproof.proof.run import Verification
     from ptproof.proof.verdict import Evidence
 
 COLOURS = {"proved": "green", "refuted": "red", "undecided": "yellow", "cited": "blue", "observed": "magenta"}
+
+
+def output(**options: Any) -> Console:
+    """Where results are shown to people."""
+    return Console(file=streams.out(), **options)
 
 
 def plain_table(headings: Sequence[str], rows: Iterable[Sequence[str | Text]]) -> Table:
@@ -33,9 +40,10 @@ def plain_table(headings: Sequence[str], rows: Iterable[Sequence[str | Text]]) -
 @contextmanager
 def progress(what: str, total: int) -> Iterator[Callable[..., None]]:
     """A bar that is gone at the end; gives the function to call with how many are newly done, and words beside it."""
+    console = Console(stderr=True)
     bar = Progress(
         TextColumn("{task.description}"), BarColumn(bar_width=20), MofNCompleteColumn(), TimeElapsedColumn(),
-        TextColumn("{task.fields[words]}"), console=Console(stderr=True), transient=True,
+        TextColumn("{task.fields[words]}"), console=console, transient=True, disable=not console.is_terminal,
     )  # fmt: skip
     with bar:
         task = bar.add_task(what, total=total, words="")
@@ -58,7 +66,7 @@ def claim_progress(total: int) -> Iterator[Callable[[Claim, Evidence], None]]:
 
 def verification_table(verification: Verification) -> None:
     """The claims with their verdicts, grouped by section, then the witnesses of what is false."""
-    console = Console(soft_wrap=False, highlight=False)
+    console = output(highlight=False)
     sections: dict[str, list[Result]] = {}
     for result in verification.results:
         sections.setdefault(result.claim.section, []).append(result)

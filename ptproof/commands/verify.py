@@ -22,14 +22,20 @@ def verify(
     Exit status 1 if a claim did not come out as its author recorded.
     """
     from ptproof.commands.terminal import claim_progress, verification_table
-    from ptproof.proof.load import load
+    from ptproof.proof.run import Interrupted
     from ptproof.proof.run import verify as run
 
-    derivation = load(paths)
-    with options.connected(cluster) as client, claim_progress(len(derivation.select(select))) as progress:
-        verification = run(derivation, workers=jobs, client=client, timeout=timeout, select=select, progress=progress)
-    if as_json:
-        options.print_json(verification.to_json())
-    else:
-        verification_table(verification)
-    return 0 if verification.as_expected else 1
+    status = None
+    with options.loaded(paths) as derivation:
+        try:
+            with options.connected(cluster) as client, claim_progress(len(derivation.select(select))) as progress:
+                verification = run(
+                    derivation, workers=jobs, client=client, timeout=timeout, select=select, progress=progress
+                )
+        except Interrupted as interrupted:
+            verification, status = interrupted.verification, options.interrupted(interrupted)
+        if as_json:
+            options.print_json(verification.to_json())
+        else:
+            verification_table(verification)
+    return status if status is not None else 0 if verification.as_expected else 1

@@ -13,6 +13,7 @@ from types import ModuleType
 
 from ptproof.errors import InputError
 from ptproof.proof.claim import Claim, Definition
+from ptproof.reading.outcomes import in_words
 
 
 class NoClaims(InputError):
@@ -203,11 +204,14 @@ def _import(name: str, file: Path, folders: list[str] | None = None) -> ModuleTy
     sys.modules[name] = module = importlib.util.module_from_spec(spec)
     try:
         spec.loader.exec_module(module)
-    except (Exception, SystemExit) as error:
+    except BaseException as error:
         sys.modules.pop(name, None)
         if isinstance(error, InputError):
             raise InputError(f"{file}: {error}") from error
-        raise InputError(f"{_where(error, file)}: {type(error).__name__}: {error}") from error
+        if isinstance(error, KeyboardInterrupt):  # it may be a person's
+            raise
+        what = f"{type(error).__name__}: {error}" if isinstance(error, Exception) else f"the module {in_words(error)}"
+        raise InputError(f"{_where(error, file)}: {what}") from error
     return module
 
 
