@@ -22,7 +22,7 @@ def script(said: Proposition) -> str:
     known = list(dict.fromkeys(part.relation for part in said.premises if part.relation is not None
                                and part.relation.sign != "!=" and not _trivial(part.relation)))  # fmt: skip
     leaves = [_leaf(part, known, said) for part in said.conclusions]
-    return f"unfold {said.name}; intros; facts; pieces; [> {' | '.join(leaves)} ]"
+    return f"intros; facts; pieces; [> {' | '.join(leaves)} ]"
 
 
 def _trivial(relation: Relation) -> bool:
@@ -94,7 +94,9 @@ def _by_logarithms(relation: Relation, known: list[Relation], said: Proposition)
     facts = []
     for item in (given.standard() for given in known):
         if _monomial(item.left) and _monomial(item.right):
-            steps.append(f"try (logarithms_of {_brackets(term(item.left, said.names))} {_brackets(term(item.right, said.names))})")
+            steps.append(
+                f"try (logarithms_of {_brackets(term(item.left, said.names))} {_brackets(term(item.right, said.names))})"
+            )
             facts.append(item.map(_logarithm).map(atoms))
         elif item.left.is_number or item.right.is_number:
             facts.append(item.map(atoms))

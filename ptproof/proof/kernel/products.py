@@ -41,7 +41,7 @@ class _Candidate:
 
 
 def products(top: sp.Expr, known: Sequence[Relation]) -> Sum | None:
-    """Products whose sum is ``top``, or a positive symbol times it; None if none is found among the first few hundred."""
+    """Products whose sum is ``top``, or a positive symbol times it; None if few products do not do."""
     facts = list(dict.fromkeys(fact for relation in known for fact in _facts(relation)))
     symbols = top.free_symbols
     for _ in range(2):
@@ -104,7 +104,10 @@ def _bases(
 
 
 def _candidates(
-    target: Polynomial, bases: Sequence[tuple[tuple[sp.Expr, ...], Polynomial]], generators: Sequence[sp.Symbol], extra: int
+    target: Polynomial,
+    bases: Sequence[tuple[tuple[sp.Expr, ...], Polynomial]],
+    generators: Sequence[sp.Symbol],
+    extra: int,
 ) -> list[_Candidate]:
     """The bases times monomials of what is not negative, of no higher degree than the target, and a little more."""
     degrees = [max((m[i] for m in target), default=0) + extra for i in range(len(generators))]
