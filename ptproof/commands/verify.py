@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import click
 
-from ptproof.commands import options
+from ptproof.commands import opinion, options
 
 
 @click.command()
@@ -14,9 +16,12 @@ from ptproof.commands import options
 @options.cluster
 @options.timeout("one claim")
 @click.option("-k", "select", default="", metavar="TEXT", help="Only claims that contain TEXT, and what they use.")
+@opinion.kernel
+@opinion.keep
 def verify(
-    paths: tuple[str, ...], as_json: bool, jobs: int | None, cluster: str | None, timeout: float, select: str
-) -> int:
+    paths: tuple[str, ...], as_json: bool, jobs: int | None, cluster: str | None, timeout: float, select: str,
+    kernel: bool, keep: Path | None,
+) -> int:  # fmt: skip
     """Verify the claims below each PATH (the shipped derivation of the paper where left out).
 
     Exit status 1 if a claim did not come out as its author recorded.
@@ -25,6 +30,7 @@ def verify(
     from ptproof.proof.run import Interrupted
     from ptproof.proof.run import verify as run
 
+    opinion.available(kernel, keep)
     status = None
     with options.loaded(paths) as derivation:
         try:
@@ -34,6 +40,8 @@ def verify(
                 )
         except Interrupted as interrupted:
             verification, status = interrupted.verification, options.interrupted(interrupted)
+        if kernel and status is None:
+            verification = opinion.confirmed(verification, jobs, keep)
         if as_json:
             options.print_json(verification.to_json())
         else:

@@ -1,4 +1,4 @@
-"""A claim as a proposition of Coq: what its declarations and assumptions allow, what has to be defined, and the relation."""
+"""A claim as a proposition of Coq: what is declared and assumed, what has to be defined, and the relation."""
 
 from __future__ import annotations
 
