@@ -9,10 +9,10 @@ from dataclasses import dataclass, replace
 from typing import Any, TypeAlias
 
 from ptproof.errors import InputError
-from ptproof.proof.answering import in_workers, on_cluster, run_here
+from ptproof.proof.answering import INTERRUPTED, Decided, in_workers, on_cluster, run_here
 from ptproof.proof.claim import Claim, Result
 from ptproof.proof.load import Derivation, homes_of, with_ancestors
-from ptproof.proof.settling import ATTACK
+from ptproof.proof.memory import Memory
 from ptproof.proof.verdict import Evidence, Verdict
 
 SECONDS_PER_CLAIM = 60.0
@@ -21,10 +21,11 @@ Progress: TypeAlias = Callable[[Claim, Evidence], None]
 
 @dataclass(frozen=True)
 class Verification:
-    """The outcome of every claim, in the order of the derivation."""
+    """The outcome of every claim, in the order of the derivation; ``remembered`` are those of an earlier run."""
 
     results: tuple[Result, ...]
     seconds: float
+    remembered: frozenset[str] = frozenset()
 
     @property
     def as_expected(self) -> bool:
@@ -43,7 +44,11 @@ class Verification:
         return counts
 
     def to_json(self) -> dict[str, Any]:
-        return {"claims": [result.to_json() for result in self.results], "summary": self.summary()}
+        claims = [result.to_json() for result in self.results]
+        for item in claims:
+            if item["id"] in self.remembered:
+                item["evidence"][0]["remembered"] = True
+        return {"claims": claims, "summary": self.summary()}
 
 
 class Interrupted(KeyboardInterrupt):
@@ -112,7 +117,7 @@ def _blamed(item: Evidence, sound: bool) -> Evidence:
 
 def verify(
     derivation: Derivation, *, workers: int | None = None, client: Any = None, timeout: float = SECONDS_PER_CLAIM,
-    select: str = "", progress: Progress | None = None,
+    select: str = "", progress: Progress | None = None, memory: Memory | None = None,
 ) -> Verification:  # fmt: skip
     """Run every proof in worker processes, or on a cluster, and draw the conclusions.
 
@@ -130,6 +135,8 @@ def verify(
         Only claims that contain this text, and what they use.
     progress
         Called with each claim and its own evidence as it comes in.
+    memory
+        Of earlier runs, and for later ones (:class:`ptproof.proof.memory.Memory`, which was told of the loading).
 
     Raises
     ------
@@ -151,7 +158,13 @@ def verify(
     if not claims:
         raise InputError(f"no claim contains {select!r} in its id, title, section or labels")
     return _decided(
-        claims, derivation.homes, (os.cpu_count() or 1) if workers is None else workers, client, timeout, progress
+        claims,
+        derivation.homes,
+        (os.cpu_count() or 1) if workers is None else workers,
+        client,
+        timeout,
+        progress,
+        memory,
     )
 
 
@@ -191,7 +204,7 @@ def decide(
 
 def _decided(
     claims: Sequence[Claim], homes: Mapping[str, str], workers: int | None, client: Any, timeout: float,
-    progress: Progress | None,
+    progress: Progress | None, memory: Memory | None = None,
 ) -> Verification:  # fmt: skip
     if workers is not None and workers < 1:
         raise InputError(f"workers takes a number of at least 1, got {workers}")
@@ -200,21 +213,30 @@ def _decided(
     start = time.perf_counter()
     # Only the files in which the claims stand are read again elsewhere.
     files = tuple(sorted({homes[claim.id] for claim in claims if claim.id in homes}))
-    if client is not None:
-        answers = on_cluster(claims, files, client, timeout)
-    elif workers is not None:
-        answers = in_workers(claims, files, workers, timeout)
-    else:
-        answers = ((claim, run_here(claim, timeout)) for claim in claims)
     evidence: dict[str, Evidence] = {}
+    if memory is not None:
+        evidence = {claim.id: found for claim in claims if (found := memory.recall(claim)) is not None}
+    remembered = frozenset(evidence)
+    left = [claim for claim in claims if claim.id not in remembered]
+    if client is not None:
+        answers = on_cluster(left, files, client, timeout)
+    elif workers is not None:
+        answers = in_workers(left, files, workers, timeout)
+    else:
+        answers = ((claim, Decided("", run_here(claim, timeout))) for claim in left)
     try:
+        for claim in claims:
+            if progress is not None and claim.id in remembered:
+                progress(claim, evidence[claim.id])
         for claim, found in answers:
-            evidence[claim.id] = found
+            evidence[claim.id] = found.evidence
+            if memory is not None:
+                memory.keep(claim, found.evidence, found.files)
             if progress is not None:
-                progress(claim, found)
+                progress(claim, found.evidence)
     except KeyboardInterrupt:
         answers.close()
-        open_ = Evidence("interrupted", Verdict.UNDECIDED, "interrupted before it was decided")
+        open_ = Evidence(INTERRUPTED, Verdict.UNDECIDED, "interrupted before it was decided")
         known = {claim.id: evidence.get(claim.id, open_) for claim in claims}
-        raise Interrupted(Verification(conclude(claims, known), time.perf_counter() - start)) from None
-    return Verification(conclude(claims, evidence), time.perf_counter() - start)
+        raise Interrupted(Verification(conclude(claims, known), time.perf_counter() - start, remembered)) from None
+    return Verification(conclude(claims, evidence), time.perf_counter() - start, remembered)
