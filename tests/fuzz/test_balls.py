@@ -63,7 +63,7 @@ def each_value(expression: Any, points: list[Any]) -> Any:
 
 
 @given(expressions, ranges, ranges, trees.seeds)
-@fuzz(30)
+@fuzz(12)
 def test_a_ball_contains_every_value(expression: Any, first: Any, second: Any, seed: int) -> None:
     values = {X: interval(*map(ball, first)), Y: interval(*map(ball, second))}
     try:
@@ -77,7 +77,7 @@ def test_a_ball_contains_every_value(expression: Any, first: Any, second: Any, s
 
 
 @given(expressions, ranges, ranges, trees.seeds)
-@fuzz(30)
+@fuzz(12)
 def test_an_upper_bound_is_one(expression: Any, first: Any, second: Any, seed: int) -> None:
     def work() -> Any:
         with precision(BITS):
@@ -102,7 +102,7 @@ def test_an_upper_bound_is_one(expression: Any, first: Any, second: Any, seed: i
     ranges,
     trees.seeds,
 )
-@fuzz(30)
+@fuzz(10)
 def test_what_a_cover_shows_holds_everywhere(
     expression: Any, relation: str, first: Any, second: Any, seed: int
 ) -> None:
@@ -134,7 +134,7 @@ def test_what_a_cover_shows_holds_everywhere(
 
 
 @given(trees.expressions((X, Y), functions=HEADS, symbolic=True, kinks=True, leaves=6), ranges, ranges, trees.seeds)
-@fuzz(30)
+@fuzz(10)
 def test_slopes_of_a_jet_bound_the_differences(expression: Any, first: Any, second: Any, seed: int) -> None:
     """By the mean value theorem on the straight line between two points of the box."""
 
@@ -163,7 +163,7 @@ def test_slopes_of_a_jet_bound_the_differences(expression: Any, first: Any, seco
         (X, Y), functions=SMOOTH, powers=st.sampled_from([sp.Integer(2), sp.Integer(-1), sp.Rational(1, 2)]), leaves=6
     )
 )
-@fuzz(30)
+@fuzz(15)
 def test_a_taylor_polynomial_has_the_derivatives_of_its_function(expression: Any) -> None:
     def work() -> Any:
         with precision(BITS):
@@ -200,7 +200,7 @@ def test_a_taylor_polynomial_has_the_derivatives_of_its_function(expression: Any
     trees.seeds,
     st.sampled_from([1, 8]),
 )
-@fuzz(30)
+@fuzz(12)
 def test_a_growth_encloses_the_values_far_away(expression: Any, first: Any, second: Any, seed: int, start: int) -> None:
     def work() -> Any:
         with precision(BITS):

@@ -55,7 +55,7 @@ def instants(first: Any) -> Any:
 
 
 @given(rates, powers, positives, st.sampled_from([sp.S.Zero, sp.S.One, -B]))
-@fuzz(20)
+@fuzz(6)
 def test_a_power_bound_solves_its_equation(rate: Any, power: Any, initial: Any, start: Any) -> None:
     try:
         found = or_nothing(SECONDS, lambda: power_bound(time=S, rate=rate, power=power, initial=initial, start=start))
@@ -86,7 +86,7 @@ def test_a_power_bound_solves_its_equation(rate: Any, power: Any, initial: Any, 
     positives,
     st.sampled_from([sp.S.Zero, sp.S.One]),
 )
-@fuzz(12)
+@fuzz(6)
 def test_a_damped_bound_rises_at_least_as_fast(
     damping: Any, power: Any, given_input: Any, initial: Any, start: Any
 ) -> None:
@@ -108,7 +108,7 @@ def test_a_damped_bound_rises_at_least_as_fast(
     positives,
     st.sampled_from([sp.S.Zero, sp.S.One, sp.Rational(1, 2), sp.Rational(2, 3), A]),
 )
-@fuzz(15)
+@fuzz(6)
 def test_a_dilated_bound_solves_its_equation_until_it_escapes(g: Any, h: Any, T: Any, initial: Any, sigma: Any) -> None:
     try:
         found = or_nothing(SECONDS, lambda: DilatedBound(S, sp.S.Zero, initial, T, g, h, sigma))
@@ -131,7 +131,7 @@ def test_a_dilated_bound_solves_its_equation_until_it_escapes(g: Any, h: Any, T:
 
 
 @given(positives, positives, positives, positives)
-@fuzz(6)
+@fuzz(3)
 def test_a_fading_input_is_carried_exactly(initial: Any, damping: Any, horizon: Any, zeta: Any) -> None:
     found = fading_input(time=S, start=sp.S.Zero, initial=initial, damping=damping, horizon=horizon, input=zeta)
     assert isinstance(found, LinearBound)
@@ -163,7 +163,7 @@ solutions = st.sampled_from(
 
 
 @given(growths, solutions, st.sampled_from([V, W]), st.sampled_from([None, None, sp.S.One, A]), st.booleans())
-@fuzz(12)
+@fuzz(6)
 def test_a_bound_by_comparison_is_not_exceeded_by_the_worst_case(
     growth: Any, solution: Any, v: Any, end: Any, tight: bool
 ) -> None:

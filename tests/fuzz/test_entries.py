@@ -149,7 +149,7 @@ def _no_constant(name: str) -> float:
 
 
 @given(toml.changed(SEEKING.split("[saturation]")[0] + '[initial]\nx = ["-1/2", "-1/2"]\n'))
-@fuzz(8)
+@fuzz(4)
 def test_a_problem_file_is_simulated_or_refused(changed: Any) -> None:
     _with_file("simulate", changed[0], "--time-limit", "0.5")
 
@@ -194,7 +194,7 @@ GOOD = {
 @given(st.dictionaries(st.sampled_from(NAMES), numbers, max_size=3), st.sampled_from([None, "paper", "power",
 "tangent", "papr", "exponential", "logarithmic"]),
        st.lists(st.sampled_from(list(GOOD)), max_size=2))  # fmt: skip
-@fuzz(12)
+@fuzz(5)
 def test_gains_of_numbers_are_an_answer_or_one_sentence(values: Any, clock: str | None, dropped: list[str]) -> None:
     chosen = {name: text for name, text in {**GOOD, **values}.items() if name not in dropped or name in values}
     options = [part for name, text in chosen.items() for part in (f"--{name}", text)]
@@ -246,7 +246,7 @@ radii = st.sampled_from(
 @given(fields, st.one_of(st.just("x1,x2"), lists), st.one_of(st.none(), lists), st.one_of(st.just("1"), numbers),
 radii,
        st.one_of(st.none(), st.none(), lists), st.sampled_from([0.3, 1e-3, 0.0, math.nan, -1.0, 5.0]))  # fmt: skip
-@fuzz(10)
+@fuzz(5)
 def test_bounds_of_any_field_are_an_answer_or_one_sentence(
     expression: str, names: str, source: str | None, kappa: str, radius: str | None, annulus: str | None, rtol: float
 ) -> None:

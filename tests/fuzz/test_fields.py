@@ -40,7 +40,7 @@ domains = st.sampled_from(
 
 
 @given(fields, st.sampled_from([1, 1, 2]), domains, trees.seeds)
-@fuzz(6)
+@fuzz(4)
 def test_quotients_lie_within_certified_constants(field: Any, kappa: int, domain: Any, seed: int) -> None:
     try:
         found = or_nothing(20, lambda: certify_field(field, [X, Y], [0, 0], kappa, rtol=0.3, seconds=SECONDS, **domain))

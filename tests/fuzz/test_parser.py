@@ -103,7 +103,7 @@ def is_allowed(expression: sp.Expr) -> bool:
 
 
 @given(texts)
-@fuzz(30)
+@fuzz(100)
 def test_an_expression_over_the_allowed_names_or_one_sentence(text: str) -> None:
     found = read(text)
     if found is not None:

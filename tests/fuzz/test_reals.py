@@ -70,7 +70,7 @@ def relations(draw: Any) -> Relation:
 
 
 @given(relations(), st.lists(st.builds(Relation, small, signs, small), max_size=2), trees.seeds)
-@fuzz(30)
+@fuzz(15)
 def test_what_follows_holds_wherever_the_assumptions_do(
     conclusion: Relation, assumptions: list[Relation], seed: int
 ) -> None:

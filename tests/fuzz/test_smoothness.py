@@ -60,7 +60,7 @@ DIRECTIONS = [(1, 0), (0, 1), (1, 2), (3, -1), (-1, 0), (0, -1), (1, 1), (1, -1)
 
 
 @given(expressions, st.integers(0, 2), boxes)
-@fuzz(30)
+@fuzz(10)
 def test_what_is_shown_smooth_is_smooth_along_lines(expression: Any, order: int, domain: Any) -> None:
     if not trees.is_plain(expression):
         return

@@ -102,7 +102,7 @@ def said_to_be_zero(decide: Callable[[Any], Any], expression: Any) -> bool:
 
 
 @given(differences() | trees.expressions(undefined=(trees.F,), kinks=True, symbolic=True), trees.seeds)
-@fuzz(30)
+@fuzz(20)
 def test_what_has_the_normal_form_0_is_0(expression: Any, seed: int) -> None:
     for decide in (is_zero, vanishes):
         if said_to_be_zero(decide, expression):
@@ -111,7 +111,7 @@ def test_what_has_the_normal_form_0_is_0(expression: Any, seed: int) -> None:
 
 
 @given(trees.expressions(symbolic=True, powers=exponents, leaves=8), trees.seeds)
-@fuzz(30)
+@fuzz(15)
 def test_split_powers_have_the_same_value(expression: Any, seed: int) -> None:
     split = or_nothing(SECONDS, split_powers, expression)
     if split is not None:
@@ -123,7 +123,7 @@ numbers_ = trees.expressions([sp.Integer(2), sp.pi, sp.sqrt(2), sp.Rational(-1, 
 
 
 @given(numbers_ | trees.expressions(undefined=(trees.G, trees.F), kinks=True, symbolic=True), trees.seeds)
-@fuzz(30)
+@fuzz(20)
 def test_a_sign_is_the_sign_of_every_value(expression: Any, seed: int) -> None:
     found = or_nothing(SECONDS, sign_of, expression)
     if found is None:
