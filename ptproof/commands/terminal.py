@@ -97,7 +97,7 @@ def _print_witness(console: Console, result: Result) -> None:
         if item.witness is not None:
             heading = Text("✗ ", style="red").append(result.claim.title, style="red")
             console.print(heading.append(f" ({result.claim.id})", style="dim"))
-            console.print(Padding(Text(_where(item.witness.values)), (0, 0, 0, 4)))
+            console.print(Padding(Text(where(item.witness.values)), (0, 0, 0, 4)))
             console.print(Padding(Text(f"left side   {item.witness.left}"), (0, 0, 0, 4)))
             console.print(Padding(Text(f"right side  {item.witness.right}"), (0, 0, 0, 4)))
             console.print()
@@ -106,7 +106,7 @@ def _print_witness(console: Console, result: Result) -> None:
             console.print()
 
 
-def _where(values: Mapping[str, str]) -> str:
+def where(values: Mapping[str, str]) -> str:
     """The values of a witness in words: symbols that may be anything come first."""
     free = [name for name, value in values.items() if value == "any"]
     fixed = [f"{name} = {value}" for name, value in values.items() if value != "any"]

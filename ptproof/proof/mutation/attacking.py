@@ -10,9 +10,10 @@ from typing import Any, TypeAlias
 import sympy as sp
 
 from ptproof.proof.claim import Claim, Goal
+from ptproof.proof.engines.existence import defeats_every_choice
 from ptproof.proof.engines.witnesses import candidates, check_witness, search
 from ptproof.proof.mutation.mutant import Mutant
-from ptproof.proof.statement import All, Relation, relations_of
+from ptproof.proof.statement import All, Exists, Relation, free_symbols, relations_of
 from ptproof.proof.verdict import Witness
 
 Point: TypeAlias = Mapping[Any, Any]
@@ -52,6 +53,8 @@ def witness_at(mutant: Mutant, points: tuple[Point, ...]) -> Witness | None:
 
 def searched(mutant: Mutant, seconds: float) -> Witness | None:
     """A witness against the mutant by search; against a weaker assumption, first where the original's fails."""
+    if isinstance(mutant.claim.statement, Exists):
+        return _against_every_choice(mutant.claim.goal(), mutant.claim.statement, seconds)
     if not isinstance(mutant.claim.statement, Relation | All):
         return None
     goal = mutant.claim.goal()
@@ -63,6 +66,21 @@ def searched(mutant: Mutant, seconds: float) -> Witness | None:
                 if witness is not None:
                     return witness
     return _search(goal, seconds)
+
+
+def _against_every_choice(goal: Goal, statement: Exists, seconds: float) -> Witness | None:
+    """Numbers for all that is not chosen, at which one relation fails whatever is chosen."""
+    given = sorted(free_symbols([*statement.body, *goal.assumptions]) - set(statement.variables), key=str)
+    # Against numbers it makes no difference whether the choice may depend on them.
+    goal = replace(goal, statement=replace(statement, over=tuple(given)))
+    end = time.monotonic() + 4 * seconds
+    for values in candidates(replace(goal, statement=All(statement.body))):
+        if time.monotonic() > end:
+            return None
+        evidence = defeats_every_choice(goal, {symbol: values[symbol] for symbol in given if symbol in values})
+        if evidence.witness is not None:
+            return evidence.witness
+    return None
 
 
 def _search(goal: Goal, seconds: float) -> Witness | None:

@@ -7,7 +7,7 @@ from ptproof.proof.claim import Claim, Goal
 from ptproof.proof.engines.exact import definitions_in, resolve
 from ptproof.proof.engines.reals import follows
 from ptproof.proof.mutation.mutant import Mutant
-from ptproof.proof.statement import All, Assumption, ForAll, Relation, plain, relations_of
+from ptproof.proof.statement import All, Assumption, ForAll, Relation, free_symbols, plain, relations_of
 
 SECONDS = 0.4
 
@@ -25,7 +25,7 @@ def equivalent(mutant: Mutant) -> str:
         return ""
     if old.statement == new.statement:
         return _same_assumptions(old, new)
-    if old.assumptions != new.assumptions:
+    if old.assumptions != new.assumptions or not _same_symbols(old, new):
         return ""
     ways = set()
     for before, after in _changed(old, new):
@@ -49,7 +49,7 @@ def implied(mutant: Mutant) -> str:
         if all(_follows_from(item, new.assumptions) for item in old.assumptions if item not in new.assumptions):
             return "it assumes at least what the original assumes (z3)"
         return ""
-    if old.assumptions != new.assumptions:
+    if old.assumptions != new.assumptions or not _same_symbols(old, new):
         return ""
     known = (*plain(new.assumptions), *relations_of(old.statement))
     parts = [after for _, after in _changed(old, new)]
@@ -62,6 +62,11 @@ def implied(mutant: Mutant) -> str:
 
 def _relational(claim: Claim) -> bool:
     return isinstance(claim.statement, Relation | All)
+
+
+def _same_symbols(old: Claim, new: Claim) -> bool:
+    """Whether the new claim speaks of no other symbols: one of another declaration has other values."""
+    return free_symbols([new.statement]) <= free_symbols([old.statement, *old.assumptions])
 
 
 def _changed(old: Claim, new: Claim) -> list[tuple[Relation, Relation]]:

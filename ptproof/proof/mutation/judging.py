@@ -57,15 +57,19 @@ def _judged(mutant: Mutant, points: tuple[Point, ...], patience: Patience, steps
     if evidence.verdict is Verdict.REFUTED and witness is None:
         return _outcome(mutant, Word.REFUTED, evidence.detail, evidence.witness, false=True)
     proved = evidence.verdict is Verdict.PROVED
+    how = why = ""
     if witness is None:
+        how = steps.take("comparison", lambda: equivalent(mutant), "")
+        why = "" if how else steps.take("comparison", lambda: implied(mutant), "")
+    if witness is None and not how and not why:  # what follows from the original cannot be refuted
         seconds = 3 * patience.search if proved else patience.search
-        witness = steps.take("attack", lambda: searched(mutant, seconds), None)
+        with in_haste(patience.refuted):
+            witness = steps.take("attack", lambda: searched(mutant, seconds), None)
     if witness is not None:
         word = Word.PROVED if proved else Word.REFUTED
         return _outcome(mutant, word, "exact values at which it fails", witness, false=True)
-    if how := steps.take("comparison", lambda: equivalent(mutant), ""):
+    if how:
         return _outcome(mutant, Word.EQUIVALENT, how)
-    why = steps.take("comparison", lambda: implied(mutant), "")
     if proved:
         return _outcome(mutant, Word.PROVED, why or evidence.detail)
     return _outcome(mutant, Word.UNDECIDED, "; ".join(filter(None, [why, evidence.detail, *steps.troubles])))

@@ -75,15 +75,11 @@ def mutate(
         raise InputError(f"count and workers take numbers of at least 1, got {count} and {workers}")
     start = time.perf_counter()
     setting = Setting(count, seed, timeout)
+    chosen = corruptible(claims.claims if isinstance(claims, Derivation) else claims, select)
     if isinstance(claims, Derivation):
-        chosen = _expected(item for item in claims.claims if _speaks_of(item, select))
         answers = _in_workers(chosen, claims, workers or os.cpu_count() or 1, setting)
     else:
-        chosen = _expected(item for item in claims if _speaks_of(item, select))
         answers = _here(chosen, setting)
-    if not chosen:
-        where = f" contains {select!r} and" if select else ""
-        raise InputError(f"no claim{where} is expected to be proved, so that there is nothing to corrupt")
     found: dict[str, list[tuple[int, Outcome]]] = {item.id: [] for item in chosen}
     for claim, place, outcome in answers:
         found[claim.id].append((place, outcome))
@@ -95,12 +91,24 @@ def mutate(
     return Mutation(chosen, ordered, time.perf_counter() - start)
 
 
-def _expected(claims: Iterable[Claim]) -> tuple[Claim, ...]:
-    return tuple(item for item in claims if item.expected is Verdict.PROVED)
+def corruptible(claims: Iterable[Claim], select: str = "") -> tuple[Claim, ...]:
+    """The claims that are expected to be proved and contain the text.
 
+    Raises
+    ------
+    InputError
+        If there is none.
+    """
 
-def _speaks_of(claim: Claim, text: str) -> bool:
-    return any(text.lower() in word.lower() for word in (claim.id, claim.title, claim.section, *claim.labels))
+    def speaks_of(claim: Claim) -> bool:
+        words = (claim.id, claim.title, claim.section, *claim.labels)
+        return any(select.lower() in word.lower() for word in words)
+
+    chosen = tuple(item for item in claims if item.expected is Verdict.PROVED and speaks_of(item))
+    if not chosen:
+        where = f" contains {select!r} and" if select else ""
+        raise InputError(f"no claim{where} is expected to be proved, so that there is nothing to corrupt")
+    return chosen
 
 
 def _here(claims: Sequence[Claim], setting: Setting) -> Iterator[tuple[Claim, int, Outcome]]:

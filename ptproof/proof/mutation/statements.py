@@ -172,9 +172,12 @@ def _smoothness(claim: Claim, statement: Smooth, letters: Letters) -> Iterator[C
                     partial("row {}: plus {}".format, row + 1, words),
                     partial(with_row, row, expression + term),
                 )
-        for edit in edits(expression, letters):
-            make = lambda row=row, edit=edit, expression=expression: with_row(row, edit.apply(expression))  # noqa: E731
-            yield Candidate(edit.kind, (row,), lambda row=row, edit=edit: f"row {row + 1}: {edit.words}", make)
+        # Most changes of a smooth expression leave a smooth one: one of each kind is enough of those.
+        for edit in {edit.kind: edit for edit in edits(expression, letters)}.values():
+            yield Candidate(
+                edit.kind, (row,), lambda row=row, edit=edit: f"row {row + 1}: {edit.words}",
+                lambda row=row, edit=edit, expression=expression: with_row(row, edit.apply(expression)),
+            )  # fmt: skip
 
 
 def _kinks(symbol: sp.Symbol, order: int) -> Iterator[tuple[str, sp.Expr]]:
@@ -183,5 +186,10 @@ def _kinks(symbol: sp.Symbol, order: int) -> Iterator[tuple[str, sp.Expr]]:
     if kink is not None:
         yield str(kink), kink
     yield f"|{symbol} - 1|", sp.Abs(symbol - 1)
+    yield f"max({symbol}, 2)", sp.Max(symbol, 2)
+    yield (
+        f"|{symbol} - 1/2|**{order - 1}·|{symbol} - 1/2|",
+        (symbol - sp.Rational(1, 2)) ** (order - 1) * sp.Abs(symbol - sp.Rational(1, 2)),
+    )
     yield f"√|{symbol} - 1|", sp.sqrt(sp.Abs(symbol - 1))
     yield f"1/({symbol} - 1)", 1 / (symbol - 1)
