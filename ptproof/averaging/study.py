@@ -154,7 +154,9 @@ def compare(system: System, expected: Vector) -> Evidence:
     """Whether the right-hand side of ``system`` equals ``expected``, with a witness where it does not.
 
     proved: the difference has the normal form 0. refuted: exact values (polynomials for undefined functions) at
-    which the two sides are apart. The two sides are compared as given; neither is computed from the other.
+    which the two sides are apart. What is asked is that they agree wherever both are defined. The two sides are
+    compared as given; neither is computed from the other.
     """
-    goal = Goal("expected average", Relation(sp.Matrix(system.rhs), "=", sp.Matrix(list(expected))))
+    both = Relation(sp.Matrix(system.rhs), "=", sp.Matrix(list(expected)))
+    goal = Goal("expected average", both, where_defined=True)
     return settle(goal, exact)

@@ -20,6 +20,7 @@ from .engines.reals import reals as reals
 from .engines.smoothness import smooth as smooth
 from .engines.squeeze import squeezed as squeezed
 from .engines.witnesses import refute as refute
+from .facts import Fact as Fact
 from .lemmas import cosine_parabola as cosine_parabola
 from .lemmas import cosine_quartic as cosine_quartic
 from .lemmas import exp_monotone as exp_monotone

@@ -6,7 +6,7 @@ import os
 import threading
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, TypeAlias
 
 from ptproof.errors import InputError
@@ -60,7 +60,7 @@ def conclude(claims: Sequence[Claim], evidence: dict[str, Evidence]) -> tuple[Re
         used = [result_of(item) for item in claim.uses]
         own = evidence[claim.id]
         verdict = own.verdict
-        items = [own]
+        items = [replace(own, besides=()), *own.besides]
         false = [item.claim.id for item in used if item.verdict is Verdict.REFUTED]
         if verdict is Verdict.PROVED and false:
             verdict = Verdict.UNDECIDED

@@ -8,11 +8,11 @@ from collections.abc import Iterator, Sequence
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ptproof.proof.claim import admissible
+from ptproof.proof.declarations import admissible
 from ptproof.proof.kinks import resolved, switching
 from ptproof.proof.signs import holds, sign_of
 from ptproof.proof.statement import Relation
-from ptproof.proof.substitution import substitute_in
+from ptproof.proof.substitution import NotOfKind, Substitution
 from ptproof.proof.verdict import Witness
 from ptproof.system import substitute
 
@@ -45,7 +45,7 @@ def find_singularity(
                 restricted = argument.subs(values, simultaneous=True)
                 for root in _roots(restricted, variable):
                     point = {**values, variable: root}
-                    if not all(holds(substitute_in(relation, point)) for relation in domain):
+                    if not _inside(domain, point):
                         continue
                     line = expression.subs(values, simultaneous=True)
                     found = _examine(line, variable, order, point, domain, names)
@@ -137,12 +137,12 @@ def _examine(
         return None
     for side, branch in ((-1, left), (1, right)):
         for near in _not_real(branch, variable, root, side):
-            if all(holds(substitute_in(relation, {**point, variable: near})) for relation in domain):
+            if _inside(domain, {**point, variable: near}):
                 there = {**names, str(variable): str(near)}
                 return f"no real value at {variable} = {near}", Witness(there, str(branch.subs(variable, near)), "real")
         if _is_pole(branch, variable, root):
             return f"unbounded near {where}", Witness(names, str(branch), "a finite value")
-    if not all(holds(_strict(substitute_in(relation, point))) for relation in domain):
+    if not _inside(list(map(_strict, domain)), point):
         return None  # on the boundary there is only one side
     value, limit = line.subs(variable, root), left.subs(variable, root)
     if value.is_finite and limit.is_finite and sign_of(value - limit) in (-1, 1):
@@ -155,6 +155,15 @@ def _examine(
             what = "the value" if count == 0 else f"derivative {count} in {variable}"
             return f"{what} jumps at {where}", Witness(names, str(before), str(after))
     return None
+
+
+def _inside(domain: Sequence[Relation], point: dict[sp.Symbol, sp.Expr]) -> bool:
+    """Whether the point is certainly one that the symbols and the domain allow."""
+    try:
+        there = Substitution(point)
+    except NotOfKind:
+        return False
+    return all(holds(there.relation(relation)) for relation in domain)
 
 
 def _strict(relation: Relation) -> Relation:
