@@ -1,91 +1,89 @@
-"""Exact values at which a mutant fails: at points where its original's assumptions hold, and by search."""
+"""Values at which a mutant fails: found by the attacker, and looked at again as exact ones."""
 
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping
-from dataclasses import replace
-from typing import Any, TypeAlias
+from dataclasses import dataclass, replace
 
-import sympy as sp
-
-from ptproof.proof.claim import Claim, Goal
+from ptproof.errors import InputError
+from ptproof.proof.attack import Hit, attack
+from ptproof.proof.claim import Goal
+from ptproof.proof.definedness import domain_of
 from ptproof.proof.engines.existence import defeats_every_choice
 from ptproof.proof.engines.witnesses import candidates, check_witness, search
 from ptproof.proof.mutation.mutant import Mutant
-from ptproof.proof.statement import All, Exists, Relation, free_symbols, relations_of
+from ptproof.proof.signs import holds
+from ptproof.proof.statement import All, Exists, Relation, eq, free_symbols
+from ptproof.proof.substitution import Substitution
 from ptproof.proof.verdict import Witness
 
-Point: TypeAlias = Mapping[Any, Any]
-_FALSE = Relation(sp.S.Zero, "=", sp.S.One)
-_PLAIN_FIRST = 6
+_FALSE = eq(0, 1)
+_POINTS = 30
 
 
-def points_of(claim: Claim, *, count: int = 8, seconds: float = 1.5) -> tuple[Point, ...]:
-    """Exact values at which every assumption of the claim is shown to hold: where its mutants are tried first."""
-    goal = replace(claim.goal(), statement=_FALSE)
-    end = time.monotonic() + seconds
-    found: list[Point] = []
-    for values in candidates(claim.goal()):
-        if check_witness(goal, values)[0] is not None:
-            found.append(values)
-        if len(found) >= count or time.monotonic() > end:
-            break
-    # Values of one kind make many things equal by chance, so the mixed ones come first.
-    return tuple(reversed(found))
+@dataclass(frozen=True)
+class Falsity:
+    """That a mutant is false: by exact values, or only by the attacker's numbers."""
+
+    witness: Witness | None
+    how: str
 
 
-def witness_at(mutant: Mutant, points: tuple[Point, ...]) -> Witness | None:
-    """A witness against the mutant among these points."""
-    if not isinstance(mutant.claim.statement, Relation | All):
-        return None
+def falsity(mutant: Mutant, seconds: float, *, seed: int = 0) -> Falsity | None:
+    """How the mutant is seen to be false, or None; where an assumption is weaker, what was excluded is tried first."""
     goal = mutant.claim.goal()
-    known = set(relations_of(mutant.original.statement)) if _relational(mutant.original) else set()
-    changed = [part for part in relations_of(goal.statement) if part not in known] or [*relations_of(goal.statement)]
-    quick = replace(goal, statement=All(tuple(changed)), assumptions=())
-    for point in points:
-        if check_witness(quick, point)[0] is not None:
-            witness, _ = check_witness(goal, point)
-            if witness is not None:
-                return witness
+    if isinstance(goal.statement, Exists):
+        return _against_every_choice(goal, goal.statement, seconds)
+    if not isinstance(goal.statement, Relation | All):
+        return None
+    for given in mutant.original.assumptions:
+        if given not in goal.assumptions and isinstance(given, Relation):
+            for part in given.components():
+                outside = replace(goal, assumptions=(*goal.assumptions, part.negation()))
+                hit = attack(outside, seed=seed, points=_POINTS, seconds=seconds).hit
+                if hit is not None:
+                    return _looked_at(goal, hit, seconds)
+    hit = attack(goal, seed=seed, points=_POINTS, seconds=seconds).hit
+    return None if hit is None else _looked_at(goal, hit, seconds)
+
+
+def _looked_at(goal: Goal, hit: Hit, seconds: float) -> Falsity:
+    """What was hit, with an exact witness where there is one."""
+    witness, _ = check_witness(goal, hit.values)
+    if witness is None:
+        witness = _undefined_at(goal, hit)
+    if witness is None:
+        witness, _ = search(goal, seconds)
+    return Falsity(witness, f"{hit.what} at exact values" if witness is not None else f"by the attacker: {hit}")
+
+
+def _undefined_at(goal: Goal, hit: Hit) -> Witness | None:
+    """Exact values that the assumptions allow and at which a side has no real value, where the attacker says so too."""
+    if (hit.left and hit.right) or not isinstance(hit.part, Relation) or goal.where_defined:
+        return None
+    if check_witness(replace(goal, statement=_FALSE), hit.values)[0] is None:
+        return None
+    try:
+        there = Substitution(hit.values)
+        for need in domain_of(hit.part):
+            if need.relation is not None and not need.given and holds(there.relation(need.relation).negation()):
+                values = {str(letter): str(value) for letter, value in there.values.items()}
+                return Witness(values, f"undefined unless {need}", hit.right or "undefined")
+    except (InputError, ValueError, TypeError, ArithmeticError, NotImplementedError):
+        return None
     return None
 
 
-def searched(mutant: Mutant, seconds: float) -> Witness | None:
-    """A witness against the mutant by search; against a weaker assumption, first where the original's fails."""
-    if isinstance(mutant.claim.statement, Exists):
-        return _against_every_choice(mutant.claim.goal(), mutant.claim.statement, seconds)
-    if not isinstance(mutant.claim.statement, Relation | All):
-        return None
-    goal = mutant.claim.goal()
-    for given in mutant.original.assumptions:
-        if given not in mutant.claim.assumptions and isinstance(given, Relation):
-            for part in given.components():
-                outside = replace(goal, assumptions=(*goal.assumptions, part.negation()))
-                witness = _search(outside, seconds / 2)
-                if witness is not None:
-                    return witness
-    return _search(goal, seconds)
-
-
-def _against_every_choice(goal: Goal, statement: Exists, seconds: float) -> Witness | None:
+def _against_every_choice(goal: Goal, statement: Exists, seconds: float) -> Falsity | None:
     """Numbers for all that is not chosen, at which one relation fails whatever is chosen."""
     given = sorted(free_symbols([*statement.body, *goal.assumptions]) - set(statement.variables), key=str)
     # Against numbers it makes no difference whether the choice may depend on them.
     goal = replace(goal, statement=replace(statement, over=tuple(given)))
-    end = time.monotonic() + 4 * seconds
+    end = time.monotonic() + 3 * seconds
     for values in candidates(replace(goal, statement=All(statement.body))):
         if time.monotonic() > end:
             return None
         evidence = defeats_every_choice(goal, {symbol: values[symbol] for symbol in given if symbol in values})
         if evidence.witness is not None:
-            return evidence.witness
+            return Falsity(evidence.witness, evidence.detail)
     return None
-
-
-def _search(goal: Goal, seconds: float) -> Witness | None:
-    return search(goal, seconds)[0]
-
-
-def _relational(claim: Claim) -> bool:
-    return isinstance(claim.statement, Relation | All)

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from ptproof.proof.algebra import NotAlgebraic, is_zero
 from ptproof.proof.claim import Claim, Goal
+from ptproof.proof.definedness import domain_of
 from ptproof.proof.engines.exact import definitions_in, resolve
-from ptproof.proof.engines.reals import follows
+from ptproof.proof.engines.reals import are_met, follows
 from ptproof.proof.mutation.mutant import Mutant
 from ptproof.proof.statement import All, Assumption, ForAll, Relation, free_symbols, plain, relations_of
 
@@ -21,7 +22,7 @@ def equivalent(mutant: Mutant) -> str:
     the same where each follows from the other, and a dropped one where it follows from the rest.
     """
     old, new = mutant.original, mutant.claim
-    if old.uses != new.uses or not _relational(old) or not _relational(new):
+    if (old.uses, old.where_defined) != (new.uses, new.where_defined) or not _relational(old) or not _relational(new):
         return ""
     if old.statement == new.statement:
         return _same_assumptions(old, new)
@@ -29,6 +30,8 @@ def equivalent(mutant: Mutant) -> str:
         return ""
     ways = set()
     for before, after in _changed(old, new):
+        if not _same_domain(before, after, plain(new.assumptions)):
+            return ""
         if _agree(before, after, new.goal()):
             ways.add("exact algebra")
         elif _both_ways(before, after, plain(new.assumptions)):
@@ -72,6 +75,12 @@ def _same_symbols(old: Claim, new: Claim) -> bool:
 def _changed(old: Claim, new: Claim) -> list[tuple[Relation, Relation]]:
     pairs = zip(relations_of(old.statement), relations_of(new.statement), strict=True)
     return [(before, after) for before, after in pairs if before != after]
+
+
+def _same_domain(before: Relation, after: Relation, known: tuple[Relation, ...]) -> bool:
+    """Whether what has to be defined is the same for both, or shown to be defined."""
+    needs = [set(domain_of(relation)) for relation in (before, after)]
+    return are_met(list(needs[0] ^ needs[1]), known, seconds=SECONDS).shown
 
 
 def _agree(before: Relation, after: Relation, goal: Goal) -> bool:

@@ -8,7 +8,8 @@ from functools import partial
 
 import sympy as sp
 
-from ptproof.proof.claim import Claim, declared
+from ptproof.proof.claim import Claim
+from ptproof.proof.declarations import declared
 from ptproof.proof.mutation.mutant import Candidate
 from ptproof.proof.mutation.statements import letters_of
 from ptproof.proof.statement import All, Assumption, Exists, ForAll, Relation, RelationSign, Smooth, Statement
@@ -22,6 +23,10 @@ def changed_hypotheses(claim: Claim, others: Sequence[Claim] = ()) -> Iterator[C
     """Every change of assumptions, declarations and dependencies; ``others`` are claims that may be put in place."""
     yield from _assumptions(claim)
     yield from _declarations(claim)
+    if claim.where_defined:
+        yield Candidate(
+            "domain", ("where",), lambda: "everywhere, defined or not", partial(replace, claim, where_defined=False)
+        )
     yield from _dependencies(claim, others)
 
 

@@ -9,12 +9,12 @@ from dataclasses import dataclass, replace
 from typing import TypeVar
 
 from ptproof.proof.deciding import run_one
-from ptproof.proof.mutation.attacking import Point, searched, witness_at
+from ptproof.proof.mutation.attacking import Falsity, falsity
 from ptproof.proof.mutation.equivalence import equivalent, implied
 from ptproof.proof.mutation.haste import in_haste
 from ptproof.proof.mutation.mutant import Mutant
 from ptproof.proof.mutation.outcomes import Outcome, Word
-from ptproof.proof.verdict import Evidence, Verdict, Witness
+from ptproof.proof.verdict import Evidence, Verdict
 from ptproof.reading.limits import OutOfTime, within
 
 Answer = TypeVar("Answer")
@@ -28,51 +28,58 @@ class Patience:
     Attributes
     ----------
     step
-        An attack at given points, a proof, or the comparison with the original.
+        An attack, a proof, or the comparison with the original.
     question
         z3, for one question of a proof.
     refuted
         z3, for one question where the mutant is known to be false.
-    search
-        The search for a witness where the points showed none; three times that where something is proved.
+    attack
+        The attacker; three times that where nothing else says whether the mutant is true.
     """
 
     step: float = 8.0
     question: float = 1.0
     refuted: float = 0.4
-    search: float = 0.4
+    attack: float = 0.5
 
 
-def judge(mutant: Mutant, points: tuple[Point, ...], patience: Patience) -> Outcome:
+def judge(mutant: Mutant, patience: Patience) -> Outcome:
     """What comes of the mutant: its proof is run whether it is refuted or not, since no false one may be proved."""
     start = time.perf_counter()
-    outcome = _judged(mutant, points, patience, _Steps(patience.step))
+    outcome = _judged(mutant, patience, _Steps(patience.step))
     return replace(outcome, seconds=time.perf_counter() - start)
 
 
-def _judged(mutant: Mutant, points: tuple[Point, ...], patience: Patience, steps: _Steps) -> Outcome:
-    witness = steps.take("attack", lambda: witness_at(mutant, points), None)
-    with in_haste(patience.refuted if witness is not None else patience.question):
+def _judged(mutant: Mutant, patience: Patience, steps: _Steps) -> Outcome:
+    false = how = why = None
+    if mutant.claim.statement != mutant.original.statement or mutant.claim.assumptions != mutant.original.assumptions:
+        false = steps.take("attack", lambda: falsity(mutant, patience.attack), None)
+    with in_haste(patience.refuted if false else patience.question):
         evidence = steps.take("proof", lambda: run_one(mutant.claim), _NO_ANSWER)
-    if evidence.verdict is Verdict.REFUTED and witness is None:
-        return _outcome(mutant, Word.REFUTED, evidence.detail, evidence.witness, false=True)
-    proved = evidence.verdict is Verdict.PROVED
-    how = why = ""
-    if witness is None:
+    if false is None and evidence.verdict is Verdict.REFUTED:
+        false = Falsity(evidence.witness, evidence.detail)
+    if false is None:
         how = steps.take("comparison", lambda: equivalent(mutant), "")
-        why = "" if how else steps.take("comparison", lambda: implied(mutant), "")
-    if witness is None and not how and not why:  # what follows from the original cannot be refuted
-        seconds = 3 * patience.search if proved else patience.search
+        why = None if how else steps.take("comparison", lambda: implied(mutant), "")
+    if false is None and not how and not why:  # what follows from the original cannot be refuted
         with in_haste(patience.refuted):
-            witness = steps.take("attack", lambda: searched(mutant, seconds), None)
-    if witness is not None:
-        word = Word.PROVED if proved else Word.REFUTED
-        return _outcome(mutant, word, "exact values at which it fails", witness, false=True)
+            false = steps.take("attack", lambda: falsity(mutant, 3 * patience.attack, seed=1), None)
+    if false is not None:
+        return _false(mutant, false, evidence, steps.troubles)
     if how:
         return _outcome(mutant, Word.EQUIVALENT, how)
-    if proved:
+    if evidence.verdict is Verdict.PROVED:
         return _outcome(mutant, Word.PROVED, why or evidence.detail)
     return _outcome(mutant, Word.UNDECIDED, "; ".join(filter(None, [why, evidence.detail, *steps.troubles])))
+
+
+def _false(mutant: Mutant, false: Falsity, evidence: Evidence, troubles: list[str]) -> Outcome:
+    """The outcome of a mutant that is false; only exact values refute it."""
+    if evidence.verdict is Verdict.PROVED:
+        return _outcome(mutant, Word.PROVED, f"{false.how}; {evidence.engine}: {evidence.detail}", false)
+    if false.witness is None and evidence.verdict is not Verdict.REFUTED:
+        return _outcome(mutant, Word.UNDECIDED, "; ".join([false.how, evidence.detail, *troubles]), false)
+    return _outcome(mutant, Word.REFUTED, false.how, false)
 
 
 def unanswered(mutant: Mutant, reason: str) -> Outcome:
@@ -83,9 +90,10 @@ def unanswered(mutant: Mutant, reason: str) -> Outcome:
 _NO_ANSWER = Evidence("time limit", Verdict.UNDECIDED, "the proof had no answer in time")
 
 
-def _outcome(mutant: Mutant, word: Word, why: str, witness: Witness | None = None, false: bool = False) -> Outcome:
+def _outcome(mutant: Mutant, word: Word, why: str, false: Falsity | None = None) -> Outcome:
     statement = str(mutant.claim.statement) if word is Word.PROVED else ""  # printing may take numerical integrals
-    return Outcome(mutant.kind, mutant.change, statement, word, why, witness, false)
+    witness = None if false is None else false.witness
+    return Outcome(mutant.kind, mutant.change, statement, word, why, witness, false is not None)
 
 
 class _Steps:

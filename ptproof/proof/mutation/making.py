@@ -72,8 +72,8 @@ class _Choice:
             return
 
     @staticmethod
-    def _content(claim: Claim) -> tuple[object, ...]:
-        return claim.statement, claim.assumptions, tuple(used.id for used in claim.uses)
+    def _content(claim: Claim) -> str:
+        return claim.content
 
 
 def _made(candidate: Candidate) -> Claim | None:

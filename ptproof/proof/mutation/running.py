@@ -11,7 +11,6 @@ from typing import TypeAlias
 from ptproof.errors import InputError
 from ptproof.proof.claim import Claim
 from ptproof.proof.load import Derivation, claims_in
-from ptproof.proof.mutation.attacking import points_of
 from ptproof.proof.mutation.judging import STEPS, Patience, judge, unanswered
 from ptproof.proof.mutation.making import PER_CLAIM, mutants, neighbours
 from ptproof.proof.mutation.mutant import Mutant
@@ -118,10 +117,9 @@ def _here(claims: Sequence[Claim], setting: Setting) -> Iterator[tuple[Claim, in
 
 
 def _judged(claim: Claim, others: Sequence[Claim], setting: Setting, only: int | None = None) -> Iterator[Outcome]:
-    points = points_of(claim)
     for place, mutant in enumerate(_made(claim, others, setting)):
         if only is None or place == only:
-            yield judge(mutant, points, Patience(setting.timeout))
+            yield judge(mutant, Patience(setting.timeout))
 
 
 def _made(claim: Claim, others: Sequence[Claim], setting: Setting) -> list[Mutant]:
