@@ -104,20 +104,20 @@ def _section_table(title: str, claims: Sequence[Claim], id_width: int) -> Table:
 
 def _print_witness(console: Console, claim: Claim) -> None:
     """Why a claim is false: where, and what the two sides are there; or why it is open though it should not be."""
-    if (witness := claim["witness"]) is not None:
-        heading = Text("✗ ", style="red").append(claim["title"], style="red")
-        console.print(heading.append(f" ({claim['id']})", style="dim"))
-        console.print(Padding(Text(_where(witness["values"])), (0, 0, 0, 4)))
-        console.print(Padding(Text(f"left side   {witness['left']}"), (0, 0, 0, 4)))
-        console.print(Padding(Text(f"right side  {witness['right']}"), (0, 0, 0, 4)))
-        console.print()
-    elif claim["verdict"] == "undecided" != claim["expected"]:
-        for item in claim["evidence"]:
-            console.print(Text("? ", style="yellow").append(f"{claim['id']}: {item['detail']}", style="yellow"))
+    for item in result.evidence:
+        if item.witness is not None:
+            heading = Text("✗ ", style="red").append(result.claim.title, style="red")
+            console.print(heading.append(f" ({result.claim.id})", style="dim"))
+            console.print(Padding(Text(where(item.witness.values)), (0, 0, 0, 4)))
+            console.print(Padding(Text(f"left side   {item.witness.left}"), (0, 0, 0, 4)))
+            console.print(Padding(Text(f"right side  {item.witness.right}"), (0, 0, 0, 4)))
+            console.print()
+        elif str(result.verdict) == "undecided" and not result.as_expected:
+            console.print(Text("? ", style="yellow").append(f"{result.claim.id}: {item.detail}", style="yellow"))
             console.print()
 
 
-def _where(values: Mapping[str, str]) -> str:
+def where(values: Mapping[str, str]) -> str:
     """The values of a witness in words: symbols that may be anything come first."""
     free = [name for name, value in values.items() if value == "any"]
     fixed = [f"{name} = {value}" for name, value in values.items() if value != "any"]
