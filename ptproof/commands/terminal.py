@@ -70,6 +70,11 @@ def verification_table(verification: Verification | Shown) -> None:
     """The claims with their verdicts, grouped by section, then the witnesses of what is false."""
     shown = verification if isinstance(verification, Shown) else Shown.of(verification)
     console = output(highlight=False)
+    for claim in shown.claims:
+        for item in claim["evidence"]:
+            if (item["engine"], item["verdict"]) == ("attack", "refuted"):
+                console.print(Text(f"{claim['id']}: {item['detail']}", style="bold white on red"))
+                console.print()
     sections: dict[str, list[Claim]] = {}
     for claim in shown.claims:
         sections.setdefault(shown.sections[claim["id"]], []).append(claim)
@@ -104,16 +109,16 @@ def _section_table(title: str, claims: Sequence[Claim], id_width: int) -> Table:
 
 def _print_witness(console: Console, claim: Claim) -> None:
     """Why a claim is false: where, and what the two sides are there; or why it is open though it should not be."""
-    for item in result.evidence:
-        if item.witness is not None:
-            heading = Text("✗ ", style="red").append(result.claim.title, style="red")
-            console.print(heading.append(f" ({result.claim.id})", style="dim"))
-            console.print(Padding(Text(where(item.witness.values)), (0, 0, 0, 4)))
-            console.print(Padding(Text(f"left side   {item.witness.left}"), (0, 0, 0, 4)))
-            console.print(Padding(Text(f"right side  {item.witness.right}"), (0, 0, 0, 4)))
-            console.print()
-        elif str(result.verdict) == "undecided" and not result.as_expected:
-            console.print(Text("? ", style="yellow").append(f"{result.claim.id}: {item.detail}", style="yellow"))
+    if (witness := claim["witness"]) is not None:
+        heading = Text("✗ ", style="red").append(claim["title"], style="red")
+        console.print(heading.append(f" ({claim['id']})", style="dim"))
+        console.print(Padding(Text(where(witness["values"])), (0, 0, 0, 4)))
+        console.print(Padding(Text(f"left side   {witness['left']}"), (0, 0, 0, 4)))
+        console.print(Padding(Text(f"right side  {witness['right']}"), (0, 0, 0, 4)))
+        console.print()
+    elif claim["verdict"] == "undecided" != claim["expected"]:
+        for item in claim["evidence"]:
+            console.print(Text("? ", style="yellow").append(f"{claim['id']}: {item['detail']}", style="yellow"))
             console.print()
 
 

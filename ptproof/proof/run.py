@@ -13,6 +13,7 @@ from ptproof.proof.answering import INTERRUPTED, Decided, in_workers, on_cluster
 from ptproof.proof.claim import Claim, Result
 from ptproof.proof.load import Derivation, homes_of, with_ancestors
 from ptproof.proof.memory import Memory
+from ptproof.proof.settling import ATTACK
 from ptproof.proof.verdict import Evidence, Verdict
 
 SECONDS_PER_CLAIM = 60.0
@@ -215,7 +216,7 @@ def _decided(
     files = tuple(sorted({homes[claim.id] for claim in claims if claim.id in homes}))
     evidence: dict[str, Evidence] = {}
     if memory is not None:
-        evidence = {claim.id: found for claim in claims if (found := memory.recall(claim)) is not None}
+        evidence = {claim.id: kept for claim in claims if (kept := memory.recall(claim)) is not None}
     remembered = frozenset(evidence)
     left = [claim for claim in claims if claim.id not in remembered]
     if client is not None:
