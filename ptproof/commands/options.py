@@ -30,12 +30,12 @@ jobs = click.option(
 )
 
 
-def timeout(of: str = "") -> Decorator:
+def timeout(of: str = "", default: float = 60.0) -> Decorator:
     """``--timeout``, the limit of the whole command or ``of`` one thing that it does."""
     limit = click.FloatRange(min=0, min_open=True, max=1e6)
     limit.name = "number of seconds"
     help = f"Time limit{of and f' of {of}'}, in seconds."
-    return click.option("--timeout", type=limit, default=60.0, show_default=True, metavar="SECONDS", help=help)
+    return click.option("--timeout", type=limit, default=default, show_default=True, metavar="SECONDS", help=help)
 
 
 def plot(what: str) -> Decorator:

@@ -70,6 +70,11 @@ def verification_table(verification: Verification | Shown) -> None:
     """The claims with their verdicts, grouped by section, then the witnesses of what is false."""
     shown = verification if isinstance(verification, Shown) else Shown.of(verification)
     console = output(highlight=False)
+    for claim in shown.claims:
+        for item in claim["evidence"]:
+            if (item["engine"], item["verdict"]) == ("attack", "refuted"):
+                console.print(Text(f"{claim['id']}: {item['detail']}", style="bold white on red"))
+                console.print()
     sections: dict[str, list[Claim]] = {}
     for claim in shown.claims:
         sections.setdefault(shown.sections[claim["id"]], []).append(claim)
@@ -107,7 +112,7 @@ def _print_witness(console: Console, claim: Claim) -> None:
     if (witness := claim["witness"]) is not None:
         heading = Text("✗ ", style="red").append(claim["title"], style="red")
         console.print(heading.append(f" ({claim['id']})", style="dim"))
-        console.print(Padding(Text(_where(witness["values"])), (0, 0, 0, 4)))
+        console.print(Padding(Text(where(witness["values"])), (0, 0, 0, 4)))
         console.print(Padding(Text(f"left side   {witness['left']}"), (0, 0, 0, 4)))
         console.print(Padding(Text(f"right side  {witness['right']}"), (0, 0, 0, 4)))
         console.print()
@@ -117,7 +122,7 @@ def _print_witness(console: Console, claim: Claim) -> None:
             console.print()
 
 
-def _where(values: Mapping[str, str]) -> str:
+def where(values: Mapping[str, str]) -> str:
     """The values of a witness in words: symbols that may be anything come first."""
     free = [name for name, value in values.items() if value == "any"]
     fixed = [f"{name} = {value}" for name, value in values.items() if value != "any"]

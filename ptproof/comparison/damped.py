@@ -7,7 +7,7 @@ from functools import cached_property
 
 import sympy as sp
 
-from ptproof.comparison.power import PowerBound, holds, sympify_members
+from ptproof.comparison.power import PowerBound, holds, regular, sympify_members
 from ptproof.errors import InputError
 
 
@@ -83,6 +83,7 @@ class LinearBound:
 
     def __post_init__(self) -> None:
         sympify_members(self)
+        regular(self.convolution, self.time, self.start, "the convolution")
         difference = sp.diff(self.convolution, self.time) + self.damping * self.convolution - self.input
         holds(difference, "the convolution solves its equation")
         holds(self.convolution.subs(self.time, self.start), "the convolution starts at zero")

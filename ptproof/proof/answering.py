@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 from ptproof.proof.claim import Claim
-from ptproof.proof.content import content
 from ptproof.proof.deciding import run_one
 from ptproof.proof.load import claims_in
 from ptproof.proof.statement import Prose
@@ -99,7 +98,7 @@ def on_cluster(
 def decided(claim: Claim, outcome: Outcome, timeout: float) -> Decided:
     """What was decided elsewhere, if it is this claim that was decided there."""
     match outcome:
-        case Answered(Decided() as found) if found.content == content(claim):
+        case Answered(Decided() as found) if found.content == claim.content:
             return found
         case Answered(Decided()):
             evidence = Evidence("mismatch", Verdict.UNDECIDED, "the worker decided another claim of this name")
@@ -107,7 +106,7 @@ def decided(claim: Claim, outcome: Outcome, timeout: float) -> Decided:
             evidence = evidence_of(outcome, timeout)
         case _:
             evidence = Evidence(CRASH, Verdict.UNDECIDED, "the worker's answer is no evidence")
-    return Decided(content(claim), evidence)
+    return Decided(claim.content, evidence)
 
 
 def evidence_of(outcome: Unanswered, timeout: float) -> Evidence:
@@ -129,7 +128,7 @@ def read(files: Sequence[str]) -> None:
 def run_by_id(id: str) -> Decided:
     """In a worker: what a claim that was read says, and what its proof says."""
     claim = _read[id]
-    says = content(claim)
+    says = claim.content
     with opened() as files:
         evidence = _contained(claim)
     if evidence.engine == CRASH and evidence.detail.startswith("MemoryError"):
@@ -143,4 +142,4 @@ def _on_worker(files: Sequence[str], id: str, timeout: float) -> Decided:
             read(files)
         with opened() as found:
             evidence = run_here(_read[id], timeout)
-        return Decided(content(_read[id]), evidence, foreign(found))
+        return Decided(_read[id].content, evidence, foreign(found))

@@ -99,10 +99,9 @@ class Memory:
         return self._open
 
     def _key(self, claim: Claim) -> str:
-        from ptproof.proof.content import content
 
         files = (f"{Path(file).name} {digest}" for file, digest in sorted(self._files.items()))
-        return hashes.of_texts([self._environment, claim.id, content(claim), *files])
+        return hashes.of_texts([self._environment, claim.id, claim.content, *files])
 
     def _run_key(self, select: str) -> str:
         return hashes.of_texts(["run", self._environment, select, *map(str, self._paths)])

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, TypeAlias
 
 from ptproof.errors import InputError
@@ -13,6 +13,7 @@ from ptproof.proof.answering import INTERRUPTED, Decided, in_workers, on_cluster
 from ptproof.proof.claim import Claim, Result
 from ptproof.proof.load import Derivation, homes_of, with_ancestors
 from ptproof.proof.memory import Memory
+from ptproof.proof.settling import ATTACK
 from ptproof.proof.verdict import Evidence, Verdict
 
 SECONDS_PER_CLAIM = 60.0
@@ -33,13 +34,14 @@ class Verification:
         return all(result.as_expected for result in self.results)
 
     def summary(self) -> dict[str, int]:
-        """How many claims ended in each verdict, and how many are fully proved or not as expected."""
+        """How many claims ended in each verdict, are fully proved, not as expected, or proved and yet hit."""
         counts = {str(verdict): 0 for verdict in Verdict}
         for result in self.results:
             counts[str(result.verdict)] += 1
         counts["total"] = len(self.results)
         counts["fully_proved"] = sum(result.fully_proved for result in self.results)
         counts["unexpected"] = sum(not result.as_expected for result in self.results)
+        counts["hit"] = sum(result.hit is not None for result in self.results)
         return counts
 
     def to_json(self) -> dict[str, Any]:
@@ -58,36 +60,60 @@ class Interrupted(KeyboardInterrupt):
         self.verification = verification
 
 
-def conclude(claims: Sequence[Claim], evidence: dict[str, Evidence]) -> tuple[Result, ...]:
+def conclude(claims: Sequence[Claim], evidence: Mapping[str, Evidence]) -> tuple[Result, ...]:
     """Verdicts after looking at the ancestors.
 
-    A proof that uses a refuted claim shows nothing, so it counts as undecided. ``fully_proved`` says that the
-    claim and everything it uses, all the way, is proved.
+    Evidence counts for the claim that it was found for, by what that says and not by its id; so does a claim that is
+    used. A proof that uses a refuted claim, or one that nobody decided, shows nothing, so it counts as undecided.
+    ``fully_proved`` says that the claim and everything it uses, all the way, is proved.
     """
+    decided = {claim.id: claim for claim in claims}
     results: dict[str, Result] = {}
 
     def result_of(claim: Claim) -> Result:
-        if claim.id in results:
-            return results[claim.id]
-        used = [result_of(item) for item in claim.uses]
-        own = evidence[claim.id]
-        verdict = own.verdict
-        items = [own]
-        false = [item.claim.id for item in used if item.verdict is Verdict.REFUTED]
-        if verdict is Verdict.PROVED and false:
-            verdict = Verdict.UNDECIDED
-            items.append(Evidence("ancestors", verdict, f"the proof uses what is refuted: {', '.join(false)}"))
-        open_ones = tuple(
-            dict.fromkeys(
-                name for item in used for name in (() if item.fully_proved else (item.rests_on or (item.claim.id,)))
-            )
-        )
-        fully = verdict is Verdict.PROVED and not open_ones
-        rests = open_ones if verdict is Verdict.PROVED else (claim.id,)
-        results[claim.id] = Result(claim, verdict, tuple(items), fully, () if fully else rests)
+        if claim.id not in results:
+            same = [item for item in claim.uses if item.id in decided and decided[item.id].content == item.content]
+            used = [result_of(decided[item.id]) for item in same]
+            others = [item.id for item in claim.uses if item not in same]
+            results[claim.id] = _concluded(claim, evidence[claim.id], used, others)
         return results[claim.id]
 
     return tuple(result_of(claim) for claim in claims)
+
+
+def _concluded(claim: Claim, own: Evidence, used: Sequence[Result], others: Sequence[str]) -> Result:
+    """One claim's result from its own evidence, from what it uses, and from the ids that it uses but nobody decided."""
+    sound = not others and all(item.fully_proved for item in used)
+    verdict, items = own.verdict, [replace(own, besides=()), *(_blamed(item, sound) for item in own.besides)]
+    false = [item.claim.id for item in used if item.verdict is Verdict.REFUTED]
+    for engine, reason in (
+        ("content", "what was decided is not what this claim says" if own.content != claim.content else ""),
+        ("ancestors", f"the proof uses what is refuted: {', '.join(false)}" if false else ""),
+        ("ancestors", f"the claims decided under these ids say something else than those that the proof uses: "
+                      f"{', '.join(others)}" if others else ""),
+    ):  # fmt: skip
+        if reason and (verdict is Verdict.PROVED or (engine == "content" and verdict is not Verdict.UNDECIDED)):
+            verdict = Verdict.UNDECIDED
+            items.append(Evidence(engine, verdict, reason))
+    open_ones = tuple(
+        dict.fromkeys(
+            name for item in used for name in (() if item.fully_proved else (item.rests_on or (item.claim.id,)))
+        )
+    )
+    fully = verdict is Verdict.PROVED and not open_ones
+    rests = open_ones if verdict is Verdict.PROVED else (claim.id,)
+    return Result(claim, verdict, tuple(items), fully, () if fully else rests)
+
+
+def _blamed(item: Evidence, sound: bool) -> Evidence:
+    """A hit of the attacker with what is to blame: ptproof itself, or something unproved that the claim uses."""
+    if (item.engine, item.verdict) != (ATTACK, Verdict.REFUTED):
+        return item
+    if sound:
+        return replace(item, detail=f"ptproof contradicts itself; please report this: {item.detail}")
+    return replace(
+        item, verdict=Verdict.OBSERVED, detail=f"what it uses is not all proved, and is false: {item.detail}"
+    )
 
 
 def verify(
@@ -190,7 +216,7 @@ def _decided(
     files = tuple(sorted({homes[claim.id] for claim in claims if claim.id in homes}))
     evidence: dict[str, Evidence] = {}
     if memory is not None:
-        evidence = {claim.id: found for claim in claims if (found := memory.recall(claim)) is not None}
+        evidence = {claim.id: kept for claim in claims if (kept := memory.recall(claim)) is not None}
     remembered = frozenset(evidence)
     left = [claim for claim in claims if claim.id not in remembered]
     if client is not None:

@@ -63,8 +63,8 @@ class Claims:
 
     def result(self, file: Path, claim: Claim) -> Result:
         """The verdict of one claim after its ancestors, with their evidence taken from this session where known."""
-        evidence = {item.id: self._decided(file.parent, item) for item in with_ancestors([claim])}
-        return conclude([claim], evidence)[0]
+        claims = with_ancestors([claim])
+        return conclude(claims, {item.id: self._decided(file.parent, item) for item in claims})[-1]
 
     def close(self) -> None:
         """End the processes."""
