@@ -65,7 +65,7 @@ def test_a_second_verification_says_the_same_and_decides_nothing(
             assert item["evidence"][0].pop("remembered")
         assert again == json.loads(first[1])
     else:
-        assert second[1].splitlines()[:-1] == first[1].splitlines()[:-1]
+        assert second[1].partition(" claims in")[0] == first[1].partition(" claims in")[0]
         assert "remembered" in second[1]
 
 
