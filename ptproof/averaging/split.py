@@ -36,6 +36,8 @@ def split_dithers(
     ------
     AveragingRefused
         If a fast term does not have the factor √ω, or the factor stands with no dither.
+    AveragingUndecided
+        If what was read is not shown to be the right-hand side again.
 
     Examples
     --------
@@ -71,7 +73,9 @@ def split_dithers(
     result = DitherSystem(system.time, theta, omega, system.state, tuple(drift), fields, dithers, period, name=title)
     for row, (ours, given) in enumerate(zip(result.to_system().rhs, system.rhs, strict=True)):
         if tidy(sp.expand(sp.expand_trig(ours - given))) != 0:
-            raise ArithmeticError(f"split_dithers: recombining gives {ours} for entry {row + 1}, not {given}")
+            raise AveragingUndecided(
+                f"d{system.state[row]}/d{system.time}: {given} is read as {ours}, not shown to be the same"
+            )
     return result
 
 
