@@ -209,6 +209,8 @@ class _Search:
             return found is not None
 
         search.run(deadline, None if search.goal.largest else stop)
+        if found is None and search.place is not None and not search.goal.largest and search.search.best >= 0:
+            stop(search.place, search.search.best)  # a search that is finished at once has not asked
         if search.stuck is not None and not search.stuck.is_limit:
             return self.prosecutor.undefined_near(search.stuck.offset()) or found
         return found

@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 import os
-import re
-import signal
-import subprocess
 import tempfile
 import threading
 import time
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
@@ -20,8 +17,9 @@ from ptproof.proof.kernel.portfolio import script
 from ptproof.proof.kernel.terms import NoTranslation
 from ptproof.proof.kernel.theorem import Proposition, proposition
 
+SECONDS_PER_CLAIM = 40.0
 _IN_A_FILE = 6
-_STARTING = 20.0
+_TO_START = 30.0
 
 
 @dataclass(frozen=True)
@@ -33,7 +31,7 @@ class Confirmation:
     confirmed
         Whether the kernel has checked a proof of the claim as restated.
     reason
-        Why not; or the claims that were used, themselves confirmed.
+        Why not.
     proposition
         The claim in Coq's words, where it has a translation.
     seconds
@@ -47,18 +45,19 @@ class Confirmation:
 
 
 Progress = Callable[[Claim, Confirmation], None]
+Stated = tuple[Claim, Proposition, coq.Theorem]
 
 
 def check(
-    claims: Iterable[Claim], *, workers: int | None = None, timeout: float = 30.0, progress: Progress | None = None,
-    keep: Path | None = None,
+    claims: Iterable[Claim], *, workers: int | None = None, timeout: float = SECONDS_PER_CLAIM,
+    progress: Progress | None = None, keep: Path | None = None,
 ) -> dict[str, Confirmation]:  # fmt: skip
     """Have Coq's kernel check each claim.
 
     Parameters
     ----------
     claims
-        Those that were proved; nothing else is asked.
+        Those that were proved; whether they were is not looked at here.
     workers
         How many processes of Coq at a time (the number of processors where left out).
     timeout
@@ -66,77 +65,67 @@ def check(
     progress
         Called with each claim and what became of it, as it comes in.
     keep
-        A folder that the files for Coq are left in.
+        A folder in which the files for Coq are left.
 
     Returns
     -------
     dict
-        By the claims' ids. A claim of which Coq found no proof may be true all the same.
+        By the claims' ids. A claim of which Coq has found no proof may be true all the same.
     """
     wanted = list(claims)
     answers: dict[str, Confirmation] = {}
+    lock = threading.Lock()
 
     def answer(claim: Claim, confirmation: Confirmation) -> None:
-        answers[claim.id] = confirmation
-        if progress is not None:
-            progress(claim, confirmation)
+        with lock:
+            answers[claim.id] = confirmation
+            if progress is not None:
+                progress(claim, confirmation)
 
     if lacking := coq.missing():
         for claim in wanted:
             answer(claim, Confirmation(False, lacking))
         return answers
-    stated: list[tuple[Claim, Proposition]] = []
-    for claim in wanted:
-        try:
-            stated.append((claim, proposition(claim)))
-        except NoTranslation as error:
-            answer(claim, Confirmation(False, str(error)))
     with tempfile.TemporaryDirectory() as temporary:
         folder = Path(temporary) if keep is None else keep
         folder.mkdir(parents=True, exist_ok=True)
         coq.prepare(folder)
-        lock = threading.Lock()
 
-        def work(number: int, part: Sequence[tuple[Claim, Proposition]]) -> None:
+        def work(number: int) -> None:
+            part = wanted[number * _IN_A_FILE : (number + 1) * _IN_A_FILE]
             for claim, confirmation in _answers(folder, number, part, timeout):
-                with lock:
-                    answer(claim, confirmation)
+                answer(claim, confirmation)
 
-        parts = [stated[start : start + _IN_A_FILE] for start in range(0, len(stated), _IN_A_FILE)]
         with ThreadPoolExecutor(workers or os.cpu_count() or 1) as pool:
-            for done in [pool.submit(work, number, part) for number, part in enumerate(parts)]:
-                done.result()
+            for _ in pool.map(work, range(-(-len(wanted) // _IN_A_FILE))):
+                pass
     return {claim.id: answers[claim.id] for claim in wanted}
 
 
-def _answers(folder, number, part, timeout):
-    rest = list(part)
-    run = 0
-    while rest:
-        propositions = {item.name: item.text for _, item in rest}
-        theorems = [coq.Theorem(item.name, item.text, script(item)) for claim, item in rest]
-        file = folder / f"claims_{number:03d}_{run}.v"
-        run += 1
-        file.write_text(coq.source(propositions, theorems, int(timeout)))
-        start = time.perf_counter()
-        output, error, late = _coqc(folder, file.name, _STARTING + 2 * timeout * len(rest))
-        seconds = (time.perf_counter() - start) / len(rest)
-        heard = list(coq.heard(output, theorems))
-        for (claim, item), (_, said) in zip(rest, heard):
-            yield claim, Confirmation(not said.reason, said.reason, item.text, seconds)
-        rest = rest[len(heard):]
-        if rest:
-            claim, item = rest.pop(0)
-            yield claim, Confirmation(False, "time limit" if late or "Timeout" in error else "no tactic proved it: " + error[-300:], item.text, seconds)
-
-
-def _coqc(folder: Path, file: str, seconds: float) -> tuple[str, str, bool]:
-    with subprocess.Popen(coq.command(file), cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                          start_new_session=True) as process:  # fmt: skip
+def _answers(
+    folder: Path, number: int, claims: Sequence[Claim], timeout: float
+) -> Iterator[tuple[Claim, Confirmation]]:
+    """What Coq says of these claims. Where it stops at one, the rest is asked again without that one."""
+    left: list[Stated] = []
+    for claim in claims:
         try:
-            output, error = process.communicate(timeout=seconds)
-        except subprocess.TimeoutExpired:
-            os.killpg(process.pid, signal.SIGKILL)
-            output, error = process.communicate()
-            return output, error, True
-    return output, error, False
+            said = proposition(claim)
+            left.append((claim, said, coq.Theorem(f"{said.name}_{number}", said.text, script(said))))
+        except NoTranslation as error:
+            yield claim, Confirmation(False, str(error))
+    run = 0
+    while left:
+        theorems = [theorem for *_, theorem in left]
+        file = folder / f"claims_{number:03d}{f'_{run}' if run else ''}.v"
+        file.write_text(coq.source(theorems, timeout), encoding="utf-8")
+        start = time.perf_counter()
+        printed = coq.run(folder, file.name, _TO_START + 2 * timeout * len(left))
+        heard = list(coq.heard(printed.output, theorems))
+        seconds = (time.perf_counter() - start) / max(1, min(len(left), len(heard) + 1))
+        for (claim, said, _), reason in zip(left, heard, strict=False):
+            yield claim, Confirmation(not reason, reason, said.text, seconds)
+        left = left[len(heard) :]
+        if left:
+            claim, said, _ = left.pop(0)
+            yield claim, Confirmation(False, printed.stopped(), said.text, seconds)
+        run += 1

@@ -89,5 +89,7 @@ def everywhere(call: AppliedUndef, proposition: str, names: Names) -> str:
 def _strongest(function: Any) -> list[str]:
     """What the function's values are declared to be, without what follows from the first sign."""
     own = {word for word, truth in function._kwargs.items() if truth is True}
-    signs = next((word for word in ("zero", "positive", "negative", "nonnegative", "nonpositive", "nonzero") if word in own), "")
+    signs = next(
+        (word for word in ("zero", "positive", "negative", "nonnegative", "nonpositive", "nonzero") if word in own), ""
+    )
     return [_KINDS[word, True] for word in (signs, "integer") if word in own]

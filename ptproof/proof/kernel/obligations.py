@@ -110,7 +110,9 @@ def _derivative(expression: sp.Derivative, names: Names) -> list[Part]:
     parts = list(obligations(inner, names))
     for variable in expression.variables:
         name, text = term(variable, names), term(inner, names)
-        around = [Part(f"locally {name} (fun {name} => {part.text})") if _mentions(part, name) else part for part in parts]
+        around = [
+            Part(f"locally {name} (fun {name} => {part.text})") if _mentions(part, name) else part for part in parts
+        ]
         found = [*around, Part(f"ex_derive (fun {name} => {text}) {name}")]
         inner = sp.Derivative(inner, variable, evaluate=False) if inner is expression.expr else inner.func(
             expression.expr, *inner.variables, variable, evaluate=False)  # fmt: skip

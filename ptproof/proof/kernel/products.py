@@ -3,120 +3,155 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import sympy as sp
 
 from ptproof.proof.statement import Relation
 
-_MOST = 4000
+_MOST = 1500
+_SECONDS = 2.0
+Polynomial = dict[tuple[int, ...], float]
 
 
 @dataclass(frozen=True)
 class Fact:
-    """A numerator that is not negative (positive, where strict), and the denominator that was above it."""
+    """A numerator that is not negative (positive, where strict), and the positive denominator that was below it."""
 
     top: sp.Expr
-    relation_bottom: sp.Expr
+    bottom: sp.Expr
     strict: bool
 
 
 @dataclass(frozen=True)
 class Sum:
+    """``factor`` times the polynomial is a sum of ``products`` with weights that are not negative; ``facts`` occur there."""
+
+    factor: sp.Expr
     facts: tuple[Fact, ...]
     products: tuple[tuple[sp.Expr, ...], ...]
 
 
-def products(rational: sp.Expr, strict: bool, known: Sequence[Relation]) -> Sum | None:
-    """Products whose sum, with factors that are not negative, is the numerator of ``rational``; None if none is found."""
-    top, bottom = sp.fraction(rational)
-    facts = [fact for relation in known for fact in _facts(relation)]
-    generators = sorted(
-        {s for e in (top, *(f.top for f in facts)) for s in e.free_symbols}, key=lambda s: (s.name, str(s))
-    )
-    if not generators or len(generators) > 24:
+@dataclass(frozen=True)
+class _Candidate:
+    factors: tuple[sp.Expr, ...]
+    polynomial: Polynomial
+
+
+def products(top: sp.Expr, known: Sequence[Relation]) -> Sum | None:
+    """Products whose sum is ``top``, or a positive symbol times it; None if few products do not do."""
+    facts = list(dict.fromkeys(fact for relation in known for fact in _facts(relation)))
+    symbols = top.free_symbols
+    for _ in range(2):
+        symbols = symbols.union(*(fact.top.free_symbols for fact in facts if fact.top.free_symbols & symbols))
+    generators = sorted(symbols, key=lambda s: s.name)
+    facts = [fact for fact in facts if fact.top.free_symbols <= symbols]
+    if not generators or len(generators) > 16:
         return None
-    signed = [s for s in generators if s.is_nonnegative]
-    try:
-        target = sp.Poly(top, *generators)
-        tops = [sp.Poly(fact.top, *generators) for fact in facts]
-    except sp.PolynomialError:
-        return None
-    if not target.domain.is_QQ and not target.domain.is_ZZ:
-        return None
-    one = sp.Poly(1, *generators)
-    bases: list[tuple[tuple[sp.Expr, ...], sp.Poly, bool]] = [((), one, True)]
-    bases += [((fact.top,), poly, fact.strict) for fact, poly in zip(facts, tops, strict=True)]
-    for (a, p), (b, q) in itertools.combinations_with_replacement(list(zip(facts, tops, strict=True)), 2):
-        bases.append(((a.top, b.top), p * q, a.strict and b.strict))
-    for a, b in itertools.combinations([s for s in generators], 2):
-        bases.append((((a - b) ** 2,), sp.Poly((a - b) ** 2, *generators), False))
-    for a in generators:
-        if a not in signed:
-            bases.append(((a**2,), sp.Poly(a**2, *generators), False))
-    degrees = [max((m[i] for m in target.monoms()), default=0) for i in range(len(generators))]
-    total = target.total_degree()
-    candidates: list[tuple[tuple[sp.Expr, ...], sp.Poly, bool]] = []
-    for factors, poly, positive in bases:
-        room = total - poly.total_degree()
-        free = [max(0, degrees[i] - min(m[i] for m in poly.monoms())) if s in signed else 0 for i, s in enumerate(generators)]
-        for powers in _monomials(free, room):
-            monomial = sp.Poly({powers: 1}, *generators)
-            expressions = tuple(s for s, n in zip(generators, powers, strict=True) for _ in range(n))
-            candidates.append(((*expressions, *factors), monomial * poly, positive and all(s.is_positive for s in expressions)))
-            if len(candidates) > _MOST:
-                return None
-    chosen = _combination(target, candidates, strict)
-    if chosen is None:
-        return None
-    used = [candidates[i][0] for i in chosen]
-    needed = tuple(f for f in facts if any(f.top in factors for factors in used))
-    return Sum(needed, tuple(factors for factors in used if factors))
+    target = _polynomial(top, generators)
+    tops = [_polynomial(fact.top, generators) for fact in facts]
+    bases = list(_bases(facts, tops, generators))
+    ones = [(sp.Integer(1), 0), (sp.Integer(1), 1)]
+    for factor, extra in [*ones, *((s, 0) for s in generators if s.is_positive and s not in top.free_symbols)]:
+        scaled = _times(target, _polynomial(factor, generators))
+        candidates = _candidates(scaled, bases, generators, extra)
+        chosen = _combination(scaled, candidates)
+        if chosen:
+            needed = tuple(fact for fact in facts if any(fact.top in item.factors for item in chosen))
+            return Sum(factor, needed, tuple(item.factors for item in chosen if item.factors))
+    return None
 
 
 def _facts(relation: Relation) -> list[Fact]:
-    gap = sp.together(relation.right - relation.left)
-    top, bottom = sp.fraction(gap)
+    top, bottom = sp.fraction(sp.together(relation.right - relation.left))
     top = sp.expand(top)
-    if not top.free_symbols or top.is_nonnegative and top.is_Symbol:
+    if not top.free_symbols or (top.is_nonnegative and top.is_Symbol):
         return []
     if relation.sign == "=":
-        return [Fact(top, bottom, False), Fact(-top, bottom, False)]
+        return [Fact(top, bottom, False), Fact(sp.expand(-top), bottom, False)]
     return [Fact(top, bottom, relation.sign == "<")]
 
 
-def _monomials(most: Sequence[int], room: int):
+def _polynomial(expression: sp.Expr, generators: Sequence[sp.Symbol]) -> Polynomial:
+    return {monomial: float(value) for monomial, value in sp.Poly(expression, *generators).terms()}
+
+
+def _times(a: Polynomial, b: Polynomial) -> Polynomial:
+    product: Polynomial = {}
+    for m, v in a.items():
+        for n, w in b.items():
+            key = tuple(map(sum, zip(m, n, strict=True)))
+            product[key] = product.get(key, 0.0) + v * w
+    return product
+
+
+def _bases(
+    facts: Sequence[Fact], tops: Sequence[Polynomial], generators: Sequence[sp.Symbol]
+) -> Iterator[tuple[tuple[sp.Expr, ...], Polynomial]]:
+    yield (), {(0,) * len(generators): 1.0}
+    pairs = list(zip(facts, tops, strict=True))
+    for fact, poly in pairs:
+        yield (fact.top,), poly
+    for (a, p), (b, q) in itertools.combinations_with_replacement(pairs, 2):
+        yield (a.top, b.top), _times(p, q)
+    for first, second in itertools.combinations(generators, 2):
+        yield ((first - second) ** 2,), _polynomial((first - second) ** 2, generators)
+    for symbol in generators:
+        if not symbol.is_nonnegative:
+            yield (symbol**2,), _polynomial(symbol**2, generators)
+
+
+def _candidates(
+    target: Polynomial,
+    bases: Sequence[tuple[tuple[sp.Expr, ...], Polynomial]],
+    generators: Sequence[sp.Symbol],
+    extra: int,
+) -> list[_Candidate]:
+    """The bases times monomials of what is not negative, of no higher degree than the target, and a little more."""
+    degrees = [max((m[i] for m in target), default=0) + extra for i in range(len(generators))]
+    total = max(map(sum, target), default=0) + extra
+    found: list[_Candidate] = []
+    for factors, poly in bases:
+        free = [degrees[i] - max(m[i] for m in poly) if s.is_nonnegative else 0 for i, s in enumerate(generators)]
+        for powers in _monomials(free, total - max(map(sum, poly))):
+            symbols = tuple(s for s, n in zip(generators, powers, strict=True) for _ in range(n))
+            shifted = {tuple(map(sum, zip(m, powers, strict=True))): v for m, v in poly.items()}
+            found.append(_Candidate((*symbols, *factors), shifted))
+            if len(found) > _MOST:
+                return found
+    return found
+
+
+def _monomials(most: Sequence[int], room: int) -> Iterator[tuple[int, ...]]:
     if room < 0:
         return
-    stack = [((), room)]
-    for i, limit in enumerate(most):
-        stack = [((*powers, n), left - n) for powers, left in stack for n in range(min(limit, left) + 1)]
+    stack: list[tuple[tuple[int, ...], int]] = [((), room)]
+    for limit in most:
+        stack = [((*powers, n), left - n) for powers, left in stack for n in range(min(max(limit, 0), left) + 1)]
         if len(stack) > _MOST:
             return
     for powers, _ in stack:
         yield powers
 
 
-def _combination(target: sp.Poly, candidates, strict: bool):
+def _combination(target: Polynomial, candidates: Sequence[_Candidate]) -> list[_Candidate]:
     import numpy as np
     from scipy.optimize import linprog
-    from scipy.sparse import coo_matrix
+    from scipy.sparse import csr_matrix
 
     rows: dict[tuple[int, ...], int] = {}
-    entries: list[tuple[int, int, float]] = []
-    for column, (_, poly, _) in enumerate(candidates):
-        for monomial, value in poly.terms():
-            entries.append((rows.setdefault(monomial, len(rows)), column, float(value)))
-    right = {m: float(v) for m, v in target.terms()}
-    if any(m not in rows for m in right):
-        return None
+    entries = [(rows.setdefault(m, len(rows)), column, value) for column, item in enumerate(candidates)
+               for m, value in item.polynomial.items()]  # fmt: skip
+    if any(m not in rows for m in target):
+        return []
     vector = np.zeros(len(rows))
-    for m, v in right.items():
-        vector[rows[m]] = v
-    matrix = coo_matrix(([e[2] for e in entries], ([e[0] for e in entries], [e[1] for e in entries])), shape=(len(rows), len(candidates)))
-    cost = np.array([1.0 + len(c[0]) for c in candidates])
-    done = linprog(cost, A_eq=matrix.tocsr(), b_eq=vector, bounds=(0, None), method="highs", options={"time_limit": 5})
-    if done.status != 0:
-        return None
-    return [i for i, value in enumerate(done.x) if value > 1e-9]
+    for monomial, value in target.items():
+        vector[rows[monomial]] = value
+    matrix: Any = csr_matrix(
+        ([e[2] for e in entries], ([e[0] for e in entries], [e[1] for e in entries])), (len(rows), len(candidates))
+    )
+    cost = [1.0 + len(item.factors) for item in candidates]
+    done = linprog(cost, A_eq=matrix, b_eq=vector, bounds=(0, None), method="highs", options={"time_limit": _SECONDS})
+    return [item for item, weight in zip(candidates, done.x, strict=True) if weight > 1e-9] if done.status == 0 else []

@@ -99,7 +99,7 @@ def _product(expression: sp.Basic, write: Write) -> str:
 
 
 def _divides(factor: sp.Basic) -> bool:
-    """Whether the factor is written below the line: 1 / b^e is b^(-e) for every number e, and for every e where b > 0."""
+    """Whether the factor is written below the line: b^(-e) is 1 / b^e for numbers e, and for every e where b > 0."""
     if not isinstance(factor, sp.Pow) or not factor.exp.could_extract_minus_sign():
         return False
     return bool(factor.exp.is_Rational or positive_base(factor))

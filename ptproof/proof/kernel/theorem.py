@@ -1,4 +1,4 @@
-"""A claim as a proposition of Coq: what its declarations and assumptions allow, what has to be defined, and the relation."""
+"""A claim as a proposition of Coq: what is declared and assumed, what has to be defined, and the relation."""
 
 from __future__ import annotations
 
@@ -118,7 +118,10 @@ def _bound(statements: Iterable[Statement | Assumption]) -> set[sp.Symbol]:
 def _sorted(items: Iterable[sp.Basic]) -> list[sp.Basic]:
     def key(item: sp.Basic) -> tuple[str, str]:
         own = item._assumptions_orig if isinstance(item, sp.Symbol) else item._kwargs
-        return (getattr(item, "name", None) or item.__name__, str(sorted(own.items())) + str(getattr(item, "dummy_index", "")))
+        return (
+            getattr(item, "name", None) or item.__name__,
+            str(sorted(own.items())) + str(getattr(item, "dummy_index", "")),
+        )
 
     return sorted(items, key=key)
 
@@ -217,7 +220,9 @@ def _said(statement: Statement, names: Names) -> tuple[list[Part], list[Part]]:
 
 
 def _exists(statement: Exists, names: Names) -> str:
-    text = _conjunction(part for item in statement.body for given in item.components() for part in _relation(given, names))
+    text = _conjunction(
+        part for item in statement.body for given in item.components() for part in _relation(given, names)
+    )
     if statement.over:
         kinds = [kind for symbol in statement.over for kind in declared.of_symbol(symbol, names[symbol])]
         text = f"(forall {_variables(statement.over, names)} : R, {' -> '.join([*kinds, f'({text})'])})"

@@ -1,5 +1,5 @@
 (* What the restated claims are said with, and the tactics that are tried on them. Everything here is proved. *)
-From Coq Require Import Reals Lra Psatz Nsatz.
+From Coq Require Import Reals Lra Psatz Nsatz FunctionalExtensionality.
 From Coquelicot Require Import Coquelicot.
 From Interval Require Import Tactic.
 Open Scope R_scope.
@@ -114,6 +114,7 @@ with sign_pos :=
     | |- 0 < _ + _ => first [ apply Rplus_lt_0_compat; sign_pos | apply Rplus_le_lt_0_compat; [sign_nonneg | sign_pos]
                             | apply Rplus_lt_le_0_compat; [sign_pos | sign_nonneg] ]
     end
+  | match goal with H : forall _, _ |- _ => solve [apply H; first [assumption | lra]] end
   | lra | timeout 2 nra ]
 with sign_nonneg :=
   first
@@ -131,6 +132,7 @@ with sign_nonneg :=
     | |- 0 <= Rpower _ _ => left; apply exp_pos
     | |- 0 <= _ + _ => apply Rplus_le_le_0_compat; sign_nonneg
     end
+  | match goal with H : forall _, _ |- _ => solve [apply H; first [assumption | lra]] end
   | lra | timeout 2 nra | left; sign_pos ]
 with sign_nonzero :=
   first
@@ -164,6 +166,21 @@ Ltac same_arguments :=
       match goal with
       | |- context [f ?b] =>
           lazymatch type of a with R => idtac end;
+          assert_fails (constr_eq a b);
+          let E := fresh in assert (E : a = b) by (field; sides); rewrite E; clear E
+      end
+  end.
+
+(* The same for the functions of the library, whose values at 0 are known. *)
+Ltac same_values :=
+  repeat match goal with
+  | |- context [exp ?a] => let E := fresh in assert (E : a = 0) by (field; sides); rewrite E, exp_0; clear E
+  | |- context [sin ?a] => let E := fresh in assert (E : a = 0) by (field; sides); rewrite E, sin_0; clear E
+  | |- context [cos ?a] => let E := fresh in assert (E : a = 0) by (field; sides); rewrite E, cos_0; clear E
+  | |- context [?f ?a] =>
+      first [ constr_eq f exp | constr_eq f sin | constr_eq f cos | constr_eq f ln | constr_eq f sqrt ];
+      match goal with
+      | |- context [f ?b] =>
           assert_fails (constr_eq a b);
           let E := fresh in assert (E : a = b) by (field; sides); rewrite E; clear E
       end
@@ -205,7 +222,19 @@ Ltac derivative_sides := repeat match goal with
   | H : forall _, ex_derive _ _ |- ex_derive _ _ => apply H
   | |- ex_derive _ _ => eassumption
   end; try first [ sign | assumption ].
+Ltac inner_derivatives :=
+  repeat match goal with
+  | |- context [Derive ?f] =>
+      assert_fails (idtac; unknown f);
+      let g := fresh "g" in let E := fresh in
+      evar (g : R -> R);
+      assert (E : Derive f = g)
+        by (apply FunctionalExtensionality.functional_extensionality; intro; apply is_derive_unique;
+            auto_derive; [ solve [derivative_sides] | unfold g; reflexivity ]);
+      rewrite E; unfold g; clear E g; cbv beta
+  end.
 Ltac derivatives :=
+  inner_derivatives;
   repeat match goal with
   | |- context [Derive ?f ?x] =>
       assert_fails (unknown f);
@@ -214,7 +243,7 @@ Ltac derivatives :=
       assert (E : is_derive f x l) by (auto_derive; [ solve [derivative_sides] | unfold l; reflexivity ]);
       rewrite (is_derive_unique f x l E); unfold l; clear E l
   end.
-Ltac differentiable := solve [ auto_derive; derivative_sides ].
+Ltac differentiable := first [ solve [ auto_derive; derivative_sides ] | inner_derivatives; solve [ auto_derive; derivative_sides ] ].
 
 Ltac near :=
   lazymatch goal with
@@ -276,13 +305,17 @@ Ltac inequality :=
   | solve [about_sqrt; about_powers; reciprocals; first [lra | timeout 8 nra]]
   | solve [cases; first [lra | timeout 4 nra | reciprocals; timeout 4 nra]] ].
 
+Ltac use_equations := repeat match goal with H : ?a = _ |- context [?a] => rewrite H; clear H end.
 Ltac equality :=
   first
   [ solve [rational]
   | solve [subst; rational]
+  | solve [use_equations; rational]
   | solve [derivatives; rational]
   | solve [same_arguments; rational]
   | solve [same_arguments; trigonometric]
+  | solve [derivatives; same_arguments; same_values; rational]
+  | solve [subst; same_arguments; same_values; rational]
   | lra
   | solve [about_sqrt; timeout 10 nsatz]
   | solve [about_sqrt; reciprocals; timeout 10 nsatz]
@@ -358,5 +391,54 @@ Ltac fact_from bottom top :=
   | H : ?a = ?b |- _ => assert (0 <= top) by (apply (top_nonneg a b top bottom (Req_le _ _ H)); [ sign | rational ])
   | H : ?a = ?b |- _ => assert (0 <= top) by (apply (top_nonneg b a top bottom (Req_le_sym _ _ H)); [ sign | rational ])
   end.
+Lemma divide_nonneg : forall a b, 0 < a -> 0 <= a * b -> 0 <= b.
+Proof. intros a b P Q. apply Rmult_le_reg_l with a; lra. Qed.
+Lemma divide_positive : forall a b, 0 < a -> 0 < a * b -> 0 < b.
+Proof. intros a b P Q. apply Rmult_lt_reg_l with a; lra. Qed.
+Ltac multiply_by a := first [ apply (divide_nonneg a); [ sign | ] | apply (divide_positive a); [ sign | ] ].
 Ltac product p := first [ assert (0 < p) by sign | assert (0 <= p) by sign ].
 Ltac linear := first [ lra | timeout 5 nra ].
+
+(* Whatever is not rational arithmetic becomes a number of which only these facts are kept. *)
+Ltac atom a e :=
+  let P := fresh in
+  lazymatch e with
+  | sqrt ?x =>
+      assert (P : 0 <= e) by apply sqrt_pos;
+      try (let Q := fresh in assert (Q : 0 < e) by (apply sqrt_lt_R0; sign));
+      try (let Q := fresh in assert (Q : e * e = x) by (apply sqrt_sqrt; sign))
+  | sin ?x => pose proof (SIN_bound x); try pose proof (sin2_cos2 x)
+  | cos ?x => pose proof (COS_bound x); try pose proof (sin2_cos2 x)
+  | exp _ => assert (P : 0 < e) by apply exp_pos
+  | Rpower _ _ => assert (P : 0 < e) by apply exp_pos
+  | rpow _ _ => assert (P : 0 <= e) by apply rpow_nonneg
+  | PI => pose proof PI_RGT_0
+  | Rabs _ => assert (P : 0 <= e) by apply Rabs_pos
+  | _ => first
+      [ assert (P : 0 < e) by (match goal with H : forall _, _ |- _ => solve [apply H; first [assumption | lra]] end)
+      | assert (P : 0 <= e) by (match goal with H : forall _, _ |- _ => solve [apply H; first [assumption | lra]] end)
+      | idtac ]
+  end;
+  set (a := e) in *; clearbody a.
+
+(* One power of a base by another one. *)
+Ltac logarithms :=
+  repeat first
+  [ rewrite ln_mult in * by sign | rewrite ln_div in * by sign | rewrite ln_Rinv in * by sign
+  | rewrite ln_Rpower in * | rewrite ln_pow in * by sign | rewrite ln_sqrt in * by sign
+  | rewrite ln_exp in * | rewrite ln_1 in * ];
+  rewrite ?INR_IZR_INZ in *; simpl Z.of_nat in *.
+Ltac by_powers := apply ln_eq; [ sign | sign | logarithms; field; sides ].
+Ltac power_as old new := let E := fresh in assert (E : old = new) by by_powers; rewrite ?E in *; clear E.
+Ltac by_logarithms :=
+  lazymatch goal with
+  | |- _ <= _ => apply ln_le_inv; [ sign | sign | ]
+  | |- _ < _ => apply ln_lt_inv; [ sign | sign | ]
+  | |- _ >= _ => apply Rle_ge; apply ln_le_inv; [ sign | sign | ]
+  | |- _ > _ => apply ln_lt_inv; [ sign | sign | ]
+  end.
+Ltac logarithms_of a b :=
+  first
+  [ let H := fresh in assert (H : a <= b) by lra; apply (ln_le a b) in H; [ | sign ]
+  | let H := fresh in assert (H : a < b) by lra; apply (ln_increasing a b) in H; [ | sign ] ].
+Ltac quickly := try solve [ assumption | lra | timeout 3 sign ].
