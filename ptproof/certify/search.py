@@ -144,6 +144,14 @@ def _drop(field: Field) -> tuple[sp.Expr, tuple[sp.Symbol, ...]]:
     return field.peak - field.expression.subs(at, simultaneous=True), offsets
 
 
+def _tolerance(rtol: float, goal: Goal) -> float:
+    """How far below the best value, in relation to it, the search may stop so that the constant has the width asked.
+
+    The width is in relation to the lower end, and the constant is a root where the search is for a squared slope.
+    """
+    return 0.95 * (2 * rtol / (1 + rtol) ** 2 if goal.slope else rtol / (1 + rtol))
+
+
 @dataclass(frozen=True)
 class _Search:
     field: Field
@@ -183,8 +191,7 @@ class _Search:
     def constants(self) -> FieldCertificate:
         boxes = list(start_boxes(self.quotients, self.domain))
         searches = {
-            name: Extremum(self.quotients, goal, boxes, 0.95 * self.rtol * (2 if goal.slope else 1))
-            for name, goal in GOALS.items()
+            name: Extremum(self.quotients, goal, boxes, _tolerance(self.rtol, goal)) for name, goal in GOALS.items()
         }
         # First each has its share of the time, then the unfinished ones have what is left.
         for round_ in (1, 2):
