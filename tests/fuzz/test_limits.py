@@ -6,7 +6,7 @@ from typing import Any
 
 import hypothesis.strategies as st
 import sympy as sp
-from hypothesis import given
+from hypothesis import event, given
 
 from ptproof.proof.engines.evaluation import carried_out, continuous, definite
 from ptproof.proof.engines.limits import limit_of
@@ -45,6 +45,7 @@ def test_a_limit_is_what_the_values_tend_to(expression: Any, approach: tuple[Any
         raise AssertionError(f"{expression} at {point}{side} ends in {type(error).__name__}: {error}") from error
     if found is None:
         return
+    event("answered")
     near, far = (_near(expression, point, side, step) for step in STEPS)
     if near is None or far is None:
         return
@@ -99,6 +100,7 @@ def test_an_integral_is_what_quadrature_says(integrand: Any, low: Any, high: Any
     found = or_nothing(SECONDS, definite, node)
     if found is None:
         return
+    event("answered")
     _agrees(found, node)
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import hypothesis.strategies as st
 import sympy as sp
-from hypothesis import given
+from hypothesis import event, given
 
 from ptproof.proof.engines.reals import follows
 from ptproof.proof.statement import Relation
@@ -77,6 +77,7 @@ def test_what_follows_holds_wherever_the_assumptions_do(
     answer = or_nothing(5, lambda: follows(conclusion, assumptions, seconds=SECONDS))
     if answer is None or not answer.shown:
         return
+    event("answered")
     symbols = conclusion.free_symbols.union(*(item.free_symbols for item in assumptions))
     for point in trees.points(symbols, 12, seed):
         try:
