@@ -7,6 +7,8 @@ from typing import Any
 
 import sympy as sp
 
+from ptproof.proof import ge, lt
+
 
 @dataclass(frozen=True)
 class Entry:
@@ -74,6 +76,11 @@ R0 = letter("R0", r"\|\bar x(t_0) - x^*\|", "m", "that distance at the initial t
 f_norm = letter("f_norm", r"\|f\|", "m/s", "norm of the drift", nonnegative=True)
 d = letter("d", r"\|d\|_{[t_0,\tau]}", "m/s", "largest bound of the drift up to now", nonnegative=True)
 zeta = letter("zeta", r"\zeta", "[F]^{1/2κ}/s", "input of the scalar comparison system", nonnegative=True)
+
+# Where the two times, and the fast one, run: what is claimed of them is claimed there.
+IN_TIME = (ge(t, t0), lt(t, t0 + T))
+IN_TAU = (ge(tau, t0),)
+IN_FAST_TIME = (ge(mu * tau_fast, t0),)
 
 E = sp.ImmutableDenseMatrix([[E11, E12], [E21, E22]])
 position = (x1, x2)

@@ -25,7 +25,7 @@ from ptproof.system import System
 from ptproof.transforms.time import contract, dilate
 
 from .chain import clock
-from .notation import T, k, nu, rate_of, t, t0, tau
+from .notation import IN_TAU, IN_TIME, T, k, nu, rate_of, t, t0, tau
 
 SECTION = "2 Preliminaries"
 
@@ -84,7 +84,7 @@ def nu_positive(goal: Goal) -> Evidence:
 
 @claim(
     "2.2/time-map", "The time dilation is the clock's map", eq(t0 + (t - t0) / nu(t - t0), clock.to_tau),
-    labels=["eq:tau_to_t"],
+    given=IN_TIME, labels=["eq:tau_to_t"],
 )  # fmt: skip
 def time_map(goal: Goal) -> Evidence:
     """The printed map, beside the clock that every later step uses."""
@@ -100,7 +100,13 @@ def time_map_limit(goal: Goal) -> Evidence:
     return limits(goal)
 
 
-@claim("2.2/dilation-rate", "dt/dτ", eq(1 / (1 + (tau - t0) / T) ** 2, sp.diff(clock.to_t, tau)), labels=["eq:dt_dtau"])
+@claim(
+    "2.2/dilation-rate",
+    "dt/dτ",
+    eq(1 / (1 + (tau - t0) / T) ** 2, sp.diff(clock.to_t, tau)),
+    given=IN_TAU,
+    labels=["eq:dt_dtau"],
+)
 def dilation_rate(goal: Goal) -> Evidence:
     """The printed rate against the derivative of the clock's inverse."""
     return exact(goal)
@@ -109,7 +115,7 @@ def dilation_rate(goal: Goal) -> Evidence:
 @claim(
     "2.2/dilated-example", "The scalar example in dilated time",
     eq(control.subs(t, clock.to_t) / (1 + (tau - t0) / T) ** 2, dilate(nominal_system, clock).rhs[0]),
-    labels=["eq:nominal_example_tau"], uses=[dilation_rate],
+    given=IN_TAU, labels=["eq:nominal_example_tau"], uses=[dilation_rate],
 )  # fmt: skip
 def dilated_example(goal: Goal) -> Evidence:
     """A signal keeps its letter in both time scales: u(τ) is the input at the instant t that belongs to τ."""
@@ -125,7 +131,8 @@ feedback_system = System(t, (x,), (-k * x / nu(t - t0) ** 2,), name="scalar exam
 
 @claim(
     "2.2/example", "The example under the printed law is linear and time-invariant in τ",
-    eq(-k * x, -(stretch**2) * k * x * clock.rate_back), labels=["eq:u_tau", "eq:example"], uses=[dilated_example],
+    eq(-k * x, -(stretch**2) * k * x * clock.rate_back), given=IN_TAU,
+    labels=["eq:u_tau", "eq:example"], uses=[dilated_example],
 )  # fmt: skip
 def example(goal: Goal) -> Evidence:
     """The law as printed in τ, times the clock's rate dt/dτ; what stays is −kx."""
@@ -165,7 +172,7 @@ def example_limit(goal: Goal) -> Evidence:
         eq((t0 + (tau - t0) / (1 + (tau - t0) / T)).subs(tau, t0 + (t - t0) / nu(t - t0)), t),
         eq((t0 + (t - t0) / nu(t - t0)).subs(t, t0 + (tau - t0) / (1 + (tau - t0) / T)), tau),
     ),
-    labels=["eq:t_to_tau"],
+    given=[*IN_TIME, *IN_TAU], labels=["eq:t_to_tau"],
 )  # fmt: skip
 def inverse_map(goal: Goal) -> Evidence:
     """The two printed maps are composed both ways."""
@@ -187,14 +194,21 @@ def inverse_map_limit(goal: Goal) -> Evidence:
 
 @claim(
     "2.2/inverse-map-forms", "The two forms of the contraction in the limit agree",
-    eq((1 - t0 / tau) / (1 / T + (1 - t0 / T) / tau), (tau - t0) / (1 + (tau - t0) / T)), place="Section 2.2",
+    eq((1 - t0 / tau) / (1 / T + (1 - t0 / T) / tau), (tau - t0) / (1 + (tau - t0) / T)),
+    given=[*IN_TAU, gt(tau, 0)], place="Section 2.2",
 )  # fmt: skip
 def inverse_map_forms(goal: Goal) -> Evidence:
-    """Numerator and denominator are divided by τ."""
+    """Numerator and denominator are divided by τ, which is positive for the large τ that the limit is about."""
     return exact(goal)
 
 
-@claim("2.2/contraction-rate", "dτ/dt", eq(1 / nu(t - t0) ** 2, sp.diff(clock.to_tau, t)), labels=["eq:dtau_dt"])
+@claim(
+    "2.2/contraction-rate",
+    "dτ/dt",
+    eq(1 / nu(t - t0) ** 2, sp.diff(clock.to_tau, t)),
+    given=IN_TIME,
+    labels=["eq:dtau_dt"],
+)
 def contraction_rate(goal: Goal) -> Evidence:
     """The printed rate against the derivative of the clock's map."""
     return exact(goal)
@@ -206,7 +220,7 @@ _example_tau = System(tau, (x,), (-k * x,), name="example")
 @claim(
     "2.2/contracted-example", "The example in the original time",
     eq(-k * x / nu(t - t0) ** 2, contract(_example_tau, clock).rhs[0]),
-    labels=["eq:pt_example"], uses=[contraction_rate, example],
+    given=IN_TIME, labels=["eq:pt_example"], uses=[contraction_rate, example],
 )  # fmt: skip
 def contracted_example(goal: Goal) -> Evidence:
     """The linear system is contracted with the clock."""
@@ -216,7 +230,7 @@ def contracted_example(goal: Goal) -> Evidence:
 @claim(
     "2.2/law-t", "The control law in the original time",
     eq(-k * x / nu(t - t0) ** 2, (-(stretch**2) * k * x).subs(tau, clock.to_tau)),
-    labels=["eq:u_t"], uses=[contracted_example],
+    given=IN_TIME, labels=["eq:u_t"], uses=[contracted_example],
 )  # fmt: skip
 def law_t(goal: Goal) -> Evidence:
     """The law that was chosen in τ, at the τ that belongs to t."""
@@ -230,7 +244,7 @@ def law_t(goal: Goal) -> Evidence:
         eq(sp.Subs(_solution_t, t, t0), x0),
         eq(_solution_t, sp.Subs(_solution_tau, tau, clock.to_tau)),
     ),
-    labels=["eq:pt_example_solution"], uses=[contracted_example, example_solution],
+    given=IN_TIME, labels=["eq:pt_example_solution"], uses=[contracted_example, example_solution],
 )  # fmt: skip
 def pt_solution(goal: Goal) -> Evidence:
     """It solves the contracted equation, starts at x₀, and is the same signal as the solution in τ."""
@@ -252,7 +266,7 @@ def pt_limit(goal: Goal) -> Evidence:
         eq(contract(dilate(feedback_system, clock), clock).vector, feedback_system.vector),
         eq(dilate(contract(_example_tau, clock), clock).vector, _example_tau.vector),
     ),
-    place="Section 2.2", uses=[inverse_map, dilation_rate, contraction_rate],
+    given=[*IN_TIME, *IN_TAU], place="Section 2.2", uses=[inverse_map, dilation_rate, contraction_rate],
 )  # fmt: skip
 def round_trip(goal: Goal) -> Evidence:
     """Both orders, on the scalar example; the closed loop follows in Section 4."""

@@ -9,7 +9,7 @@ from ptproof.system import System
 from ptproof.transforms.time import contract, dilate
 
 from .chain import clock, closed_loop_t, closed_loop_tau
-from .notation import F, T, drift_at, f, k, mu, nu, omega, rate_of, t, t0, tau, theta, x1, x2, z
+from .notation import IN_TAU, IN_TIME, F, T, drift_at, f, k, mu, nu, omega, rate_of, t, t0, tau, theta, x1, x2, z
 from .section2_change_of_time import contraction_rate, dilation_rate
 
 SECTION = "4 Prescribed-time source seeking design"
@@ -33,7 +33,7 @@ u1_tau, u2_tau = u1.subs(t, clock.to_t), u2.subs(t, clock.to_t)
         ]),
         dilate(plant, clock).vector,
     ),
-    labels=["eq:seeker_tau_to_be_designed"], uses=[dilation_rate],
+    given=IN_TAU, labels=["eq:seeker_tau_to_be_designed"], uses=[dilation_rate],
 )  # fmt: skip
 def dilated_unicycle(goal: Goal) -> Evidence:
     """Every rate is multiplied by dt/dτ. The paper keeps the letters of signals in both scales: f(τ, x) is the drift at
@@ -77,7 +77,7 @@ closed_tau_printed = sp.Matrix([
 
 @claim(
     "4/closed-loop-tau", "The closed loop in dilated time", eq(closed_tau_printed, closed_loop_tau.vector),
-    labels=["eq:closed_loop_system_tau"], uses=[dilated_unicycle],
+    given=IN_TAU, labels=["eq:closed_loop_system_tau"], uses=[dilated_unicycle],
 )  # fmt: skip
 def closed_loop_in_tau(goal: Goal) -> Evidence:
     """The closed loop is built in the original time from plant and feedback, and dilated by the clock."""
@@ -95,7 +95,7 @@ def closed_loop_in_tau(goal: Goal) -> Evidence:
             filter_rate,
         ]),
     ),
-    labels=["eq:closed_loop_system_tau", "eq:seeker_tau"], uses=[dilated_unicycle],
+    given=IN_TAU, labels=["eq:closed_loop_system_tau", "eq:seeker_tau"], uses=[dilated_unicycle],
 )  # fmt: skip
 def closed_loop_substituted(goal: Goal) -> Evidence:
     """The second route, as the paper takes it: the printed law in the printed dilated unicycle."""
@@ -115,7 +115,7 @@ _printed_tau_system = System(tau, (x1, x2, theta, z), tuple(closed_tau_printed),
 @claim(
     "4/closed-loop-t", "The closed loop in the original time",
     eq(closed_t_printed, contract(_printed_tau_system, clock).vector),
-    labels=["eq:closed_loop_system_t"], uses=[closed_loop_in_tau, contraction_rate],
+    given=IN_TIME, labels=["eq:closed_loop_system_t"], uses=[closed_loop_in_tau, contraction_rate],
 )  # fmt: skip
 def closed_loop_in_t(goal: Goal) -> Evidence:
     """The printed closed loop in τ is contracted by the clock. The paper writes the gain with a Latin v; it is read as
@@ -125,7 +125,7 @@ def closed_loop_in_t(goal: Goal) -> Evidence:
 
 @claim(
     "4/closed-loop-pipeline", "The printed closed loop is the one that the pipeline starts from",
-    eq(closed_t_printed, closed_loop_t.vector), labels=["eq:closed_loop_system_t"],
+    eq(closed_t_printed, closed_loop_t.vector), given=IN_TIME, labels=["eq:closed_loop_system_t"],
 )  # fmt: skip
 def closed_loop_pipeline(goal: Goal) -> Evidence:
     """Plant and feedback put together in the original time, without any change of time."""
@@ -138,7 +138,7 @@ def closed_loop_pipeline(goal: Goal) -> Evidence:
         eq(contract(dilate(closed_loop_t, clock), clock).vector, closed_loop_t.vector),
         eq(dilate(contract(closed_loop_tau, clock), clock).vector, closed_loop_tau.vector),
     ),
-    place="Section 4", uses=[dilation_rate, contraction_rate],
+    given=[*IN_TIME, *IN_TAU], place="Section 4", uses=[dilation_rate, contraction_rate],
 )  # fmt: skip
 def round_trip(goal: Goal) -> Evidence:
     """In both orders, with the field and the drift undefined functions."""

@@ -8,11 +8,11 @@ from ptproof.proof import Evidence, Goal, Relation, claim, eq, exact, limits, re
 from ptproof.system import System
 
 from .chain import closed_loop_t
-from .notation import F, T, f, k, mu, nu, omega, t, t0, theta, x1, x2, z
+from .notation import IN_TIME, F, T, f, k, mu, nu, omega, t, t0, theta, x1, x2, z
 
 SECTION = "4 PT source seeking design: the block diagram"
 
-laplace = sp.Symbol("s")  # a complex number
+laplace = sp.Symbol("s", positive=True)
 gain = 1 / nu(t - t0) ** 2  # K(t), as the caption says
 
 
@@ -55,7 +55,8 @@ transfer_function = _transfer_function()
     place="Section 4",
 )  # fmt: skip
 def washout_realisation(goal: Goal) -> Evidence:
-    """The transfer function C(s − A)⁻¹B + D of the two equations."""
+    """The transfer function C(s − A)⁻¹B + D of the two equations, for s > 0: two rational functions that agree there
+    are the same."""
     return exact(goal)
 
 
@@ -65,7 +66,7 @@ def washout_realisation(goal: Goal) -> Evidence:
     uses=[washout_realisation],
 )  # fmt: skip
 def washout_differentiates(goal: Goal) -> Evidence:
-    """At every fixed complex frequency s the transfer function tends to s."""
+    """At every fixed s > 0 the transfer function tends to s."""
     return limits(goal)
 
 
@@ -86,7 +87,7 @@ def figure_as_drawn(goal: Goal) -> Evidence:
 
 @claim(
     "4/figure-corrected", "With the filter's rate scaled by K(t) it is the closed loop",
-    _closed_loop(with_scaled_filter), labels=["fig:unicycle_pt_controller"], corrects=figure_as_drawn,
+    _closed_loop(with_scaled_filter), given=IN_TIME, labels=["fig:unicycle_pt_controller"], corrects=figure_as_drawn,
 )  # fmt: skip
 def figure_corrected(goal: Goal) -> Evidence:
     """The filter is then s/(μs + 1) in the dilated time τ, as in eq:filter_tau, and its output is still (y − z)/μ."""

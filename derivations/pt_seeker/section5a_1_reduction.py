@@ -21,6 +21,9 @@ from ptproof.transforms.states import solve_state
 
 from . import chain
 from .notation import (
+    IN_FAST_TIME,
+    IN_TAU,
+    IN_TIME,
     F,
     T,
     drift_at,
@@ -64,7 +67,7 @@ law = definition(
         closed_t_printed,
         sp.Matrix([f[0] + u1_printed * sp.cos(theta), f[1] + u1_printed * sp.sin(theta), u2_printed, z_rate_printed]),
     ),
-    labels=["eq:pt_controlla", "eq:u1", "eq:u2", "eq:z"], uses=[closed_loop_in_t],
+    given=IN_TIME, labels=["eq:pt_controlla", "eq:u1", "eq:u2", "eq:z"], uses=[closed_loop_in_t],
 )  # fmt: skip
 def law_closes_the_loop(goal: Goal) -> Evidence:
     """The printed law in the printed unicycle, against the printed closed loop of Section 4."""
@@ -121,7 +124,7 @@ def p_solution(goal: Goal) -> Evidence:
         ]),
         chain.reduced_coordinates.vector,
     ),
-    labels=["eq:tau_pt_system"], uses=[p_solution, closed_loop_in_tau],
+    given=IN_TAU, labels=["eq:tau_pt_system"], uses=[p_solution, closed_loop_in_tau],
 )  # fmt: skip
 def reduced_coordinates(goal: Goal) -> Evidence:
     """θ = p − kz is substituted, and p by its solution with p₀ = 0."""
@@ -133,7 +136,7 @@ _with_phase = split_dithers(split(solve_state(chain.with_p, p, omega * tau + p0)
 
 @claim(
     "5/step1-initial-phase", "The averaged system does not depend on p₀",
-    eq(average(_with_phase).vector, chain.averaged_tau.vector), place="Step 1", uses=[p_solution],
+    eq(average(_with_phase).vector, chain.averaged_tau.vector), given=IN_TAU, place="Step 1", uses=[p_solution],
 )  # fmt: skip
 def initial_phase(goal: Goal) -> Evidence:
     """Setting p₀ = 0 loses nothing: with p₀ kept as a symbol, the average comes out the same."""
@@ -157,7 +160,7 @@ stretch_fast = 1 + (slow - t0) / T
         ]),
         chain.fast_time.vector,
     ),
-    labels=["eq:tau_pt_system_eps", "eq:to_be_reduced_model"], uses=[reduced_coordinates],
+    given=IN_FAST_TIME, labels=["eq:tau_pt_system_eps", "eq:to_be_reduced_model"], uses=[reduced_coordinates],
 )  # fmt: skip
 def fast_time(goal: Goal) -> Evidence:
     """τ = μτ̃; the drift is again taken at the instant that belongs to the fast time."""
@@ -195,7 +198,7 @@ _dither = omega * slow - k * F
         ]),
         chain.reduced_model_fast.vector,
     ),
-    labels=["eq:reduced_model_tau"], uses=[quasi_steady_state, fast_time, reduced_model],
+    given=IN_FAST_TIME, labels=["eq:reduced_model_tau"], uses=[quasi_steady_state, fast_time, reduced_model],
 )  # fmt: skip
 def reduced_model_seeker(goal: Goal) -> Evidence:
     """z is replaced by F(x) in the slow rates."""

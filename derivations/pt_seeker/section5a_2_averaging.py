@@ -27,6 +27,8 @@ from ptproof.system import lie_bracket
 
 from . import chain
 from .notation import (
+    IN_FAST_TIME,
+    IN_TAU,
     F,
     T,
     f,
@@ -87,7 +89,7 @@ fields = (*b1_printed, *b2_printed)
         + mu * sp.sqrt(omega) * sp.Matrix(b2_printed) * sp.sin(omega * slow),
         chain.reduced_model_fast.vector,
     ),
-    labels=["eq:reduced_model_tau_2"], uses=[trigonometry, reduced_model_seeker],
+    given=IN_FAST_TIME, labels=["eq:reduced_model_tau_2"], uses=[trigonometry, reduced_model_seeker],
 )  # fmt: skip
 def dithers(goal: Goal) -> Evidence:
     """The printed fields and dithers, put together again, are the reduced model."""
@@ -130,7 +132,7 @@ def drift_brace_printed(goal: Goal) -> Evidence:
         eq(sp.Matrix(drift_term), mu * sp.Matrix(b0)),
         eq(sp.Matrix([f_tau[i] / stretch**2 for i in (0, 1)]), sp.Matrix(chain.dithered.drift)),
     ),
-    labels=["eq:reduced_model_tau_2"], corrects=drift_brace_printed,
+    given=[*IN_FAST_TIME, *IN_TAU], labels=["eq:reduced_model_tau_2"], corrects=drift_brace_printed,
 )  # fmt: skip
 def drift_brace(goal: Goal) -> Evidence:
     """Comparing with the general form, b₀ carries no μ."""
@@ -161,7 +163,8 @@ averaged_printed = sp.Matrix([f_tau[i] / stretch**2 + k / 2 * chain.gradient_F[i
 
 @claim(
     "5/step3-lie-bracket-system", "The averaged system", eq(averaged_printed, chain.averaged_tau.vector),
-    labels=["eq:lie_bracket_system_real"], uses=[dithers, fields_split, bracket, coefficient, lie_bracket_system],
+    given=IN_TAU, labels=["eq:lie_bracket_system_real"],
+    uses=[dithers, fields_split, bracket, coefficient, lie_bracket_system],
 )  # fmt: skip
 def averaged_system(goal: Goal) -> Evidence:
     """The end of the pipeline from the closed loop in t: drift over the square of the stretch, plus half of k∇F."""
@@ -175,7 +178,7 @@ def averaged_system(goal: Goal) -> Evidence:
         sp.Matrix([f_tau[i] / stretch**2 for i in (0, 1)])
         + sp.Matrix(lie_bracket(b1_printed, b2_printed, position)) * sp.Rational(1, 2),
     ),
-    labels=["eq:lie_bracket_system_real"], uses=[bracket, coefficient],
+    given=IN_TAU, labels=["eq:lie_bracket_system_real"], uses=[bracket, coefficient],
 )  # fmt: skip
 def averaged_by_hand(goal: Goal) -> Evidence:
     """The same without the averaging engine: b₀ + [b₁, b₂] v₂₁."""

@@ -26,6 +26,7 @@ from ptproof.proof import (
 
 from . import chain
 from .notation import (
+    IN_TAU,
     F,
     F_source,
     G,
@@ -68,7 +69,7 @@ lyapunov_function = definition(
 @claim(
     "5/step4-derivative", "dV/dτ along the averaged system",
     eq(-(F_1 * f_tau[0] + F_2 * f_tau[1]) / stretch**2 - k / 2 * gradient_norm**2, V_rate),
-    labels=["eq:Lyapunov_derivative"], uses=[averaged_system],
+    given=IN_TAU, labels=["eq:Lyapunov_derivative"], uses=[averaged_system],
 )  # fmt: skip
 def derivative(goal: Goal) -> Evidence:
     """The averaged system from the pipeline, multiplied by the gradient of V."""
@@ -77,7 +78,7 @@ def derivative(goal: Goal) -> Evidence:
 
 @claim(
     "5/step4-cauchy-schwarz", "The drift against the gradient",
-    le(-(F_1 * f_tau[0] + F_2 * f_tau[1]), drift_norm * gradient_norm), place="Step 4",
+    le(-(F_1 * f_tau[0] + F_2 * f_tau[1]), drift_norm * gradient_norm), given=IN_TAU, place="Step 4",
 )  # fmt: skip
 def cauchy_schwarz(goal: Goal) -> Evidence:
     """Written out in two dimensions."""

@@ -25,6 +25,7 @@ from ptproof.proof import (
 
 from . import chain
 from .notation import (
+    IN_TIME,
     F,
     R,
     T,
@@ -66,7 +67,7 @@ V_dot, U_dot = sp.symbols("V_dot U_dot", real=True)
 @claim(
     "prop/averaged-in-t", "The averaged reduced model in the original time",
     eq(sp.Matrix([f[i] + k / 2 * chain.gradient_F[i] / nu(t - t0) ** 2 for i in (0, 1)]), chain.averaged_t.vector),
-    labels=["eq:LBA_reduced_model_t"], uses=[averaged_system],
+    given=IN_TIME, labels=["eq:LBA_reduced_model_t"], uses=[averaged_system],
 )  # fmt: skip
 def averaged_in_t(goal: Goal) -> Evidence:
     """The Lie bracket system, contracted: the drift gets back its full size, the gradient the growing gain."""

@@ -11,9 +11,9 @@ import sympy as sp
 from ptproof.proof import (
     Claim,
     Evidence,
+    Fact,
     ForAll,
     Goal,
-    Implication,
     Relation,
     claim,
     comparison,
@@ -134,7 +134,7 @@ def falls(order: sp.Expr, forcing: sp.Expr, *domain: Relation) -> ForAll:
     return ForAll((s,), le(sp.Derivative(U_at(s), s), rate), domain)
 
 
-def smaller(order: sp.Expr, low: sp.Expr, high: sp.Expr, after: sp.Expr) -> list[Implication]:
+def smaller(order: sp.Expr, low: sp.Expr, high: sp.Expr, after: sp.Expr) -> list[Fact]:
     """The decay from a smaller value is smaller, as far as powers are concerned."""
     if order == 1:
         return []
@@ -143,7 +143,7 @@ def smaller(order: sp.Expr, low: sp.Expr, high: sp.Expr, after: sp.Expr) -> list
     return [power_monotone(low, high, power), power_monotone(below, above, 1 / power)]
 
 
-def regular(order: sp.Expr, value: sp.Expr, after: sp.Expr) -> list[Implication]:
+def regular(order: sp.Expr, value: sp.Expr, after: sp.Expr) -> list[Fact]:
     """The denominator of the decay, and its root, are positive."""
     return [] if order == 1 else [power_positive(denominator(value, after, order), 1 / (2 * order - 2))]
 

@@ -7,9 +7,9 @@ import sympy as sp
 from ptproof.proof import (
     Claim,
     Evidence,
+    Fact,
     ForAll,
     Goal,
-    Implication,
     Relation,
     claim,
     eq,
@@ -206,7 +206,7 @@ def in_the_limit(
         """The statement of the Proposition: the distance lies between 0 and a bound that tends to 0 as t tends to
         t₀ + T. For κ ≥ 2 the estimate on the second half alone is enough, since β forgets the distance."""
 
-        def facts(there: Goal) -> list[Implication]:
+        def facts(there: Goal) -> list[Fact]:
             middle = half.subs(tau, end)
             points = instances(there, t0, middle, end, t)
             if linear:

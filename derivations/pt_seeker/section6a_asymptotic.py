@@ -28,6 +28,7 @@ from ptproof.transforms.states import change_variable, solve_state
 
 from . import chain
 from .notation import (
+    IN_TIME,
     R0,
     V0,
     E_norm,
@@ -218,7 +219,7 @@ def distance_limit_in_t(goal: Goal) -> Evidence:
     "6.2/drift-slows", "The drift enlarges the bound by a factor that does not depend on time",
     every(le(printed_in_t.subs(E_norm, 0), printed_in_t),
           eq(printed_in_t, printed_in_t.subs(E_norm, 0) * sp.exp(C2**2 / 2 * E_norm * T))),
-    place="Section 6.2", uses=[distance_bound_in_t],
+    given=IN_TIME, place="Section 6.2", uses=[distance_bound_in_t],
 )  # fmt: skip
 def drift_slows(goal: Goal) -> Evidence:
     """So it delays the convergence that the bound guarantees, and leaves the limit as it is."""

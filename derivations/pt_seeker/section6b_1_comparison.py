@@ -26,7 +26,7 @@ from ptproof.proof import (
     specialise,
 )
 
-from .notation import V0, E_norm, G, T, V, c, f_norm, k, kappa, q, t0, tau
+from .notation import IN_TAU, V0, E_norm, G, T, V, c, f_norm, k, kappa, q, t0, tau
 from .section5a_1_reduction import stretch
 from .section5b_1_lyapunov import V_away, gradient_bounds, n, sigma, sigma_form, v_differential_inequality, v_inequality
 
@@ -127,7 +127,7 @@ explicit = (T + elapsed) * (1 - sigma * W * work)
 
 @claim(
     "6.2/denominator", "The printed denominator is (T + τ − t₀)(1 − σV₀^σ times the integral)",
-    eq(denominator(W), explicit), labels=["eq:remark_inequality"], uses=[sigma_form],
+    eq(denominator(W), explicit), given=IN_TAU, labels=["eq:remark_inequality"], uses=[sigma_form],
 )  # fmt: skip
 def denominator_form(goal: Goal) -> Evidence:
     """γ₀, γ₁ and γ₂ as printed, against what the integration gives; W stands for V(x₀)^σ."""
@@ -154,7 +154,7 @@ def remark_inequality(goal: Goal) -> Evidence:
 @claim(
     "6.2/bound-attained", "The bound solves the comparison equation",
     eq(sp.Derivative(-denominator(W) / (W * (T + elapsed)), tau), sigma * rate_at(tau)),
-    place="Section 6.2", uses=[remark_inequality],
+    given=IN_TAU, place="Section 6.2", uses=[remark_inequality],
 )  # fmt: skip
 def bound_attained(goal: Goal) -> Evidence:
     """V to the power −σ is the denominator over V(x₀)^σ(T + τ − t₀) where V equals the bound, and that satisfies the

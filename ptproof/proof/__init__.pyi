@@ -20,6 +20,7 @@ from .engines.reals import reals as reals
 from .engines.smoothness import smooth as smooth
 from .engines.squeeze import squeezed as squeezed
 from .engines.witnesses import refute as refute
+from .facts import Fact as Fact
 from .lemmas import cosine_parabola as cosine_parabola
 from .lemmas import cosine_quartic as cosine_quartic
 from .lemmas import exp_monotone as exp_monotone
@@ -34,6 +35,8 @@ from .lemmas import sine_square as sine_square
 from .lemmas import superadditive as superadditive
 from .load import Derivation as Derivation
 from .load import load as load
+from .mutation.outcomes import Mutation as Mutation
+from .mutation.running import mutate as mutate
 from .run import Verification as Verification
 from .run import decide as decide
 from .run import verify as verify

@@ -9,13 +9,15 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
-from functools import wraps
+from functools import cached_property, wraps
 from types import FrameType
 from typing import Any, Concatenate, ParamSpec, TypeAlias, cast
 
 import sympy as sp
 
 from ptproof.errors import InputError
+from ptproof.proof.content import digest
+from ptproof.proof.facts import Fact, from_claim, guarded
 from ptproof.proof.statement import (
     All,
     Assumption,
@@ -40,9 +42,10 @@ class Goal:
     statement: Statement
     assumptions: tuple[Assumption, ...] = ()
     uses: tuple[Claim, ...] = ()
+    where_defined: bool = False
 
     @property
-    def facts(self) -> tuple[Implication, ...]:
+    def facts(self) -> tuple[Fact, ...]:
         """The statements of the claims used, at the same symbols, each under that claim's own assumptions."""
         return tuple(fact for used in self.uses for fact in facts_of(used))
 
@@ -86,6 +89,9 @@ class Claim:
         The printed claim of which this one is the correction.
     place
         Where in the paper a statement without a label stands.
+    where_defined
+        Whether it speaks only of the values at which both sides are defined and real; otherwise that they are, for
+        all values that the declarations and assumptions allow, is part of what is claimed.
     """
 
     id: str
@@ -100,6 +106,7 @@ class Claim:
     section: str = ""
     corrects: Claim | None = None
     place: str = ""
+    where_defined: bool = False
 
     def __post_init__(self) -> None:
         for used in (*self.uses, *([self.corrects] if self.corrects is not None else [])):
@@ -126,9 +133,18 @@ class Claim:
                 return "equality" if all(part.sign == "=" for part in parts) else "inequality"
         return "statement"
 
+    @cached_property
+    def content(self) -> str:
+        """What is claimed, as a hash: statement, assumptions, flags, and the contents of all claims that it uses.
+
+        Neither the id, the words nor the proof are part of it, so that who relies on a claim relies on what it says.
+        """
+        used = tuple(used.content for used in self.uses)
+        return digest(self.statement, self.assumptions, self.where_defined, used)
+
     def goal(self) -> Goal:
         """What the proof receives."""
-        return Goal(self.id, self.statement, self.assumptions, self.uses)
+        return Goal(self.id, self.statement, self.assumptions, self.uses, self.where_defined)
 
 
 @dataclass(frozen=True)
@@ -157,6 +173,7 @@ def claim(
     expected: str = "proved",
     corrects: Claim | None = None,
     place: str = "",
+    where_defined: bool = False,
 ) -> Callable[[Proof], Claim]:
     """Make the decorated proof a :class:`Claim`; its docstring is the prose of the report.
 
@@ -167,7 +184,7 @@ def claim(
     def make(prove: Proof) -> Claim:
         return Claim(
             id, title, states, prove, tuple(given), tuple(uses), _labels(id, labels), Verdict(expected),
-            inspect.cleandoc(prove.__doc__ or ""), section, corrects, place,
+            inspect.cleandoc(prove.__doc__ or ""), section, corrects, place, where_defined,
         )  # fmt: skip
 
     return make
@@ -192,42 +209,56 @@ def _labels(id: str, labels: Iterable[str]) -> tuple[str, ...]:
     return tuple(labels)
 
 
-def facts_of(used: Claim) -> tuple[Implication, ...]:
+def facts_of(used: Claim) -> tuple[Fact, ...]:
     """What ``used`` says at its own symbols, as facts under its own assumptions; nothing if those are quantified.
 
-    At other values it is :func:`ptproof.proof.engines.quantified.specialise` that says it.
+    At other values it is :func:`ptproof.proof.engines.quantified.specialise` that says it. A claim that speaks only
+    of where it is defined says nothing elsewhere.
     """
     if isinstance(used.statement, Prose | Smooth | Exists):
         return ()
     if any(not isinstance(item, Relation) for item in used.assumptions):
         return ()
-    return tuple(Implication(plain(used.assumptions), part, source=used.id) for part in relations_of(used.statement))
+    said = (Implication(plain(used.assumptions), part, source=used.id) for part in relations_of(used.statement))
+    limited = (guarded(says) if used.where_defined else says for says in said)
+    return tuple(from_claim(used, says) for says in limited if says is not None)
+
+
+_SEAL = object()
+
+
+@dataclass(frozen=True)
+class Certificate:
+    """What an engine was asked about and what it said; nobody but :func:`engine` makes one."""
+
+    goal: Goal
+    verdict: Verdict
+    seal: Any = field(default=None, repr=False, compare=False)
+
+    @property
+    def genuine(self) -> bool:
+        """Whether it was made by :func:`engine`."""
+        return self.seal is _SEAL
 
 
 def engine(proof: Callable[Concatenate[Goal, P], Evidence]) -> Callable[Concatenate[Goal, P], Evidence]:
-    """Mark a function as an engine: its evidence carries the goal that it was asked about.
+    """Mark a function as an engine: its evidence carries the goal that it was asked about, and its verdict.
 
-    A claim takes evidence about nothing but its own goal (:func:`ptproof.proof.deciding.run_one`), so that a proof that
-    changes the statement or adds an assumption shows nothing.
+    A claim takes evidence about nothing but its own goal (:func:`ptproof.proof.deciding.run_one`), so that a proof
+    that changes the statement, adds an assumption or rewrites the verdict shows nothing. An engine that stands
+    outside of this package may observe and cite; it proves and refutes nothing.
     """
 
     @wraps(proof)
     def certified(goal: Goal, *arguments: P.args, **options: P.kwargs) -> Evidence:
-        return replace(proof(goal, *arguments, **options), certifies=goal)
+        found = proof(goal, *arguments, **options)
+        if found.verdict in (Verdict.PROVED, Verdict.REFUTED) and not proof.__module__.startswith("ptproof.proof."):
+            reason = f"{proof.__module__}.{proof.__name__} is no engine of ptproof, which said {found.verdict}"
+            found = replace(found, verdict=Verdict.UNDECIDED, detail=f"{reason}: {found.detail}", witness=None)
+        return replace(found, certifies=Certificate(goal, found.verdict, _SEAL))
 
     # The name of the first parameter is lost in the type of a wrapped function.
     return cast("Callable[Concatenate[Goal, P], Evidence]", certified)
-
-
-def admissible(symbol: sp.Symbol, value: Any) -> bool:
-    """Whether ``value`` is known to satisfy every assumption that ``symbol`` was declared with."""
-    value = sp.sympify(value)
-    return all(getattr(value, f"is_{name}") is truth for name, truth in declared(symbol).items())
-
-
-def declared(symbol: sp.Symbol) -> dict[str, bool]:
-    """The assumptions that ``symbol`` was declared with."""
-    return {name: truth for name, truth in symbol._assumptions_orig.items() if name != "commutative"}
 
 
 def cited(reference: str) -> Proof:
@@ -252,8 +283,17 @@ class Result:
     rests_on: tuple[str, ...] = field(default=())
 
     @property
+    def hit(self) -> Evidence | None:
+        """The attack that met an exact point at which something false was shown, by nothing but what is fully proved:
+        an error of ptproof."""
+        return next(
+            (item for item in self.evidence if (item.engine, item.verdict) == ("attack", Verdict.REFUTED)), None
+        )
+
+    @property
     def as_expected(self) -> bool:
-        return self.verdict is self.claim.expected
+        """Whether it came out as its author recorded, and nothing contradicts it."""
+        return self.verdict is self.claim.expected and self.hit is None
 
     def to_json(self) -> dict[str, Any]:
         witness = next((item.witness for item in self.evidence if item.witness is not None), None)

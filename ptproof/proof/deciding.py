@@ -1,12 +1,12 @@
-"""Deciding one claim: its proof is run, what it says is held against the claim, and what it leaves open is attacked."""
+"""Deciding one claim: its proof is run, and counts only if its evidence is an engine's and about this very claim."""
 
 from __future__ import annotations
 
 import time
 from dataclasses import replace
 
-from ptproof.proof.claim import Claim, Goal
-from ptproof.proof.settling import with_witness
+from ptproof.proof.claim import Certificate, Claim
+from ptproof.proof.settling import settled
 from ptproof.proof.verdict import Evidence, Verdict
 
 
@@ -17,7 +17,8 @@ def run_one(claim: Claim) -> Evidence:
         evidence = _examined(claim)
     except Exception as error:
         evidence = Evidence("crash", Verdict.UNDECIDED, f"{type(error).__name__}: {error}")
-    return replace(evidence, certifies=None, found={}, suspect=None, seconds=time.perf_counter() - start)
+    seconds = time.perf_counter() - start
+    return replace(evidence, certifies=None, found={}, suspect=None, seconds=seconds, content=claim.content)
 
 
 def _examined(claim: Claim) -> Evidence:
@@ -27,20 +28,25 @@ def _examined(claim: Claim) -> Evidence:
         return Evidence("crash", Verdict.UNDECIDED, f"the proof returned {type(evidence).__name__}, not evidence")
     if reason := _mismatch(claim, evidence):
         return Evidence("mismatch", Verdict.UNDECIDED, reason)
-    return with_witness(claim.goal(), evidence)
+    return settled(claim.goal(), evidence)
 
 
 def _mismatch(claim: Claim, evidence: Evidence) -> str:
     """Why the evidence is not about this claim; empty if it is."""
-    goal = evidence.certifies
-    if not isinstance(goal, Goal):
+    certificate = evidence.certifies
+    if not isinstance(certificate, Certificate) or not certificate.genuine:
         return "the evidence does not come from an engine"
+    if certificate.verdict is not evidence.verdict:
+        return f"the engine said {certificate.verdict}, not {evidence.verdict}"
+    goal = certificate.goal
     if goal.statement != claim.statement:
         return f"the evidence is about another statement: {goal.statement}"
+    if goal.where_defined and not claim.where_defined:
+        return "the evidence is about where both sides are defined, and the claim is not"
     if not set(goal.assumptions) <= set(claim.assumptions):
         return "the evidence assumes more than the claim does"
     if evidence.verdict is Verdict.REFUTED and set(goal.assumptions) != set(claim.assumptions):
         return "the refutation leaves out an assumption of the claim"
-    if not all(used in claim.uses for used in goal.uses):
+    if not {used.content for used in goal.uses} <= {used.content for used in claim.uses}:
         return "the evidence uses claims that the claim does not name"
     return ""

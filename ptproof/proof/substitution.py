@@ -1,31 +1,240 @@
-"""Values put in the place of symbols and undefined functions."""
+"""Values put in the place of symbols and undefined functions: for everyone, in one place.
+
+A substitution is a value that can't be made with what is not of the kind that a letter stands for. What is bound is
+never caught: a bound variable that stands in a value is renamed, and a derivative is taken before its variable gets
+a value. What the values need in order to be defined goes along (:attr:`Substitution.domain`).
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any
 
 import sympy as sp
+from sympy.core.function import AppliedUndef
 
-from ptproof.proof.statement import Relation
-from ptproof.system import differentiated
+from ptproof.errors import InputError
+from ptproof.proof.declarations import everywhere, is_kind
+from ptproof.proof.definedness import Obligation, obligations
+from ptproof.proof.signs import holds
+from ptproof.proof.statement import ForAll, Relation
 
-_BINDERS = (sp.Derivative, sp.Integral, sp.Limit, sp.Subs, sp.Sum, sp.Product, sp.Lambda)
+_WITH_LIMITS = (sp.Integral, sp.Sum, sp.Product)
+BINDERS = (sp.Derivative, sp.Limit, sp.Subs, sp.Lambda, *_WITH_LIMITS)
 
 
-def substitute_in(relation: Relation, values: Mapping[Any, Any]) -> Relation:
-    """Replace symbols and undefined functions in both sides, without carrying out limits or integrals."""
-    symbols = {key: sp.sympify(value) for key, value in values.items() if isinstance(key, sp.Symbol)}
-    functions = {key: value for key, value in values.items() if not isinstance(key, sp.Symbol)}
+class NotOfKind(InputError):
+    """A value is not known to be what the letter stands for."""
 
-    def change(expression: sp.Expr) -> sp.Expr:
-        for applied, value in functions.items():
-            expression = expression.replace(applied.func, sp.Lambda(applied.args, value))
-        if functions:
-            expression = differentiated(expression)
-        if expression.has(*_BINDERS):
-            return expression.subs(symbols, simultaneous=True)
-        # All at once, from the leaves up: a Min or Max is then compared once, between its final arguments.
-        return expression.xreplace(symbols)
 
-    return relation.map(change)
+def _never(value: sp.Expr, sign: str) -> bool:
+    return False
+
+
+def _real_where_defined(value: sp.Expr) -> bool:
+    """What is asked of the value goes along as the substitution's domain."""
+    return all(need.relation is not None for need in obligations(value))
+
+
+@dataclass(frozen=True)
+class Substitution:
+    """Values of symbols, and of undefined functions written as applied to symbols: an expression in these.
+
+    All values are put in at once: what stands in a value is not replaced again.
+
+    Parameters
+    ----------
+    values
+        Symbol, or applied function → expression.
+    has_sign
+        Whether an expression is shown to be "positive", "nonnegative", …, where SymPy does not know it.
+
+    Raises
+    ------
+    NotOfKind
+        If a value is not known to be what its letter was declared to be; for a function at all real arguments.
+    InputError
+        If a function is not written as applied to distinct symbols.
+
+    Examples
+    --------
+    >>> x, c = sp.symbols("x c", real=True)
+    >>> Substitution({c: x}).into(sp.Derivative(c * x, x)).doit()
+    x
+    """
+
+    values: Mapping[Any, Any]
+    has_sign: Callable[[sp.Expr, str], bool] = field(default=_never, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "values", {key: sp.sympify(value) for key, value in self.values.items()})
+        for letter, value in self.values.items():
+            if isinstance(letter, AppliedUndef):
+                _check_function(letter, value)
+            if not is_kind(letter, value, self.has_sign, _real_where_defined):
+                raise NotOfKind(f"{value} is not known to be what {letter} stands for")
+
+    @cached_property
+    def domain(self) -> tuple[Obligation, ...]:
+        """What has to hold for the values of the symbols to be defined."""
+        values = [value for letter, value in self.values.items() if isinstance(letter, sp.Symbol)]
+        return tuple(need for value in values for need in obligations(value) if not need.settled)
+
+    def into(self, expression: sp.Expr) -> sp.Expr:
+        """The expression with the values put in; limits, integrals and derivatives are not carried out."""
+        symbols = {letter: value for letter, value in self.values.items() if isinstance(letter, sp.Symbol)}
+        functions = {letter: value for letter, value in self.values.items() if isinstance(letter, AppliedUndef)}
+        return _put(sp.sympify(expression), symbols, {letter.func: (letter, v) for letter, v in functions.items()})
+
+    def relation(self, relation: Relation) -> Relation:
+        """Both sides with the values put in."""
+        return relation.map(self.into)
+
+    def quantified(self, item: ForAll) -> ForAll:
+        """An assumption for all values of its variables, which stay what they are.
+
+        Raises
+        ------
+        InputError
+            If a value would be caught by the quantifier.
+        """
+        for letter, value in self.values.items():
+            own = set(letter.args) if isinstance(letter, AppliedUndef) else set()
+            if letter in item.variables or (value.free_symbols - own) & set(item.variables):
+                raise InputError(f"the value of {letter} would be caught by the quantifier of {item}")
+        return ForAll(item.variables, self.relation(item.relation), tuple(map(self.relation, item.domain)))
+
+
+def holds_at(relations: Iterable[Relation], values: Mapping[Any, Any]) -> bool:
+    """Whether exact values are ones that their letters may have, and certainly satisfy all the relations."""
+    try:
+        there = Substitution(values)
+    except NotOfKind:
+        return False
+    return all(holds(there.relation(relation)) for relation in relations)
+
+
+def replaced(expression: sp.Expr, equal: Mapping[sp.Expr, sp.Expr]) -> sp.Expr:
+    """The expression with symbols and values of functions exchanged for what is assumed to be equal to them.
+
+    Two values agree, not two functions: what is applied to an argument is not replaced under a derivative, an
+    integral or a limit, where the argument may be another one. Kinds are not asked: equal values are of both.
+    """
+    symbols = {letter: value for letter, value in equal.items() if isinstance(letter, sp.Symbol)}
+    masks: dict[sp.Expr, sp.Expr] = {}
+    traversal = sp.preorder_traversal(expression)
+    for node in traversal:
+        if isinstance(node, BINDERS):
+            masks.setdefault(node, sp.Dummy("bound", real=True))
+            traversal.skip()
+    outside = expression.xreplace(masks).xreplace(dict(equal))
+    return outside.xreplace({mask: _put(node, symbols, {}) for node, mask in masks.items()})
+
+
+def _check_function(letter: AppliedUndef, value: sp.Expr) -> None:
+    if len(set(letter.args)) != len(letter.args) or not all(isinstance(entry, sp.Symbol) for entry in letter.args):
+        raise InputError(f"the value of a function is given for it applied to distinct symbols, not for {letter}")
+    if any(not need.settled for need in obligations(everywhere(letter, value))):
+        raise NotOfKind(f"{value} is not known to be defined for all arguments of {letter}")
+
+
+Functions = Mapping[Any, tuple[AppliedUndef, sp.Expr]]
+
+
+def _put(node: sp.Basic, symbols: Mapping[sp.Symbol, sp.Expr], functions: Functions) -> Any:
+    if isinstance(node, sp.Symbol):
+        return symbols.get(node, node)
+    if not node.args or not (node.free_symbols & symbols.keys() or _calls(node, functions)):
+        return node
+    match node:
+        case sp.Derivative():
+            return _put_derivative(node, symbols, functions)
+        case sp.Integral() | sp.Sum() | sp.Product():
+            return _put_limits(node, symbols, functions)
+        case sp.Limit():
+            inside, variable, point, side = node.args
+            new, within = _entered(variable, symbols, functions, inside)
+            return sp.Limit(_put(inside, within, functions), new, _put(point, symbols, functions), side)
+        case sp.Subs():
+            points = [_put(point, symbols, functions) for point in node.point]
+            within, names = dict(symbols), []
+            for variable in node.variables:
+                new, within = _entered(variable, within, functions, node.expr)
+                names.append(new)
+            return sp.Subs(_put(node.expr, within, functions), names, points)
+    if isinstance(node, sp.Lambda) or getattr(node, "bound_symbols", None):
+        raise InputError(f"values cannot be put into {node}")
+    arguments = [_put(argument, symbols, functions) for argument in node.args]
+    if isinstance(node, AppliedUndef) and node.func in functions:
+        letter, value = functions[node.func]
+        return _put(value, dict(zip(letter.args, arguments, strict=True)), {})
+    return node.func(*arguments)
+
+
+def _calls(node: sp.Basic, functions: Functions) -> bool:
+    return bool(functions) and any(applied.func in functions for applied in node.atoms(AppliedUndef))
+
+
+def _entered(
+    variable: sp.Symbol, symbols: Mapping[sp.Symbol, sp.Expr], functions: Functions, inside: sp.Basic
+) -> tuple[sp.Symbol, dict[sp.Symbol, sp.Expr]]:
+    """The name of a bound variable, another one where a value would be caught by it, and the values inside."""
+    within = {letter: value for letter, value in symbols.items() if letter != variable}
+    if variable in _free(within.values(), functions):
+        new = _fresh(variable, [inside, *within.values(), *within, *(value for _, value in functions.values())])
+        return new, within | {variable: new}
+    return variable, within
+
+
+def _free(values: Iterable[sp.Expr], functions: Functions) -> set[sp.Symbol]:
+    """The symbols that would be caught: those of the values, and of functions those that are no arguments."""
+    found: set[sp.Symbol] = set().union(*(value.free_symbols for value in values))
+    return found.union(*(value.free_symbols - set(letter.args) for letter, value in functions.values()))
+
+
+def _fresh(variable: sp.Symbol, among: Iterable[sp.Basic]) -> sp.Symbol:
+    """A symbol of the same kind under a name that does not occur; the same one for the same question."""
+    names = {symbol.name for entry in among for symbol in entry.atoms(sp.Symbol)}
+    number = next(i for i in range(1, len(names) + 2) if f"{variable.name}_{i}" not in names)
+    return sp.Symbol(f"{variable.name}_{number}", **variable._assumptions_orig)
+
+
+def _put_limits(node: Any, symbols: Mapping[sp.Symbol, sp.Expr], functions: Functions) -> sp.Expr:
+    limits, within = [], dict(symbols)
+    for limit in reversed(node.limits):  # the outermost first: the ends of an inner one may depend on it
+        if len(limit) != 3:
+            raise InputError(f"values cannot be put into {node}, which has no ends")
+        variable, *ends = limit
+        ends = [_put(end, within, functions) for end in ends]
+        new, within = _entered(variable, within, functions, node)
+        limits.append((new, *ends))
+    return node.func(_put(node.function, within, functions), *reversed(limits))
+
+
+def _put_derivative(node: sp.Derivative, symbols: Mapping[sp.Symbol, sp.Expr], functions: Functions) -> sp.Expr:
+    inside, within = node.expr, dict(symbols)
+    names, points = [], []
+    for variable, count in node.variable_count:
+        caught = variable in within or variable in _free(within.values(), functions)
+        value = within.pop(variable, variable)
+        new = _fresh(variable, [inside, *within.values(), *within, value, *_bodies(functions)]) if caught else variable
+        if caught:
+            within[variable] = new
+            points.append((new, value))
+        names.append((new, count))
+    inside = _put(inside, within, functions)
+    # Another letter for the variable is all that happens, where it does not stand for something inside already.
+    plain = {
+        new: value for new, value in points if value.is_Symbol and value not in inside.free_symbols
+        and [point for _, point in points].count(value) == 1
+    }  # fmt: skip
+    inside = inside.xreplace(plain)
+    derivative = sp.Derivative(inside, *((plain.get(name, name), count) for name, count in names))
+    left = [(new, value) for new, value in points if new not in plain]
+    return sp.Subs(derivative, *zip(*left, strict=True)) if left else derivative
+
+
+def _bodies(functions: Functions) -> list[sp.Expr]:
+    return [value for _, value in functions.values()]

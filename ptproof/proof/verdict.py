@@ -58,7 +58,12 @@ class Evidence:
     suspect
         Exact values at which the engine expects the statement to fail: a witness, if they stand the check.
     certifies
-        The goal that the engine was asked about; evidence without one counts for nothing.
+        What the engine was asked about and what it said, sealed by :func:`ptproof.proof.claim.engine`; evidence
+        without it counts for nothing.
+    content
+        What the claim says that was decided, as :attr:`ptproof.proof.claim.Claim.content` has it.
+    besides
+        What was found about the same claim by others: where it is defined, and what the attack met.
     """
 
     engine: str
@@ -69,6 +74,8 @@ class Evidence:
     found: Mapping[Any, Any] = field(default_factory=dict, compare=False, repr=False)
     suspect: Mapping[Any, Any] | None = field(default=None, compare=False, repr=False)
     certifies: Any = field(default=None, compare=False, repr=False)
+    content: str = field(default="", compare=False, repr=False)
+    besides: tuple[Evidence, ...] = ()
 
     def to_json(self) -> dict[str, Any]:
         return {

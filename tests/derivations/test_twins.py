@@ -12,8 +12,8 @@ from typing import Any
 import pytest
 from mutations import mutants, swapped, without_assumptions
 
-import ptproof.proof.deciding
 import ptproof.proof.engines.reals
+import ptproof.proof.settling
 from ptproof.proof.claim import Claim
 from ptproof.proof.deciding import run_one
 from ptproof.proof.load import load
@@ -31,7 +31,7 @@ def short_limits(monkeypatch: pytest.MonkeyPatch) -> None:
     A witness is looked for only where something is proved.
     """
     monkeypatch.setattr(ptproof.proof.engines.reals, "SECONDS", 2.0)
-    monkeypatch.setattr(ptproof.proof.deciding, "with_witness", lambda goal, evidence: evidence)
+    monkeypatch.setattr(ptproof.proof.settling, "with_witness", lambda goal, evidence, **_: evidence)
 
 
 @pytest.mark.parametrize("claim", CLAIMS, ids=lambda claim: claim.id)

@@ -17,8 +17,10 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from ptproof.proof.claim import Goal, engine
+from ptproof.proof.declarations import is_plainly_real
 from ptproof.proof.engines.quantified import at_point, mask_positive
 from ptproof.proof.engines.reals import follows
+from ptproof.proof.facts import Fact, usable
 from ptproof.proof.signs import vanishes
 from ptproof.proof.statement import ForAll, Implication, Relation, ge, gt, le, relations_of
 from ptproof.proof.verdict import Evidence, Verdict
@@ -29,7 +31,7 @@ _REGULAR = (sp.Symbol, sp.Number, sp.NumberSymbol, sp.Add, sp.Mul, sp.Pow, sp.ex
 
 @engine
 def comparison(
-    goal: Goal, solution: sp.Expr, *, denominators: Sequence[sp.Expr] = (), lemmas: Sequence[Implication] = ()
+    goal: Goal, solution: sp.Expr, *, denominators: Sequence[sp.Expr] = (), lemmas: Sequence[Fact] = ()
 ) -> Evidence:
     """Show ``v(τ) ≤ bound`` from the goal's assumption ``Derivative(v(s), s) ≤ φ(s, v(s))`` for all s.
 
@@ -69,7 +71,7 @@ class _Interval:
         return bool(expression.is_positive) or follows(gt(expression, 0), self.known, self.facts).shown
 
 
-def _check(goal: Goal, solution: sp.Expr, denominators: Sequence[sp.Expr], lemmas: Sequence[Implication]) -> str:
+def _check(goal: Goal, solution: sp.Expr, denominators: Sequence[sp.Expr], lemmas: Sequence[Fact]) -> str:
     (statement,) = relations_of(goal.statement)
     if statement.sign != "<=" or not isinstance(statement.left, AppliedUndef):
         raise _Failed(f"not of the form v(time) <= bound: {statement}")
@@ -83,7 +85,7 @@ def _check(goal: Goal, solution: sp.Expr, denominators: Sequence[sp.Expr], lemma
     def read(item: Relation) -> Relation:
         return item.map(lambda side: side.subs(initial, first))
 
-    facts = tuple(_map(fact, read) for fact in (*goal.facts, *lemmas))
+    facts = tuple(_map(fact, read) for fact in usable(goal, (*goal.facts, *lemmas)))
     outside = tuple(read(item) for item in goal.relations)
     if not follows(ge(end, start), outside, facts).shown:
         raise _Failed(f"nothing says that {end} >= {start}")
@@ -122,6 +124,8 @@ def _differential_inequality(goal: Goal, at: AppliedUndef) -> tuple[ForAll, sp.S
             (s,) = item.variables
             v = at.func(s)
             if item.relation.left == sp.Derivative(v, s):
+                if not is_plainly_real(s):
+                    raise _Failed(f"{s} is not declared to be any real number: the inequality may have gaps")
                 return item, s, v
     raise _Failed(f"no assumption of the form Derivative({at.func}(s), s) <= rate")
 
@@ -184,7 +188,10 @@ def _signed(goal: Goal, v: AppliedUndef, sign: str) -> bool:
         return True
     wanted = gt(v, 0) if sign == "positive" else ge(v, 0)
     # Only without a domain: the sign is needed at every time of the interval.
-    return any(isinstance(item, ForAll) and item.relation == wanted and not item.domain for item in goal.assumptions)
+    return any(
+        isinstance(item, ForAll) and item.relation == wanted and not item.domain
+        and all(map(is_plainly_real, item.variables)) for item in goal.assumptions
+    )  # fmt: skip
 
 
 def _stays(u: sp.Expr, interval: _Interval) -> None:

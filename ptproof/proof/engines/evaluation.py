@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ptproof.proof.engines.limits import limit_of
+from ptproof.proof.definedness import covers
+from ptproof.proof.engines.limits import INFINITE, limit_of
 from ptproof.proof.signs import vanishes
 from ptproof.system import differentiated
 
@@ -19,6 +20,8 @@ _CONTINUOUS = (
 
 def carried_out(expression: sp.Expr) -> sp.Expr | None:
     """``expression`` without derivatives, integrals and limits, innermost first; None where no rule gives a value.
+
+    What is infinite is a value only by itself: there is no square of it.
 
     >>> x = sp.Symbol("x", real=True)
     >>> carried_out(sp.Integral(sp.cos(x) ** 2, (x, 0, sp.pi))), carried_out(sp.Integral(abs(sp.sin(x)), (x, 0, 9)))
@@ -38,8 +41,8 @@ def carried_out(expression: sp.Expr) -> sp.Expr | None:
                 value = definite(node)
             else:
                 inside, variable, point, side = node.args
-                value = limit_of(inside, variable, point, str(side)) if str(side) in "+-" else None
-            if value is None:
+                value = limit_of(inside, variable, point, str(side))
+            if value is None or (value in INFINITE and node != expression):
                 return None
             expression = expression.xreplace({node: value})
 
@@ -49,6 +52,8 @@ def definite(node: sp.Integral) -> sp.Expr | None:
     if len(node.limits) != 1 or len(node.limits[0]) != 3:
         return None
     variable, low, high = node.limits[0]
+    if not covers(variable, low, high):
+        return None
     # Between ends at or above 0 the variable itself is, and SymPy may know that a denominator is positive.
     above = bool(low.is_nonnegative) and bool(high is sp.oo or high.is_nonnegative)
     inside = sp.Dummy(variable.name, nonnegative=True) if above else sp.Dummy(variable.name, real=True)
@@ -60,8 +65,16 @@ def definite(node: sp.Integral) -> sp.Expr | None:
         return None
     if not vanishes(sp.diff(antiderivative, inside) - integrand):
         return None
-    upper = limit_of(antiderivative, inside, sp.oo) if high is sp.oo else antiderivative.subs(inside, high)
-    return None if upper is None else upper - antiderivative.subs(inside, low)
+    upper, lower = (_at_end(antiderivative, inside, end) for end in (high, low))
+    if upper is None or lower is None or (upper in INFINITE and lower in INFINITE):
+        return None
+    return upper - lower
+
+
+def _at_end(antiderivative: sp.Expr, variable: sp.Symbol, end: sp.Expr) -> sp.Expr | None:
+    if end not in INFINITE:
+        return antiderivative.subs(variable, end)
+    return limit_of(antiderivative, variable, end)
 
 
 def continuous(expression: sp.Expr, variable: sp.Symbol) -> bool:

@@ -1,4 +1,8 @@
-"""Equalities by exact algebra: the difference of the two sides has the normal form 0."""
+"""Equalities by exact algebra: the difference of the two sides has the normal form 0.
+
+That shows them equal wherever both are defined; that they are defined is an obligation of the claim, shown by whoever
+asked (:mod:`ptproof.proof.deciding`).
+"""
 
 from __future__ import annotations
 
@@ -9,9 +13,8 @@ import sympy as sp
 from ptproof.proof.algebra import NotAlgebraic, is_zero
 from ptproof.proof.claim import Goal, engine
 from ptproof.proof.statement import relations_of
+from ptproof.proof.substitution import replaced
 from ptproof.proof.verdict import Evidence, Verdict
-
-_BINDERS = (sp.Derivative, sp.Integral, sp.Limit, sp.Subs, sp.Sum, sp.Product)
 
 
 @engine
@@ -42,42 +45,9 @@ def definitions_in(goal: Goal) -> dict[sp.Expr, sp.Expr]:
 
 
 def resolve(expression: sp.Expr, given: Mapping[sp.Expr, sp.Expr]) -> sp.Expr:
-    """Replace until nothing changes; a circle of definitions is left as it is after as many rounds as there are.
-
-    An assumption says that two values agree, not two functions: inside a derivative, an integral or a limit only
-    symbols are replaced, and only by what does not depend on the bound variables.
-    """
+    """Replace until nothing changes; a circle of definitions is left as it is after as many rounds as there are."""
     for _ in range(len(given) + 1):
-        replaced = _replaced(expression, given)
-        if replaced == expression:
+        before, expression = expression, replaced(expression, given)
+        if before == expression:
             break
-        expression = replaced
     return expression
-
-
-def _replaced(expression: sp.Expr, given: Mapping[sp.Expr, sp.Expr]) -> sp.Expr:
-    masks: dict[sp.Expr, sp.Expr] = {}
-    traversal = sp.preorder_traversal(expression)
-    for node in traversal:
-        if isinstance(node, _BINDERS):
-            masks[node] = sp.Dummy("bound", real=True)
-            traversal.skip()
-    outside = expression.xreplace(masks).xreplace(dict(given))
-    return outside.xreplace({mask: _replaced_inside(node, given) for node, mask in masks.items()})
-
-
-def _replaced_inside(node: sp.Expr, given: Mapping[sp.Expr, sp.Expr]) -> sp.Expr:
-    bound = {symbol for binder in node.atoms(*_BINDERS) for symbol in _bound(binder)}
-    constant = {
-        symbol: value for symbol, value in given.items()
-        if symbol.is_Symbol and not bound & {symbol, *value.free_symbols}
-    }  # fmt: skip
-    return node.xreplace(constant)
-
-
-def _bound(binder: sp.Basic) -> set[sp.Symbol]:
-    if isinstance(binder, sp.Derivative):
-        return set(binder.variables)
-    if isinstance(binder, sp.Limit):
-        return {binder.args[1]}
-    return set(binder.bound_symbols)

@@ -8,16 +8,19 @@ from __future__ import annotations
 import sympy as sp
 
 from ptproof.proof.claim import Goal, engine
+from ptproof.proof.declarations import declared
+from ptproof.proof.definedness import obligations
 from ptproof.proof.signs import vanishes
-from ptproof.proof.statement import relations_of
+from ptproof.proof.statement import Relation, relations_of
 from ptproof.proof.verdict import Evidence, Verdict
 
-_INFINITE = (sp.oo, -sp.oo)
+INFINITE = (sp.oo, -sp.oo)
 
 
 @engine
 def limits(goal: Goal) -> Evidence:
     """Show equalities of the form ``Limit(expression, variable, point, side) = value``."""
+    found_all = {}
     for part in relations_of(goal.statement):
         if part.sign != "=" or not isinstance(part.left, sp.Limit):
             return Evidence("limits", Verdict.UNDECIDED, f"not a limit with its value: {part}")
@@ -30,11 +33,12 @@ def limits(goal: Goal) -> Evidence:
         if not _agree(found, part.right):
             detail = f"the limit comes out as {found}, not {part.right}"
             return Evidence("limits", Verdict.UNDECIDED, detail, found={part.left: found})
-    return Evidence("limits", Verdict.PROVED, "limit theorems, leading terms exact")
+        found_all[part.left] = found
+    return Evidence("limits", Verdict.PROVED, "limit theorems, leading terms exact", found=found_all)
 
 
 def _agree(found: sp.Expr, value: sp.Expr) -> bool:
-    if found in _INFINITE or value in _INFINITE:
+    if found in INFINITE or value in INFINITE:
         return bool(found == value)
     return vanishes(found - value)
 
@@ -48,6 +52,8 @@ def limit_of(expression: sp.Expr, variable: sp.Symbol, point: sp.Expr, side: str
     """
     if expression.has(sp.Limit, sp.Sum, sp.Product):
         return None  # ``doit`` would ask SymPy for the inner one
+    if not _approached(variable, point, side):
+        return None
     expression = expression.doit(integrals=False)
     # One variable h that falls to 0 from above stands for every kind of approach.
     h = sp.Dummy("h", positive=True)
@@ -57,7 +63,78 @@ def limit_of(expression: sp.Expr, variable: sp.Symbol, point: sp.Expr, side: str
         local = expression.subs(variable, -1 / h)
     else:
         local = expression.subs(variable, point + (h if side == "+" else -h))
-    return _at_zero(local, h)
+    return _at_zero(local, h) if _defined_near_zero(local, h) else None
+
+
+def _approached(variable: sp.Symbol, point: sp.Expr, side: str) -> bool:
+    """Whether the values that the variable was declared to have come close to the point, on that side, without gaps.
+
+    Only then is a limit over real values the one that is asked for, and what SymPy simplified on the way right.
+    """
+    if side not in ("+", "-"):
+        return False
+    signs = declared(variable)
+    if not signs or not set(signs) <= {"real", "positive", "nonnegative", "finite"} or not all(signs.values()):
+        return False
+    if set(signs) <= {"real", "finite"}:
+        return True
+    return point is sp.oo or bool(point.is_positive or (point.is_nonnegative and side == "+"))
+
+
+def _defined_near_zero(expression: sp.Expr, h: sp.Symbol) -> bool:
+    """Whether the expression is shown to be defined and real for all h > 0 close to 0."""
+    return all(
+        need.settled or (need.relation is not None and not need.given and _eventually(need.relation, h))
+        for need in obligations(expression)
+    )
+
+
+def _eventually(relation: Relation, h: sp.Symbol) -> bool:
+    """Whether a relation with 0 is shown to hold for all h > 0 close to 0."""
+    found = _sign_near_zero(relation.left - relation.right, h)
+    if found is None:
+        return False
+    sign, strict = found
+    if relation.sign == "!=":
+        return strict
+    return sign == (1 if relation.sign in (">", ">=") else -1) and (strict or relation.sign in (">=", "<="))
+
+
+def _sign_near_zero(expression: sp.Expr, h: sp.Symbol) -> tuple[int, bool] | None:
+    """The sign for all h > 0 close to 0, and whether the value 0 is excluded; None where it is not known."""
+    for sign, strict, weak in ((1, "is_positive", "is_nonnegative"), (-1, "is_negative", "is_nonpositive")):
+        if getattr(expression, weak):
+            return sign, bool(getattr(expression, strict))
+    if isinstance(expression, sp.Mul):
+        found = [_sign_near_zero(factor, h) for factor in expression.args]
+        if None in found:
+            return None
+        signs, stricts = zip(*(entry for entry in found if entry is not None), strict=True)
+        return int(sp.prod(signs)), all(stricts)
+    if isinstance(expression, sp.Pow) and expression.exp.is_integer:
+        found_base = _sign_near_zero(expression.base, h)
+        if found_base is not None and expression.exp.is_even:
+            return 1, found_base[1]
+        return found_base if expression.exp.is_odd else None
+    if expression.is_rational_function(h) and expression.has(h):
+        return _sign_of_rational(expression, h)
+    value = _at_zero(expression, h)
+    if value is None:
+        return None
+    return (1, True) if value is sp.oo or value.is_positive else (
+        (-1, True) if value is -sp.oo or value.is_negative else None)  # fmt: skip
+
+
+def _sign_of_rational(expression: sp.Expr, h: sp.Symbol) -> tuple[int, bool] | None:
+    """The sign of the quotient of the lowest terms."""
+    signs = 1
+    for part in sp.fraction(sp.cancel(sp.together(expression))):
+        terms = [sp.factor(coefficient) for _, coefficient in sorted(sp.Poly(part, h).terms())]
+        first = next((entry for entry in terms if not entry.is_zero), sp.S.Zero)
+        if not (first.is_positive or first.is_negative):
+            return None
+        signs *= 1 if first.is_positive else -1
+    return signs, True
 
 
 def _at_zero(expression: sp.Expr, h: sp.Symbol) -> sp.Expr | None:
@@ -81,7 +158,7 @@ def _at_zero(expression: sp.Expr, h: sp.Symbol) -> sp.Expr | None:
             return _power(_at_zero(expression.base, h), expression.exp)
         case sp.cos() | sp.sin() | sp.tanh() | sp.atan():
             inner = _at_zero(expression.args[0], h)
-            return None if inner is None or inner in _INFINITE else expression.func(inner)
+            return None if inner is None or inner in INFINITE else expression.func(inner)
         case sp.log():
             inner = _at_zero(expression.args[0], h)
             if inner is None:
@@ -118,7 +195,7 @@ def _rational(expression: sp.Expr, h: sp.Symbol) -> sp.Expr | None:
 def _reciprocal(value: sp.Expr | None) -> sp.Expr | None:
     if value is None:
         return None
-    if value in _INFINITE:
+    if value in INFINITE:
         return sp.S.Zero
     return 1 / value if _nonzero(value) else None
 
@@ -131,7 +208,7 @@ def _sum(expression: sp.Expr, h: sp.Symbol) -> sp.Expr | None:
     parts = [_at_zero(argument, h) for argument in expression.args]
     if any(part is None for part in parts):
         return None
-    infinite = {part for part in parts if part in _INFINITE}
+    infinite = {part for part in parts if part in INFINITE}
     if len(infinite) > 1:
         return None
     return infinite.pop() if infinite else sp.Add(*parts)
@@ -143,8 +220,8 @@ def _product(expression: sp.Expr, h: sp.Symbol) -> sp.Expr | None:
     parts = [_at_zero(part, h) for part in ([rational] if rational != 1 else []) + rest]
     if any(part is None for part in parts):
         return None
-    infinite = [part for part in parts if part in _INFINITE]
-    finite = [part for part in parts if part not in _INFINITE]
+    infinite = [part for part in parts if part in INFINITE]
+    finite = [part for part in parts if part not in INFINITE]
     if not infinite:
         return sp.Mul(*finite)
     sign = sp.Mul(*finite, *(1 if part is sp.oo else -1 for part in infinite))

@@ -7,15 +7,16 @@ from the goal's own assumptions. What is left, its plain assumptions, z3 dischar
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import sympy as sp
-from sympy.core.function import AppliedUndef
 
 from ptproof.errors import InputError
-from ptproof.proof.claim import Goal, declared
-from ptproof.proof.engines.reals import Answer, follows
+from ptproof.proof.claim import Claim, Goal
+from ptproof.proof.declarations import like
+from ptproof.proof.engines.reals import Answer, are_met, follows
+from ptproof.proof.facts import Fact, guarded, resting_on, usable
 from ptproof.proof.statement import (
     Assumption,
     Exists,
@@ -23,36 +24,44 @@ from ptproof.proof.statement import (
     Implication,
     Prose,
     Relation,
+    RelationSign,
     Smooth,
-    ge,
     gt,
     plain,
     relations_of,
 )
-from ptproof.proof.substitution import substitute_in
+from ptproof.proof.substitution import NotOfKind, Substitution
 
 _SECONDS = 4.0
+_SAYS: dict[str, RelationSign] = {
+    "positive": ">", "nonnegative": ">=", "negative": "<", "nonpositive": "<=", "nonzero": "!="
+}  # fmt: skip
 
 
 def at_point(
     quantified: ForAll, point: sp.Expr, known: Sequence[Relation], facts: Sequence[Implication] = ()
 ) -> Relation | None:
     """What an assumption for all values of one variable says at ``point``, if that is shown to be in its domain."""
-    if len(quantified.variables) != 1 or not _is_kind(quantified.variables[0], point, known, facts):
+    if len(quantified.variables) != 1:
         return None
-    there = {quantified.variables[0]: point}
-    domain = [substitute_in(part, there) for part in quantified.domain]
+    try:
+        there = Substitution({quantified.variables[0]: point}, shown_sign(known, facts))
+    except NotOfKind:
+        return None
+    if not are_met(there.domain, known, facts, seconds=_SECONDS).shown:
+        return None
+    domain = map(there.relation, quantified.domain)
     if not all(part in known or follows(part, known, facts, seconds=_SECONDS).shown for part in domain):
         return None
-    return substitute_in(quantified.relation, there)
+    return there.relation(quantified.relation)
 
 
-def instances(goal: Goal, *points: sp.Expr) -> list[Implication]:
+def instances(goal: Goal, *points: sp.Expr) -> list[Fact]:
     """The goal's quantified assumptions at these points, where they are shown to be in the domain, as facts."""
     known = goal.relations
     found = (at_point(item, sp.sympify(point), known) for item in goal.assumptions if isinstance(item, ForAll)
              and not item.relation.left.has(sp.Derivative) for point in points)  # fmt: skip
-    return [Implication((), relation) for relation in found if relation is not None]
+    return [resting_on(goal, Implication((), relation)) for relation in found if relation is not None]
 
 
 def entailed(needed: ForAll, given: Sequence[Assumption], facts: Sequence[Implication] = ()) -> Answer:
@@ -66,22 +75,22 @@ def entailed(needed: ForAll, given: Sequence[Assumption], facts: Sequence[Implic
         return Answer(False, "more than one bound variable")
     (variable,) = needed.variables
     # A fresh symbol: nothing that is assumed about a free symbol of the same name may be used.
-    point = sp.Dummy(variable.name, **declared(variable))
-    known = [*plain(given), *(substitute_in(part, {variable: point}) for part in needed.domain)]
+    point = like(variable)
+    there = Substitution({variable: point})
+    known = [*plain(given), *map(there.relation, needed.domain)]
     for item in given:
         if isinstance(item, ForAll):
-            there = at_point(item, point, known, facts)
-            if there is not None:
-                known.append(there)
-    return follows(substitute_in(needed.relation, {variable: point}), known, facts, seconds=_SECONDS)
+            said = at_point(item, point, known, facts)
+            if said is not None:
+                known.append(said)
+    return follows(there.relation(needed.relation), known, facts, seconds=_SECONDS)
 
 
-def specialise(
-    goal: Goal, used: Any, values: Mapping[Any, Any], facts: Sequence[Implication] = ()
-) -> list[Implication]:
+def specialise(goal: Goal, used: Claim, values: Mapping[Any, Any], facts: Sequence[Fact] = ()) -> list[Fact]:
     """The statement of a claim that the goal uses, with ``values`` for its symbols and functions, as facts.
 
-    A key is a symbol, or an undefined function applied to symbols, whose value is an expression in them.
+    A key is a symbol, or an undefined function applied to symbols, whose value is an expression in them. What the
+    values need in order to be defined is among the hypotheses.
 
     Raises
     ------
@@ -89,48 +98,44 @@ def specialise(
         If the goal does not use the claim, a value is not known to be what its symbol stands for, or a
         quantified assumption of the claim does not follow from the goal's assumptions.
     """
-    if used not in goal.uses:
+    if used.content not in {other.content for other in goal.uses}:
         raise InputError(f"{goal.id}: {used.id} is specialised, but is not among the claims used")
     if isinstance(used.statement, Prose | Smooth | Exists):
         raise InputError(f"{goal.id}: {used.id} is not a conjunction of relations")
-    bound = {variable for item in used.assumptions if isinstance(item, ForAll) for variable in item.variables}
-    known = goal.relations
-    for key, value in values.items():
-        free = sp.sympify(value).free_symbols - (set(key.args) if isinstance(key, AppliedUndef) else set())
-        if key in bound or free & bound:
-            raise InputError(f"{goal.id}: the value of {key} would be caught by a quantifier of {used.id}")
-        if not _is_kind(key, sp.sympify(value), known, facts):
-            raise InputError(f"{goal.id}: {value} is not known to be what {key} stands for in {used.id}")
-    hypotheses = []
-    for item in used.assumptions:
-        if isinstance(item, Relation):
-            hypotheses += [substitute_in(part, values) for part in item.components()]
-            continue
-        domain = tuple(substitute_in(part, values) for part in item.domain)
-        there = ForAll(item.variables, substitute_in(item.relation, values), domain)
-        answer = entailed(there, goal.assumptions, facts)
+    known, said = goal.relations, usable(goal, facts)
+    try:
+        there = Substitution(values, shown_sign(known, said))
+        quantified = [there.quantified(item) for item in used.assumptions if isinstance(item, ForAll)]
+    except InputError as error:
+        raise InputError(f"{goal.id}: {used.id} is specialised, but {error}") from error
+    for item in quantified:
+        answer = entailed(item, goal.assumptions, said)
         if not answer.shown:
-            raise InputError(f"{goal.id}: what {used.id} assumes does not follow: {there} ({answer.how})")
-    parts = relations_of(used.statement)
-    return [Implication(tuple(hypotheses), substitute_in(part, values), source=used.id) for part in parts]
+            raise InputError(f"{goal.id}: what {used.id} assumes does not follow: {item} ({answer.how})")
+    hypotheses = [there.relation(part) for part in plain(used.assumptions)]
+    for need in there.domain:
+        if need.given or need.relation is None:
+            raise InputError(f"{goal.id}: nothing shows where the values put into {used.id} are defined: {need}")
+        hypotheses.append(need.relation)
+    found = []
+    for part in relations_of(used.statement):
+        says: Implication | None = Implication(tuple(hypotheses), there.relation(part), source=used.id)
+        if used.where_defined and says is not None:
+            says = guarded(says)
+        if says is not None:
+            found.append(resting_on(goal, says, [used.content], *facts))
+    return found
 
 
-def _is_kind(key: Any, value: sp.Expr, known: Sequence[Relation], facts: Sequence[Implication]) -> bool:
-    """Whether ``value`` satisfies the declaration of ``key``, by SymPy or, for a sign, by z3."""
-    if isinstance(key, sp.Symbol):
-        wanted = declared(key)
-    else:
-        wanted = {name: True for name in ("real", "nonnegative", "positive") if getattr(key, f"is_{name}")}
-    if all(getattr(value, f"is_{name}") is truth for name, truth in wanted.items()):
-        return True
-    masked = mask_positive(value, known, facts)
-    missing = {name for name, truth in wanted.items() if getattr(masked, f"is_{name}") is not truth}
-    if not missing:
-        return True
-    if not missing <= {"positive", "nonnegative"} or not masked.is_real:
-        return False
-    sign = gt(value, 0) if "positive" in missing else ge(value, 0)
-    return follows(sign, known, facts, seconds=_SECONDS).shown
+def shown_sign(known: Sequence[Relation], facts: Sequence[Implication] = ()) -> Callable[[sp.Expr, str], bool]:
+    """Who asks whether a value is positive, negative, … is answered by what is known of its powers, and by z3."""
+
+    def has_sign(value: sp.Expr, sign: str) -> bool:
+        if getattr(mask_positive(value, known, facts), f"is_{sign}"):
+            return True
+        return follows(Relation(value, _SAYS[sign], sp.S.Zero), known, facts, seconds=_SECONDS).shown
+
+    return has_sign
 
 
 def mask_positive(value: sp.Expr, known: Sequence[Relation], facts: Sequence[Implication] = ()) -> sp.Expr:

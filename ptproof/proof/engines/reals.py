@@ -15,13 +15,15 @@ import sympy as sp
 
 from ptproof.proof.algebra import Generators, NotAlgebraic
 from ptproof.proof.claim import Goal, engine
+from ptproof.proof.definedness import Obligation, domain_of
+from ptproof.proof.facts import Fact, usable
 from ptproof.proof.statement import MEANING, Implication, Relation, free_symbols, relations_of, undefined_functions
 from ptproof.proof.verdict import Evidence, Verdict
 
 SECONDS = 20.0
 _SECONDS_TO_CONTRADICT = 0.5
+_SECONDS_TO_BE_DEFINED = 5.0
 _ABSURD = Relation(sp.S.One, "<", sp.S.Zero)
-_REAL_ON_REALS = (sp.exp, sp.log, sp.sin, sp.cos, sp.atan, sp.Abs, sp.sign, sp.floor, sp.Max, sp.Min, sp.Piecewise)
 
 
 @dataclass(frozen=True)
@@ -33,24 +35,26 @@ class Answer:
 
 
 @engine
-def reals(goal: Goal, *lemmas: Implication, seconds: float | None = None) -> Evidence:
+def reals(goal: Goal, *lemmas: Fact, seconds: float | None = None) -> Evidence:
     """Show the goal's relations from its assumptions, the claims that it uses, and the ``lemmas``."""
     # The limits that the goal uses say nothing to z3.
-    facts = [fact for fact in (*goal.facts, *lemmas) if not _speaks_of_limits(fact)]
+    facts = [fact for fact in usable(goal, (*goal.facts, *lemmas)) if not _speaks_of_limits(fact)]
     parts = relations_of(goal.statement)
     for part in parts:
-        answer = follows(part, goal.relations, facts, seconds=seconds)
+        answer = follows(part, goal.relations, facts, seconds=seconds, where_defined=goal.where_defined)
         if not answer.shown:
             return Evidence("z3", Verdict.UNDECIDED, f"{part}: {answer.how}")
-    if goal.relations and follows(_ABSURD, goal.relations, seconds=_SECONDS_TO_CONTRADICT).shown:
-        detail = "the assumptions contradict each other, so that everything follows from them"
-        return Evidence("z3", Verdict.UNDECIDED, detail)
     names = sorted({fact.source for fact in facts if fact.source})
     told = f" with {', '.join(names)}" if names else ""
     detail = f"the negation is unsatisfiable over the reals{told}"
     if len(parts) > 1:
         detail += f" ({len(parts)} parts)"
     return Evidence("z3", Verdict.PROVED, detail)
+
+
+def contradictory(assumptions: Sequence[Relation]) -> bool:
+    """Whether the assumptions are shown to contradict each other, so that everything follows from them."""
+    return bool(assumptions) and _follows(_ABSURD, assumptions, (), _SECONDS_TO_CONTRADICT).shown
 
 
 def _speaks_of_limits(fact: Implication) -> bool:
@@ -63,17 +67,46 @@ def follows(
     facts: Sequence[Implication] = (),
     *,
     seconds: float | None = None,
+    where_defined: bool = False,
 ) -> Answer:
-    """Whether ``conclusion`` is shown to follow over the reals.
+    """Whether ``conclusion`` is shown to follow over the reals: that both sides are defined, and that it holds.
 
-    It is tried without the facts first: fewer powers and products make an easier problem.
+    It is tried without the facts first: fewer powers and products make an easier problem. With ``where_defined`` it
+    may be undefined somewhere, and has to hold elsewhere.
     """
     seconds = SECONDS if seconds is None else seconds
+    known = list(assumptions)
+    needs = list(domain_of(conclusion))
+    if where_defined:
+        known += [need.relation for need in needs if need.relation is not None and not need.given]
+    elif not (defined := are_met(needs, known, facts, seconds=min(seconds, _SECONDS_TO_BE_DEFINED))).shown:
+        return defined
     if facts:
-        alone = _follows(conclusion, assumptions, (), min(seconds / 8, 1.0))
+        alone = _follows(conclusion, known, (), min(seconds / 8, 1.0))
         if alone.shown:
             return alone
-    return _follows(conclusion, assumptions, facts, seconds)
+    return _follows(conclusion, known, facts, seconds)
+
+
+def are_met(
+    needs: Sequence[Obligation], assumptions: Sequence[Relation], facts: Sequence[Implication] = (), *,
+    seconds: float | None = None,
+) -> Answer:  # fmt: skip
+    """Whether everything that an expression needs in order to be defined is shown to follow, one after the other."""
+    known = list(assumptions)
+    for need in needs:
+        if need.settled:
+            continue
+        if need.relation is None:
+            return Answer(False, str(need))
+        answer = _follows(need.relation, [*known, *need.given], (), seconds or SECONDS)
+        if not answer.shown and facts:
+            answer = _follows(need.relation, [*known, *need.given], facts, seconds or SECONDS)
+        if not answer.shown:
+            return Answer(False, f"{need} is not shown, without which {need.node} is not defined: {answer.how}")
+        if not need.given:
+            known.append(need.relation)
+    return Answer(True, ", ".join(map(str, needs)))
 
 
 def _follows(
@@ -98,47 +131,33 @@ def _follows(
 
 
 class _Problem:
-    """The relations as rational functions in generators, beside what is known of the generators."""
+    """The relations as rational functions in generators, beside what is known of the generators.
+
+    An assumption is known to be defined; the hypotheses of a fact hold only where they are.
+    """
 
     def __init__(self, conclusion: Relation, assumptions: Sequence[Relation], facts: Sequence[Implication]) -> None:
-        relations = [conclusion, *assumptions]
-        for fact in facts:
-            relations += [*fact.hypotheses, fact.conclusion]
         spoken_of = [conclusion, *assumptions]
         values = free_symbols(spoken_of) | undefined_functions(spoken_of)
         if unknown := {value for value in values if not value.is_real}:
             names = ", ".join(sorted(map(str, unknown)))
             raise NotAlgebraic(f"not declared real: {names}")
+        told = [Implication((), part) for part in assumptions]
+        told += [Implication(need.given, _relation(need)) for need in _domains(assumptions)]
+        for fact in facts:
+            where = tuple(_relation(need) for need in _domains(fact.hypotheses) if not need.given)
+            told.append(Implication((*fact.hypotheses, *where), fact.conclusion, fact.source))
+        relations = [conclusion, *(part for fact in told for part in (*fact.hypotheses, fact.conclusion))]
         self.generators = Generators(real=True)
         prepared = self.generators.read([side for relation in relations for side in (relation.left, relation.right)])
         sides = iter([self.generators.rational(side) for side in prepared])
-        read = [Relation(next(sides), relation.sign, next(sides)) for relation in relations]
-        self.conclusion, rest = read[0], read[1:]
-        self.assumptions, rest = rest[: len(assumptions)], rest[len(assumptions) :]
-        self.facts: list[Implication] = []
-        for fact in facts:
-            count = len(fact.hypotheses)
-            self.facts.append(Implication(tuple(rest[:count]), rest[count], fact.source))
-            rest = rest[count + 1 :]
+        read = iter([Relation(next(sides), relation.sign, next(sides)) for relation in relations])
+        self.conclusion = next(read)
+        self.told = [Implication(tuple(next(read) for _ in fact.hypotheses), next(read)) for fact in told]
         self.bases = {symbol: self.generators.rational(base) for symbol, base in self.generators.bases.items()}
-        self.domain = list(self._domain(prepared[: 2 + 2 * len(assumptions)]))
         found = ((symbol, self.generators.choice(symbol)) for symbol in self.generators.meaning)
         self.choices = [(symbol, choice) for symbol, choice in found if choice is not None]
         self.pieces = {symbol: self.generators.pieces(symbol) for symbol in self.generators.meaning}
-
-    def _domain(self, sides: Sequence[sp.Expr]) -> Iterator[Relation]:
-        """What has to hold lest a root, a power or a logarithm in ``sides`` is not real there."""
-        for side in sides:
-            nodes = sp.preorder_traversal(side)
-            for node in nodes:
-                if isinstance(node, sp.Integral | sp.Limit | sp.Derivative | sp.Subs):
-                    nodes.skip()  # bound variables; the whole is one real number
-                elif node.is_Pow and not node.exp.is_integer and not node.base.is_nonnegative:
-                    yield Relation(self.generators.rational(node.base), ">=", sp.S.Zero)
-                elif isinstance(node, sp.log) and not node.args[0].is_positive:
-                    yield Relation(self.generators.rational(node.args[0]), ">", sp.S.Zero)
-                elif isinstance(node, sp.Function) and not node.is_real and not isinstance(node, _REAL_ON_REALS):
-                    yield _ABSURD  # such as an arc cosine, of which it is not known that it is real
 
     def solver(self, z3: Any, tactic: str, milliseconds: int) -> Any:
         if tactic == "default":
@@ -156,9 +175,7 @@ class _Problem:
         def relation(item: Relation) -> Any:
             return MEANING[item.sign](number(item.left), number(item.right))
 
-        for item in self.assumptions:
-            solver.add(relation(item))
-        for fact in self.facts:
+        for fact in self.told:
             solver.add(z3.Implies(z3.And([relation(item) for item in fact.hypotheses]), relation(fact.conclusion)))
         for generator, polynomial in self.generators.relations:
             holds = number(polynomial) == 0
@@ -179,8 +196,7 @@ class _Problem:
                     before.append(relation(Relation(*condition)))
                     here.append(before[-1])
                 solver.add(z3.Implies(z3.And(here), number(symbol) == number(value)))
-        undefined = [z3.Not(relation(item)) for item in self.domain]
-        solver.add(z3.Or(z3.Not(relation(self.conclusion)), *undefined))
+        solver.add(z3.Not(relation(self.conclusion)))
         for base, product in self.generators.split_bases():
             value = number(product)
             facts = [value == number(base)] if base.is_Rational else _known(base, value, None, z3)
@@ -190,6 +206,27 @@ class _Problem:
             for fact in _known(symbol, variable, self.generators.meaning.get(symbol), z3):
                 solver.add(fact)
         return solver
+
+
+def _domains(relations: Sequence[Relation]) -> Iterator[Obligation]:
+    """What holds wherever the relations are defined.
+
+    Raises
+    ------
+    NotAlgebraic
+        If a part of them is not known to be real: it would be taken for a real number here.
+    """
+    for relation in relations:
+        for need in domain_of(relation):
+            if need.relation is not None:
+                yield need
+            elif not isinstance(need.node, sp.Limit | sp.Integral | sp.Sum | sp.Product):
+                raise NotAlgebraic(str(need))
+
+
+def _relation(need: Obligation) -> Relation:
+    assert need.relation is not None
+    return need.relation
 
 
 def _to_z3(expression: sp.Expr, variables: dict[sp.Symbol, Any], z3: Any) -> Any:

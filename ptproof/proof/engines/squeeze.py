@@ -9,18 +9,18 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from ptproof.proof.claim import Goal, engine
+from ptproof.proof.declarations import is_plainly_real
 from ptproof.proof.engines.limits import limit_of
 from ptproof.proof.engines.reals import reals
-from ptproof.proof.statement import Implication, Relation, le
+from ptproof.proof.facts import Fact
+from ptproof.proof.statement import Relation, le
 from ptproof.proof.verdict import Evidence, Verdict
 
 ENGINE = "squeeze"
 
 
 @engine
-def squeezed(
-    goal: Goal, bound: sp.Expr, near: Sequence[Relation], facts: Callable[[Goal], Sequence[Implication]]
-) -> Evidence:
+def squeezed(goal: Goal, bound: sp.Expr, near: Sequence[Relation], facts: Callable[[Goal], Sequence[Fact]]) -> Evidence:
     """Show ``Limit(v(t), t, point, "-") = 0`` for a v that is declared not negative.
 
     Parameters
@@ -46,6 +46,8 @@ def squeezed(
         return undecided("only limits from below with the value 0")
     if not (isinstance(value, AppliedUndef) and value.is_nonnegative):
         return undecided(f"{value} is not declared to be a function with values at or above 0")
+    if not is_plainly_real(t):
+        return undecided(f"{t} is not declared to be any real number, so that it may not come close to {point}")
     if any(t in part.free_symbols for part in goal.relations):
         return undecided(f"an assumption speaks of one {t} only")
     for part in near:
@@ -58,7 +60,7 @@ def squeezed(
     if shown.verdict is not Verdict.PROVED:
         return undecided(f"the bound is not shown: {shown.detail}")
     detail = f"0 ≤ {value} ≤ {bound}, which tends to 0; the bound: {shown.detail}"
-    return Evidence(ENGINE, Verdict.PROVED, detail)
+    return Evidence(ENGINE, Verdict.PROVED, detail, found={statement.left: sp.S.Zero})
 
 
 def _eventually(part: Relation, t: sp.Symbol, point: sp.Expr) -> bool:

@@ -6,22 +6,26 @@ concrete polynomials for undefined functions. Only disjoint enclosures at exact 
 
 from __future__ import annotations
 
+import contextlib
 import itertools
 import random
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from ptproof.balls.ball import enclose, enclosure_text
-from ptproof.proof.claim import Goal, admissible, engine
+from ptproof.errors import InputError
+from ptproof.proof.claim import Goal, engine
+from ptproof.proof.declarations import admissible
+from ptproof.proof.definedness import Obligation, obligations
 from ptproof.proof.engines.evaluation import carried_out
 from ptproof.proof.engines.reals import follows
 from ptproof.proof.signs import holds
-from ptproof.proof.statement import Assumption, ForAll, Relation, free_symbols, relations_of, undefined_functions
-from ptproof.proof.substitution import substitute_in
+from ptproof.proof.statement import All, Assumption, ForAll, Relation, free_symbols, relations_of, undefined_functions
+from ptproof.proof.substitution import Substitution
 from ptproof.proof.verdict import Evidence, Verdict, Witness
 from ptproof.system import differentiated
 
@@ -54,32 +58,42 @@ def search(goal: Goal, seconds: float) -> tuple[Witness | None, int]:
 
 def check_witness(goal: Goal, values: Mapping[Any, Any]) -> tuple[Witness | None, str]:
     """The witness if these exact values satisfy every assumption and break a relation, else the reason."""
-    values = {key: sp.sympify(value) for key, value in values.items()}
-    for key, value in values.items():
-        if not (admissible(key, value) if isinstance(key, sp.Symbol) else _admissible_function(key, value)):
-            return None, f"{value} is not known to be what {key} may be"
+    try:
+        there = Substitution(values)
+    except InputError as error:
+        return None, str(error)
     for assumption in goal.assumptions:
-        if not _holds(assumption, values):
+        if not _holds(assumption, there):
             return None, f"the assumption {assumption} is not shown to hold there"
     for part in relations_of(goal.statement):
-        there = _at(part, values)
-        if there is None:
-            continue
-        if holds(there.negation()):
-            return Witness({str(key): str(value) for key, value in values.items()}, *_sides(there)), ""
+        numbers = _at(part, there)
+        if numbers is not None and holds(numbers.negation()):
+            return Witness({str(key): str(value) for key, value in there.values.items()}, *_sides(numbers)), ""
     return None, "the statement is not shown to fail there"
 
 
-def _admissible_function(applied: AppliedUndef, value: sp.Expr) -> bool:
-    """Whether an expression has, for all real arguments, the signs that the undefined function was declared with."""
-    declared = ("real", "positive", "nonnegative", "negative", "nonpositive", "nonzero", "integer")
-    return all(getattr(value, f"is_{word}") for word in declared if getattr(applied, f"is_{word}"))
+def satisfiable(assumptions: Sequence[Relation], seconds: float = 2.0) -> bool:
+    """Whether exact values are found at which all the assumptions hold."""
+    if not assumptions:
+        return True
+    end = time.monotonic() + seconds
+    goal = Goal("satisfiable", All(tuple(assumptions)), tuple(assumptions))
+    for values in candidates(goal):
+        if time.monotonic() > end:
+            break
+        with contextlib.suppress(InputError):
+            there = Substitution(values)
+            if all(_holds(assumption, there) for assumption in assumptions):
+                return True
+    return False
 
 
-def _at(relation: Relation, values: Mapping[Any, Any]) -> Relation | None:
+def _at(relation: Relation, values: Substitution) -> Relation | None:
     """The relation there, with derivatives, integrals and limits carried out, whose values are then plain numbers."""
     try:
-        there = substitute_in(relation, values)  # which may meet a Max of something that is not finite
+        there = values.relation(relation)  # which may meet a Max of something that is not finite
+        if any(not _may_be_defined(side) for side in (there.left, there.right)):
+            return None
         left, right = carried_out(there.left), carried_out(there.right)
     except (ValueError, TypeError, NotImplementedError, ZeroDivisionError, AttributeError, RecursionError):
         return None
@@ -88,17 +102,28 @@ def _at(relation: Relation, values: Mapping[Any, Any]) -> Relation | None:
     return Relation(left, relation.sign, right)
 
 
-def _holds(assumption: Assumption, values: Mapping[Any, Any]) -> bool:
+def _may_be_defined(side: sp.Expr) -> bool:
+    """False where a derivative is taken at a kink, an integral over a pole: SymPy would give it a value."""
+    return all(
+        need.settled or need.given or _holds_exactly(need)
+        for need in obligations(side, side.atoms(sp.Limit, sp.Integral))
+    )
+
+
+def _holds_exactly(need: Obligation) -> bool:
+    return need.relation is not None and (bool(need.relation.free_symbols) or holds(need.relation))
+
+
+def _holds(assumption: Assumption, values: Substitution) -> bool:
     match assumption:
         case Relation():
             parts = [_at(part, values) for part in assumption.components()]
             return all(part is not None and holds(part) for part in parts)
-        case ForAll(variables=variables, relation=relation, domain=domain):
+        case ForAll(variables=variables):
             # A bound variable may carry the name of a free one: its value at the witness is not meant here.
-            free = {key: value for key, value in values.items() if key not in variables}
-            there = substitute_in(relation, free).map(differentiated)
-            where = [substitute_in(part, free) for part in domain]
-            return follows(there, where, seconds=2.0).shown
+            free = {key: value for key, value in values.values.items() if key not in variables}
+            there = Substitution(free).quantified(assumption)
+            return follows(there.relation.map(differentiated), there.domain, seconds=2.0).shown
     return False
 
 
@@ -135,7 +160,8 @@ def candidates(goal: Goal) -> Iterator[dict[Any, Any]]:
         for applied in functions:
             values[applied] = _polynomial(applied, generator, attempt)
         for symbol, expression in given.items():
-            values[symbol] = substitute_in(Relation(expression, "=", sp.S.Zero), values).left
+            with contextlib.suppress(InputError):
+                values[symbol] = Substitution(values).into(expression)
         yield values
 
 

@@ -129,7 +129,7 @@ def test_specialise_refuses_a_value_of_the_wrong_sign():
 def test_specialise_takes_a_sign_that_z3_shows():
     goal = Goal("test", le(v(q), v(t0)), (after, gt(q, t0), rate(-(q - t0) * v(s))), (decays,))
     (fact,) = specialise(goal, decays, {a: q - t0, tau: q})
-    assert fact.conclusion == le(v(q), v(t0) * sp.exp(-((q - t0) ** 2)))
+    assert fact.says.conclusion == le(v(q), v(t0) * sp.exp(-((q - t0) ** 2)))
 
 
 def test_specialise_refuses_capture():

@@ -5,9 +5,10 @@ import sympy as sp
 from ptproof.proof.claim import Goal, claim
 from ptproof.proof.engines.exact import exact
 from ptproof.proof.engines.limits import limits
+from ptproof.proof.engines.quantified import instances
 from ptproof.proof.engines.reals import reals
 from ptproof.proof.engines.squeeze import squeezed
-from ptproof.proof.statement import ForAll, Implication, eq, ge, gt, le, lt
+from ptproof.proof.statement import ForAll, eq, ge, gt, le, lt
 from ptproof.proof.verdict import Verdict
 
 x, end = sp.symbols("x end", real=True)
@@ -47,8 +48,7 @@ def test_z3_takes_only_functions_that_are_declared_real():
 def below(bound, near, given=True):
     assumed = ForAll((x,), le(R(x), 1 / x), (ge(x, 1),))
     goal = Goal("test", eq(sp.Limit(R(x), x, sp.oo, "-"), 0), (assumed,) if given else ())
-    fact = Implication((ge(x, 1),), le(R(x), 1 / x))
-    return squeezed(goal, bound, near, lambda there: [fact] if given else []).verdict
+    return squeezed(goal, bound, near, lambda there: instances(there, x)).verdict
 
 
 def test_a_squeeze():
@@ -69,6 +69,6 @@ def test_no_squeeze_on_a_domain_that_is_not_near():
 
 def test_no_squeeze_of_a_function_without_a_sign():
     S = sp.Function("S", real=True)
-    goal = Goal("test", eq(sp.Limit(S(x), x, sp.oo, "-"), 0))
-    fact = Implication((), le(S(x), 1 / x))
-    assert squeezed(goal, 1 / x, [gt(x, 2)], lambda there: [fact]).verdict is Verdict.UNDECIDED
+    assumed = ForAll((x,), le(S(x), 1 / x), (ge(x, 1),))
+    goal = Goal("test", eq(sp.Limit(S(x), x, sp.oo, "-"), 0), (assumed,))
+    assert squeezed(goal, 1 / x, [gt(x, 2)], lambda there: instances(there, x)).verdict is Verdict.UNDECIDED

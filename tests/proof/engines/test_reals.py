@@ -57,14 +57,14 @@ def test_false_inequality_does_not_follow(name: str) -> None:
 
 def test_power_lemma_carries_the_gradient_bound() -> None:
     given = [le(V, a * R ** (2 * kappa)), ge(G, b * R ** (2 * kappa - 1))]
-    lemma = power_monotone(V / a, R ** (2 * kappa), q)
+    lemma = power_monotone(V / a, R ** (2 * kappa), q).says
     assert follows(le(b / a**q * V**q, G), given, [lemma]).shown
     assert not follows(le(b / a**q * V**q, G), given[:1], [lemma]).shown
     assert not follows(le(2 * b / a**q * V**q, G), given, [lemma]).shown
 
 
 def test_a_lemma_does_not_prove_its_own_hypothesis() -> None:
-    assert not follows(le(sp.exp(x), sp.exp(y)), [], [exp_monotone(x, y)]).shown
+    assert not follows(le(sp.exp(x), sp.exp(y)), [], [exp_monotone(x, y).says]).shown
 
 
 def test_failed_proof_ends_in_a_witness() -> None:
@@ -78,7 +78,7 @@ def test_equality_assumption_is_used() -> None:
 
 
 def test_contradictory_assumptions_prove_nothing() -> None:
-    evidence = reals(Goal("t", le(x, 0), (gt(y, 1), lt(y, 0))))
+    evidence = settle(Goal("t", le(x, 0), (gt(y, 1), lt(y, 0))), reals)
     assert evidence.verdict is Verdict.UNDECIDED
     assert "contradict" in evidence.detail
 

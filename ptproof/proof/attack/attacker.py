@@ -1,0 +1,256 @@
+"""Attacking a goal: points that its assumptions allow, and a relation that fails, or has no value, at one of them."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import sympy as sp
+
+from ptproof.proof.attack.evaluator import Evaluator, text
+from ptproof.proof.attack.exact import exact_values
+from ptproof.proof.attack.kinds import holds
+from ptproof.proof.attack.limiting import Grows
+from ptproof.proof.attack.numbers import NotReal, Undefined, Unsure, size
+from ptproof.proof.attack.preparation import Prepared, prepared
+from ptproof.proof.attack.quantified import satisfied
+from ptproof.proof.attack.roughness import rough
+from ptproof.proof.attack.sampling import MISSES, Point, Sampler
+from ptproof.proof.claim import Goal
+from ptproof.proof.statement import Exists, Prose, Relation, Smooth
+
+FAILS = "the relation fails"
+UNDEFINED = "a side is undefined"
+NOT_REAL = "a side is not real"
+_MISSES_IN_A_ROW = 300
+_WORK = 60_000  # evaluated nodes: about half a second
+_SMOOTH_POINTS = 15
+_FEW = 12  # points, with which a third of the work is enough
+_DIGITS = (50, 100, 200)
+
+
+@dataclass(frozen=True)
+class Hit:
+    """A point that the declarations and assumptions allow, at which the claim does not hold.
+
+    Attributes
+    ----------
+    values
+        Each symbol, or applied undefined function, and its exact value there.
+    part
+        The relation that does not hold.
+    left, right
+        The two sides there as decimal text; empty where a side has no value.
+    what
+        "the relation fails", "a side is undefined" or "a side is not real".
+    """
+
+    values: Mapping[Any, Any]
+    part: Relation | Smooth
+    left: str
+    right: str
+    what: str
+
+    def __str__(self) -> str:
+        where = ", ".join(f"{key} = {value}" for key, value in self.values.items())
+        sides = f" ({self.left} against {self.right})" if self.left else ""
+        return f"{self.what}: {self.part} at {where}{sides}"
+
+
+@dataclass(frozen=True)
+class Attack:
+    """What an attack came to: at how many points the claim was evaluated, of how many tried, and what was hit."""
+
+    points: int
+    tried: int
+    hit: Hit | None
+    detail: str
+
+
+def attack(goal: Goal, *, seed: int = 0, points: int = 60, seconds: float = 2.0) -> Attack:
+    """Try the goal at up to ``points`` points that its assumptions allow, for at most about ``seconds``.
+
+    A hit is certain: all assumptions hold there, and at 50, 100 and 200 digits the two sides are apart by more than
+    the error, or one of them has no real value. No hit proves nothing.
+    """
+    match goal.statement:
+        case Prose():
+            return Attack(0, 0, None, "not attacked: a statement in words")
+        case Exists():
+            return Attack(0, 0, None, "not attacked: no choice can be shown to be the wrong one by trying")
+    ready = prepared(goal)
+    count, tried, end = 0, 0, time.process_time() + seconds
+    if ready.smooth:
+        points = min(points, _SMOOTH_POINTS)
+    for point in _candidates(ready, goal, seed, end):
+        tried += 1
+        if point is None:
+            continue
+        evaluated, hit = _at(goal, ready, point)
+        count += evaluated
+        if hit is not None:
+            return Attack(count, tried, hit, str(hit))
+        if count >= points or (evaluated and not ready.atoms and not ready.functions):
+            break
+    return Attack(count, tried, None, f"attacked at {count} points")
+
+
+def points_of(goal: Goal, *, seed: int = 0, points: int = 60, seconds: float = 2.0) -> Iterator[dict[Any, Any]]:
+    """Points that the declarations and assumptions of the goal allow, with exact values; the same ones for a seed."""
+    ready = prepared(goal)
+    found = 0
+    for point in _candidates(ready, goal, seed, time.process_time() + seconds):
+        if point is not None and _confirmed(ready, point):
+            yield exact_values(ready, point)
+            found += 1
+            if found >= points:
+                return
+
+
+def _candidates(ready: Prepared, goal: Goal, seed: int, end: float) -> Iterator[Point | None]:
+    """Points and misses, until the work is done: the same number of them on every machine that is not too slow."""
+    misses, found = 0, 0
+    sampler = Sampler(ready, f"{goal.id}:{seed}")
+    for point in sampler.points():
+        yield point
+        misses, found = (misses + 1, found) if point is None else (0, found + 1)
+        enough = _WORK if found < _FEW else _WORK / 3
+        if misses > _MISSES_IN_A_ROW or sampler.work.steps > enough or time.process_time() > end:
+            return
+
+
+def _at(goal: Goal, ready: Prepared, point: Point) -> tuple[bool, Hit | None]:
+    """Whether every part could be evaluated at the point, and what is hit there."""
+    if isinstance(goal.statement, Smooth):
+        return _smooth_at(goal.statement, ready, point)
+    suspects, complete = [], True
+    try:
+        evaluator = point.evaluator(_DIGITS[0])
+    except MISSES:
+        return False, None
+    for part in ready.parts:
+        found = _outcome(part, evaluator)
+        if found is None:
+            complete = False
+        elif found:
+            suspects.append(part)
+    for part in suspects:
+        hit = _confirmed_hit(goal, ready, point, part)
+        if hit is not None:
+            return True, hit
+    return complete and not suspects, None
+
+
+def _smooth_at(statement: Smooth, ready: Prepared, point: Point) -> tuple[bool, Hit | None]:
+    try:
+        found = rough(statement, ready, point, _DIGITS[0])
+        if found and _confirmed(ready, point):
+            again = [rough(statement, ready, point, digits) for digits in _DIGITS[1:]]
+            if all(item == found for item in again):
+                return True, Hit(exact_values(ready, point), statement, "", "", f"{FAILS}: {found}")
+    except MISSES:
+        return False, None
+    return not found, None
+
+
+def _outcome(part: Relation, evaluator: Evaluator) -> str | None:
+    """What is wrong with the relation at the point: nothing (an empty text), one of three things, or not known."""
+    try:
+        return "" if _relation_holds(part, evaluator) else FAILS
+    except Undefined:
+        return UNDEFINED
+    except NotReal:
+        return NOT_REAL
+    except Grows:
+        return None
+    except MISSES:
+        return "" if _agree(part, evaluator) else None
+
+
+def _agree(part: Relation, evaluator: Evaluator) -> bool:
+    """Whether two sides that cannot be told apart are known well, as where an integral or a limit was approached."""
+    numbers = evaluator.calculus.numbers
+    try:
+        apart = numbers.ball(
+            numbers.sub(*(evaluator.number(side, evaluator.point) for side in (part.left, part.right)))
+        )
+    except MISSES:
+        return False
+    return size(apart.middle) <= apart.error + 1 and apart.error < -15
+
+
+def _relation_holds(part: Relation, evaluator: Evaluator) -> bool:
+    """Whether it holds; a limit that grows beyond all bounds counts as infinite."""
+    infinite = {str(side): side for side in (part.left, part.right) if side.is_infinite}
+    if not infinite:
+        try:
+            return holds(part, evaluator)
+        except Grows:
+            return False
+    if part.right.is_infinite and part.left.func.__name__ == "Limit" and part.sign == "=":
+        try:
+            evaluator.number(part.left, evaluator.point)
+        except Grows as limit:
+            return bool(part.right == sp.oo) == (limit.sign > 0)
+        return False
+    raise Unsure("infinite sides are compared for limits only")
+
+
+def _confirmed(ready: Prepared, point: Point) -> bool:
+    """Whether all assumptions hold at the point at every precision, on dense grids."""
+    try:
+        for digits in _DIGITS:
+            evaluator = point.evaluator(digits)
+            if not all(holds(bound.relation, evaluator) for bound in ready.bounds):
+                return False
+            if not satisfied(ready.quantified, evaluator, dense=True):
+                return False
+    except MISSES:
+        return False
+    return _consistent(ready, point)
+
+
+def _consistent(ready: Prepared, point: Point) -> bool:
+    """Whether a function that got values at several arguments got the same one at equal arguments."""
+    evaluator = point.evaluator(_DIGITS[1])
+    numbers = evaluator.calculus.numbers
+    pinned = [atom for atom in ready.atoms if not atom.is_Symbol]
+    try:
+        for i, first in enumerate(pinned):
+            for second in pinned[:i]:
+                if first.func != second.func:
+                    continue
+                pairs = zip((*first.args, first), (*second.args, second), strict=True)
+                signs = [
+                    numbers.sign(numbers.sub(*(evaluator.number(side, evaluator.point) for side in pair)))
+                    for pair in pairs
+                ]
+                if not any(signs[:-1]) and signs[-1]:
+                    return False
+    except MISSES:
+        return False
+    return True
+
+
+def _confirmed_hit(goal: Goal, ready: Prepared, point: Point, part: Relation) -> Hit | None:
+    if not _confirmed(ready, point):
+        return None
+    found = {_outcome(part, point.evaluator(digits)) for digits in _DIGITS}
+    if len(found) != 1 or not (what := found.pop()):
+        return None
+    if what != FAILS and getattr(goal, "where_defined", False):
+        return None
+    left, right = _sides(part, point.evaluator(_DIGITS[1]))
+    return Hit(exact_values(ready, point), part, left, right, what)
+
+
+def _sides(part: Relation, evaluator: Evaluator) -> tuple[str, str]:
+    try:
+        return (
+            text(evaluator.number(part.left, evaluator.point)),
+            text(evaluator.number(part.right, evaluator.point)),
+        )
+    except MISSES:
+        return "", ""

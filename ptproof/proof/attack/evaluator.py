@@ -1,0 +1,387 @@
+"""What an expression is worth at a point: a recursion over its tree, from nothing but the tree and the point.
+
+SymPy only hands over the tree: nothing is evaluated, substituted or simplified by it. Real semantics throughout: what
+has no real value raises :class:`~ptproof.proof.attack.numbers.NotReal`, what has none at all ``Undefined``, and what is
+not known here ``Unsure``.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import lru_cache
+from typing import Any
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from ptproof.proof.attack.functions import Concrete
+from ptproof.proof.attack.limiting import integral, limit
+from ptproof.proof.attack.numbers import Ball, NotReal, Number, Undefined, Unsure, context
+from ptproof.proof.attack.scope import Scope
+from ptproof.proof.attack.series import ONE, ZERO, Calculus, Series, Value, base
+
+
+@lru_cache(maxsize=4096)
+def _rational(node: sp.Rational) -> Fraction:
+    return Fraction(int(node.p), int(node.q))
+
+
+class Inadmissible(Exception):
+    """A concrete function takes a value that the function was not declared to take."""
+
+
+@dataclass
+class Work:
+    """How many nodes have been evaluated: the measure of what an attack costs, the same on every machine."""
+
+    steps: int = 0
+
+
+class Evaluator:
+    """Values of expressions at one precision, with ``functions`` in place of the undefined ones."""
+
+    def __init__(self, digits: int, functions: Mapping[Any, Concrete], work: Work | None = None) -> None:
+        self.calculus = Calculus(digits)
+        self.functions = functions
+        self.work = work if work is not None else Work()
+        self.point = Scope({})
+        self._tag = itertools.count(1)
+        self._depth = 0
+        self._integrals: dict[Any, Number] = {}
+
+    @property
+    def digits(self) -> int:
+        return self.calculus.numbers.digits
+
+    def number(self, expression: sp.Expr, scope: Scope) -> Number:
+        """The value where no derivative is taken."""
+        value = self.value(expression, scope)
+        if isinstance(value, Series):
+            raise Unsure("a derivative of something that is not differentiated here")
+        return value
+
+    def value(self, expression: sp.Expr, scope: Scope) -> Value:
+        found = scope.known.get(expression)
+        if found is None:
+            self.work.steps += 1
+            found = scope.known[expression] = self._value(expression, scope)
+        return found
+
+    def _value(self, node: sp.Expr, scope: Scope) -> Value:
+        if node.is_Symbol:
+            if node not in scope.symbols:
+                raise Unsure(f"{node} has no value")
+            return scope.symbols[node]
+        if node.is_Rational:
+            return _rational(node)
+        if isinstance(node, AppliedUndef):
+            return self._applied(node, scope)
+        handler = _NODES.get(type(node).__name__)
+        if handler is None:
+            raise Unsure(f"{type(node).__name__} is not evaluated")
+        return handler(self, node, scope)
+
+    def _applied(self, node: AppliedUndef, scope: Scope) -> Value:
+        if node in scope.symbols:
+            return scope.symbols[node]
+        concrete = self.functions.get(node.func)
+        if concrete is None:
+            raise Unsure(f"{node.func} has no concrete function")
+        arguments = tuple(self.value(argument, scope) for argument in node.args)
+        inside = Scope({**self.point.symbols, **dict(zip(concrete.arguments, arguments, strict=True))})
+        self._depth += 1
+        if self._depth > 8:
+            raise Unsure("functions are defined by each other")
+        try:
+            return self._checked(node, self.value(concrete.body, inside))
+        finally:
+            self._depth -= 1
+
+    def _checked(self, node: AppliedUndef, value: Value) -> Value:
+        number = base(value)
+        if not fits(node, number, self.calculus):
+            raise Inadmissible(f"{node} is {number}")
+        return value
+
+    # The nodes -------------------------------------------------------------------------------------------------------
+
+    def _add(self, node: sp.Expr, scope: Scope) -> Value:
+        return self.calculus.add([self.value(part, scope) for part in node.args])
+
+    def _mul(self, node: sp.Expr, scope: Scope) -> Value:
+        values = [
+            self.value(part, scope) for part in node.args
+        ]  # all of them: 0 times something undefined is undefined
+        total = values[0]
+        for value in values[1:]:
+            total = self.calculus.mul(total, value)
+        return total
+
+    def _pow(self, node: sp.Expr, scope: Scope) -> Value:
+        return self.calculus.power(self.value(node.args[0], scope), self.value(node.args[1], scope))
+
+    def _constant(self, node: sp.Expr, scope: Scope) -> Value:
+        mp = self.calculus.numbers.mp
+        named = {"Pi": mp.pi, "Exp1": mp.e, "GoldenRatio": mp.phi, "EulerGamma": mp.euler, "Catalan": mp.catalan}
+        return self.calculus.numbers.constant(+named[type(node).__name__])
+
+    def _float(self, node: sp.Expr, scope: Scope) -> Value:
+        sign, mantissa, exponent, _ = node._mpf_
+        return Fraction((-1) ** sign * int(mantissa)) * Fraction(2) ** exponent
+
+    def _undefined(self, node: sp.Expr, scope: Scope) -> Value:
+        raise Undefined(f"{node} is not a number")
+
+    def _imaginary(self, node: sp.Expr, scope: Scope) -> Value:
+        raise NotReal("the imaginary unit occurs")
+
+    def _unary(self, node: sp.Expr, scope: Scope) -> Value:
+        return _UNARY[type(node).__name__](self.calculus, self.value(node.args[0], scope))
+
+    def _piecewise(self, node: sp.Expr, scope: Scope) -> Value:
+        for piece in node.args:
+            if self.truth(piece.args[1], scope):
+                return self.value(piece.args[0], scope)
+        raise Undefined("no piece of a Piecewise applies")
+
+    def truth(self, condition: Any, scope: Scope) -> bool:
+        """Whether a condition of a Piecewise holds."""
+        name = type(condition).__name__
+        if name in ("BooleanTrue", "BooleanFalse"):
+            return bool(name == "BooleanTrue")
+        if name in ("And", "Or", "Not"):
+            inner = [self.truth(part, scope) for part in condition.args]
+            return all(inner) if name == "And" else any(inner) if name == "Or" else not inner[0]
+        test = _COMPARISONS.get(name)
+        if test is None:
+            raise Unsure(f"the condition {condition} is not evaluated")
+        left, right = (self.value(side, scope) for side in condition.args)
+        return test(self.calculus.sign(self.calculus.sub(left, right)))
+
+    def _extreme(self, node: sp.Expr, scope: Scope) -> Value:
+        values = [self.value(part, scope) for part in node.args]
+        found = values[0]
+        for value in values[1:]:
+            if type(node).__name__ == "Max":
+                found = self.calculus.larger(found, value)
+            else:
+                found = self.calculus.neg(self.calculus.larger(self.calculus.neg(found), self.calculus.neg(value)))
+        return found
+
+    def _sign(self, node: sp.Expr, scope: Scope) -> Value:
+        return Fraction(self.calculus.sign(self.value(node.args[0], scope)))
+
+    def _heaviside(self, node: sp.Expr, scope: Scope) -> Value:
+        sign = self.calculus.sign(self.value(node.args[0], scope))
+        return ONE if sign > 0 else ZERO if sign < 0 else self.value(node.args[1], scope)
+
+    def _floor(self, node: sp.Expr, scope: Scope) -> Value:
+        value = self.value(node.args[0], scope)
+        below = self._below(value)
+        if type(node).__name__ == "ceiling":
+            return -self._below(self.calculus.neg(value))
+        return below
+
+    def _below(self, value: Value) -> Fraction:
+        number = base(value)
+        if isinstance(number, Fraction):
+            found = Fraction(number.numerator // number.denominator)
+        else:
+            nearest = Fraction(int(self.calculus.numbers.mp.nint(number.middle)))
+            away = self.calculus.numbers.sign(self.calculus.numbers.sub(number, nearest))
+            found = nearest - 1 if away < 0 else nearest
+        if isinstance(value, Series) and number == found:
+            raise Unsure("a derivative at a jump")
+        return found
+
+    def _modulo(self, node: sp.Expr, scope: Scope) -> Value:
+        left, right = (self.value(part, scope) for part in node.args)
+        quotient = self.calculus.mul(left, self.calculus.inverse(right))
+        return self.calculus.sub(left, self.calculus.mul(right, self._below(quotient)))
+
+    def _atan2(self, node: sp.Expr, scope: Scope) -> Value:
+        y, x = (self.value(part, scope) for part in node.args)
+        calculus = self.calculus
+        half = calculus.numbers.constant(calculus.numbers.mp.pi / 2)
+        if (sign := calculus.sign(x)) > 0:
+            return calculus.arctangent(calculus.mul(y, calculus.inverse(x)))
+        side = calculus.sign(y)
+        if sign == 0:
+            if side == 0:
+                raise Undefined("the angle of the origin")
+            return calculus.sub(
+                calculus.mul(Fraction(side), half), calculus.arctangent(calculus.mul(x, calculus.inverse(y)))
+            )
+        turn = calculus.mul(Fraction(2 if side >= 0 else -2), half)
+        return calculus.add([calculus.arctangent(calculus.mul(y, calculus.inverse(x))), turn])
+
+    def _derivative(self, node: sp.Expr, scope: Scope) -> Value:
+        levels, inside = [], dict(scope.symbols)
+        for variable, count in node.variable_count:
+            if not count.is_Integer or not variable.is_Symbol or variable not in inside or count > 6:
+                raise Unsure(f"{node} is not evaluated")
+            if count:
+                tag = next(self._tag)
+                rest = (ONE,) + (ZERO,) * (int(count) - 1)
+                inside[variable] = Series(tag, (inside[variable], *rest))
+                levels.append((tag, int(count)))
+        value = self.value(node.args[0], Scope(inside))
+        for tag, count in reversed(levels):
+            if not isinstance(value, Series) or value.tag != tag:
+                return ZERO
+            value = value.terms[count]
+            for factor in range(2, count + 1):
+                value = self.calculus.mul(Fraction(factor), value)
+        return value
+
+    def _subs(self, node: sp.Expr, scope: Scope) -> Value:
+        inner, variables, points = node.args
+        values = {variable: self.value(point, scope) for variable, point in zip(variables, points, strict=True)}
+        return self.value(inner, scope.with_values(values))
+
+    def _sum(self, node: sp.Expr, scope: Scope) -> Value:
+        term, *ranges = node.args
+        variable, low, high = ranges[-1]
+        first, last = (self.number(end, scope) for end in (low, high))
+        if len(ranges) > 1 or not isinstance(first, Fraction) or not isinstance(last, Fraction):
+            raise Unsure("a sum with these ends is not evaluated")
+        if first.denominator != 1 or last.denominator != 1 or last - first > 500:
+            raise Unsure("a sum with these ends is not evaluated")
+        values = [
+            self.value(term, scope.with_values({variable: Fraction(n)})) for n in range(int(first), int(last) + 1)
+        ]
+        if type(node).__name__ == "Sum":
+            return self.calculus.add(values) if values else ZERO
+        product: Value = ONE
+        for value in values:
+            product = self.calculus.mul(product, value)
+        return product
+
+    def _integral(self, node: sp.Expr, scope: Scope) -> Value:
+        inside = tuple(sorted(node.free_symbols, key=str))
+        key = (node, tuple(scope.symbols.get(symbol) for symbol in inside))
+        if key not in self._integrals:
+            self._integrals[key] = integral(self, node, scope)
+        return self._integrals[key]
+
+    def _limit(self, node: sp.Expr, scope: Scope) -> Value:
+        return limit(self, node, scope)
+
+
+def fits(declared: Any, value: Number, calculus: Calculus) -> bool:
+    """Whether a value is one that a symbol, or an applied undefined function, was declared to take."""
+    if declared.is_integer and not (isinstance(value, Fraction) and value.denominator == 1):
+        return False
+    if declared.is_integer is False and isinstance(value, Fraction) and value.denominator == 1:
+        return False
+    signs = {"positive": (1,), "negative": (-1,), "zero": (0,), "nonnegative": (0, 1), "nonpositive": (-1, 0)}
+    sign = calculus.numbers.sign(value) if any(getattr(declared, f"is_{word}") is not None for word in signs) else 0
+    return all(getattr(declared, f"is_{word}") is not (sign not in held) for word, held in signs.items())
+
+
+def _quotient(calculus: Calculus, sine: bool, value: Value) -> Value:
+    up, down = calculus.sine_cosine(value)
+    return calculus.mul(up, calculus.inverse(down)) if sine else calculus.mul(down, calculus.inverse(up))
+
+
+def _hyperbolic(calculus: Calculus, value: Value) -> tuple[Value, Value]:
+    up = calculus.exp(value)
+    down = calculus.exp(calculus.neg(value))
+    half = Fraction(1, 2)
+    return calculus.mul(half, calculus.sub(up, down)), calculus.mul(half, calculus.add([up, down]))
+
+
+def _tanh(calculus: Calculus, value: Value) -> Value:
+    sine, cosine = _hyperbolic(calculus, value)
+    return calculus.mul(sine, calculus.inverse(cosine))
+
+
+def _arcosine(calculus: Calculus, value: Value) -> Value:
+    if value == 1:
+        return ZERO
+    right = calculus.numbers.constant(calculus.numbers.mp.pi / 2)
+    return calculus.sub(right, calculus.arcsine(value))
+
+
+def _arsinh(calculus: Calculus, value: Value) -> Value:
+    root = calculus.power(calculus.add([calculus.mul(value, value), ONE]), Fraction(1, 2))
+    return calculus.log(calculus.add([value, root]))
+
+
+def _artanh(calculus: Calculus, value: Value) -> Value:
+    ratio = calculus.mul(calculus.add([ONE, value]), calculus.inverse(calculus.sub(ONE, value)))
+    return calculus.mul(Fraction(1, 2), calculus.log(ratio))
+
+
+def _arcosh(calculus: Calculus, value: Value) -> Value:
+    if calculus.numbers.sign(calculus.numbers.sub(base(value), ONE)) < 0:
+        raise NotReal("the area cosine of a number below 1")
+    root = calculus.power(calculus.sub(calculus.mul(value, value), ONE), Fraction(1, 2))
+    return calculus.log(calculus.add([value, root]))
+
+
+_UNARY: dict[str, Callable[[Calculus, Value], Value]] = {
+    "exp": lambda c, v: c.exp(v),
+    "log": lambda c, v: c.log(v),
+    "sin": lambda c, v: c.sine_cosine(v)[0],
+    "cos": lambda c, v: c.sine_cosine(v)[1],
+    "tan": lambda c, v: _quotient(c, True, v),
+    "cot": lambda c, v: _quotient(c, False, v),
+    "sec": lambda c, v: c.inverse(c.sine_cosine(v)[1]),
+    "csc": lambda c, v: c.inverse(c.sine_cosine(v)[0]),
+    "asin": lambda c, v: c.arcsine(v),
+    "acos": _arcosine,
+    "atan": lambda c, v: c.arctangent(v),
+    "sinh": lambda c, v: _hyperbolic(c, v)[0],
+    "cosh": lambda c, v: _hyperbolic(c, v)[1],
+    "tanh": _tanh,
+    "asinh": _arsinh,
+    "acosh": _arcosh,
+    "atanh": _artanh,
+    "Abs": lambda c, v: c.absolute(v),
+    "re": lambda c, v: v,
+    "conjugate": lambda c, v: v,
+}
+_COMPARISONS: dict[str, Callable[[int], bool]] = {
+    "Equality": lambda sign: sign == 0,
+    "Unequality": lambda sign: sign != 0,
+    "LessThan": lambda sign: sign <= 0,
+    "StrictLessThan": lambda sign: sign < 0,
+    "GreaterThan": lambda sign: sign >= 0,
+    "StrictGreaterThan": lambda sign: sign > 0,
+}
+_NODES: dict[str, Callable[[Evaluator, sp.Expr, Scope], Value]] = {
+    "Add": Evaluator._add,
+    "Mul": Evaluator._mul,
+    "Pow": Evaluator._pow,
+    "Float": Evaluator._float,
+    "ImaginaryUnit": Evaluator._imaginary,
+    "Piecewise": Evaluator._piecewise,
+    "Max": Evaluator._extreme,
+    "Min": Evaluator._extreme,
+    "sign": Evaluator._sign,
+    "Heaviside": Evaluator._heaviside,
+    "floor": Evaluator._floor,
+    "ceiling": Evaluator._floor,
+    "Mod": Evaluator._modulo,
+    "atan2": Evaluator._atan2,
+    "Derivative": Evaluator._derivative,
+    "Subs": Evaluator._subs,
+    "Sum": Evaluator._sum,
+    "Product": Evaluator._sum,
+    "Integral": Evaluator._integral,
+    "Limit": Evaluator._limit,
+    **dict.fromkeys(_UNARY, Evaluator._unary),
+    **dict.fromkeys(("Pi", "Exp1", "GoldenRatio", "EulerGamma", "Catalan"), Evaluator._constant),
+    **dict.fromkeys(("NaN", "ComplexInfinity"), Evaluator._undefined),
+}
+
+
+def text(value: Number, digits: int = 20) -> str:
+    """The value for people."""
+    if isinstance(value, Ball):
+        return str(context(digits + 10).nstr(value.middle, digits))
+    return str(value) if len(str(value)) <= 40 else f"{float(value):.17g}"

@@ -1,0 +1,200 @@
+"""Concrete functions for undefined ones: expressions in arguments of their own, of every declared kind."""
+
+from __future__ import annotations
+
+import itertools
+import random
+from collections.abc import Collection
+from dataclasses import dataclass
+from typing import Any
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from ptproof.proof.statement import ForAll
+
+
+@dataclass(frozen=True)
+class Concrete:
+    """A smooth function as an expression in ``arguments``; other symbols in it are those of the point."""
+
+    arguments: tuple[sp.Symbol, ...]
+    body: sp.Expr
+
+
+def _arguments(count: int) -> tuple[sp.Symbol, ...]:
+    return tuple(sp.Symbol(f"_argument{i}", real=True) for i in range(count))
+
+
+def drawn(applied: Any, generator: random.Random, attempt: int, known: Collection[Any] = ()) -> Concrete:
+    """A function for ``applied``, of its declared kind: the plainest first, then any.
+
+    Some vanish, or have an extremum, where the arguments of ``applied`` are, if these are symbols that are ``known``.
+    """
+    places = _arguments(len(applied.args))
+    if applied.is_integer:
+        return Concrete(places, sp.Integer(_whole(applied, generator)))
+    centre = applied.args if all(argument in known for argument in applied.args) else None
+    body = _real(places, generator, attempt, centre)
+    if applied.is_positive:
+        body = (sp.exp(body / 4), 1 + body**2, sp.Integer(generator.randint(1, 3)))[attempt % 3]
+    elif applied.is_negative:
+        body = (-sp.exp(body / 4), -1 - body**2, -sp.Integer(generator.randint(1, 3)))[attempt % 3]
+    elif applied.is_nonnegative:
+        body = (body**2, sp.exp(body / 4), sp.Integer(generator.randint(0, 2)))[attempt % 3]
+    elif applied.is_nonpositive:
+        body = (-(body**2), -sp.exp(body / 4), -sp.Integer(generator.randint(0, 2)))[attempt % 3]
+    elif applied.is_nonzero:
+        body = (sp.exp(body / 4), -1 - body**2, -sp.exp(body / 4))[attempt % 3]
+    return Concrete(places, body)
+
+
+def differentiable(applied: Any, order: int, generator: random.Random) -> Concrete:
+    """A function that is ``order`` times continuously differentiable, and no more where ``applied`` is."""
+    plain = _real(_arguments(len(applied.args)), generator, generator.randint(0, 5), None)
+    if generator.random() < 0.3:
+        return Concrete(_arguments(len(applied.args)), plain)
+    rough = sp.S.Zero
+    for place, argument in zip(_arguments(len(applied.args)), applied.args, strict=True):
+        middle = argument if argument.is_Symbol else sp.S.Zero
+        rough += generator.choice((1, -2)) * sp.Abs(place - middle) ** sp.Rational(2 * order + 1, 2)
+    return Concrete(_arguments(len(applied.args)), plain + rough)
+
+
+def _whole(applied: Any, generator: random.Random) -> int:
+    choice = [n for n in range(-3, 4) if applied.func and _may_be(applied, n)]
+    return generator.choice(choice or [1])
+
+
+def _may_be(applied: Any, value: int) -> bool:
+    signs = {"positive": value > 0, "negative": value < 0, "nonnegative": value >= 0, "nonpositive": value <= 0}
+    signs |= {"zero": value == 0, "even": value % 2 == 0, "odd": value % 2 == 1}
+    return all(getattr(applied, f"is_{word}") in (None, held) for word, held in signs.items())
+
+
+def _real(places: tuple[sp.Symbol, ...], generator: random.Random, attempt: int, centre: Any) -> sp.Expr:
+    def small() -> sp.Rational:
+        return sp.Rational(generator.choice((-3, -2, -1, 1, 2, 3, 5)), generator.choice((1, 1, 2, 3)))
+
+    kind = attempt % 10
+    if kind >= 7 and centre is not None:
+        away = [place - middle for place, middle in zip(places, centre, strict=True)]
+        if kind == 8:
+            return sum((small() * one for one in away), sp.S.Zero)
+        squares = (small() * a * b for a, b in itertools.combinations_with_replacement(away, 2))
+        return sum(squares, small() if kind == 7 else sp.S.Zero)
+    if kind == 6:
+        return sp.Integer(generator.choice((0, 0, 1, -1, 2)))
+    body: sp.Expr = small() + sum(small() * place for place in places)
+    if kind in (1, 3):
+        body += sum(small() * left * right for left, right in itertools.combinations_with_replacement(places, 2))
+    if kind == 2:
+        body += small() * sp.sin(sum(small() * place for place in places))
+    if kind == 4:
+        body = small() * sp.cos(generator.choice(places)) + small() * sp.exp(-(generator.choice(places) ** 2))
+    if kind == 5:
+        body = small() * generator.choice(places) ** generator.randint(1, 4)
+    return body
+
+
+def solutions(item: ForAll) -> list[tuple[Any, Concrete]]:
+    """Functions that satisfy a differential inequality y' ≤ a(s) + b(s) y^p with equality, where that is easy.
+
+    The constant of integration is the symbol ``_start``, which whoever uses them gives a value.
+    """
+    return [*_rates(item), *_ends(item)]
+
+
+def _ends(item: ForAll) -> list[tuple[Any, Concrete]]:
+    """Functions that are everywhere at the end that an inequality allows them."""
+    found = []
+    for part in item.relation.components():
+        difference = part.left - part.right
+        applied = [node for node in difference.atoms(AppliedUndef) if set(node.args) <= set(item.variables)]
+        for node in sorted(applied, key=str):
+            if difference.has(sp.Derivative) or len(set(node.args)) < len(node.args):
+                continue
+            letter = sp.Dummy()
+            coefficients = difference.xreplace({node: letter}).as_poly(letter)
+            if coefficients is None or coefficients.degree() != 1:
+                continue
+            slope, rest = coefficients.all_coeffs()
+            body = (-rest / slope).replace(node.func, lambda *_: START)
+            places = _arguments(len(node.args))
+            if set(item.variables) <= set(node.args):
+                found.append((node.func, Concrete(places, body.xreplace(dict(zip(node.args, places, strict=True))))))
+    return found
+
+
+def _rates(item: ForAll) -> list[tuple[Any, Concrete]]:
+    relation = item.relation
+    if len(item.variables) != 1 or not isinstance(relation.left, sp.Derivative):
+        return []
+    (time,) = item.variables
+    applied = relation.left.args[0]
+    if not isinstance(applied, AppliedUndef) or applied.args != (time,):
+        return []
+    if relation.left.variable_count != sp.Derivative(applied, time).variable_count:
+        return []
+    value = sp.Dummy("value", positive=True)
+    right = relation.right.xreplace({applied: value})
+    place = _arguments(1)
+    found = _closed_forms(sp.expand(right), value, time)
+    return [(applied.func, Concrete(place, body.xreplace({time: place[0]}))) for body in found]
+
+
+START = sp.Symbol("_start", positive=True)
+
+
+def _closed_forms(right: sp.Expr, value: sp.Symbol, time: sp.Symbol) -> list[sp.Expr]:
+    free, rates, powers = sp.S.Zero, sp.S.Zero, set()
+    for term in sp.Add.make_args(right):
+        if not term.has(value):
+            free += term
+            continue
+        power = next((f for f in sp.Mul.make_args(term) if f.has(value)), None)
+        rest = term / power
+        if rest.has(value):
+            return []
+        exponent = power.exp if isinstance(power, sp.Pow) else sp.S.One
+        powers.add(exponent)
+        rates += rest
+    if len(powers) > 1:
+        return []
+    if not powers:
+        whole = antiderivative(free, time)
+        return [] if whole is None else [START + whole]
+    exponent = powers.pop()
+    found = []
+    if not rates.has(time) and not free.has(time) and free != 0:
+        rest_point = (-free / rates) ** (1 / exponent)
+        found.append(rest_point)
+        if exponent == 1:
+            found.append(-free / rates + START * sp.exp(rates * time))
+    if free == 0 and (whole := antiderivative(rates, time)) is not None:
+        if exponent == 1:
+            found.append(START * sp.exp(whole))
+        else:
+            found.append((START + (1 - exponent) * whole) ** (1 / (1 - exponent)))
+    return found
+
+
+def antiderivative(expression: sp.Expr, time: sp.Symbol) -> sp.Expr | None:
+    """∫ of a sum of constants times powers of something linear in ``time``; None for anything else."""
+    total = sp.S.Zero
+    for term in sp.Add.make_args(expression):
+        if not term.has(time):
+            total += term * time
+            continue
+        inside = [factor for factor in sp.Mul.make_args(term) if factor.has(time)]
+        if len(inside) != 1:
+            return None
+        power = inside[0]
+        root, exponent = power.as_base_exp()
+        slope = sp.diff(root, time)
+        if exponent.has(time) or slope.has(time) or exponent == -1:
+            slope = sp.simplify(slope) if not exponent.has(time) and exponent != -1 else slope
+            if exponent.has(time) or slope.has(time) or exponent == -1:
+                return None
+        total += term / power * root ** (exponent + 1) / (slope * (exponent + 1))
+    return total

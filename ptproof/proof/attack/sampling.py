@@ -1,0 +1,211 @@
+"""Points at which every assumption holds: exact values, the awkward ones among them, and concrete functions."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from typing import Any
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from ptproof.proof.attack.evaluator import Evaluator, Inadmissible, Work, fits
+from ptproof.proof.attack.functions import START, Concrete, drawn
+from ptproof.proof.attack.kinds import fits_kind, holds
+from ptproof.proof.attack.numbers import NotReal, Number, Undefined, Unsure
+from ptproof.proof.attack.preparation import Bound, Prepared
+from ptproof.proof.attack.quantified import satisfied
+from ptproof.proof.attack.scope import Scope
+from ptproof.proof.attack.values import Drawer
+
+MISSES = (Unsure, Undefined, NotReal, Inadmissible, OverflowError, ZeroDivisionError, ValueError, RecursionError)
+_SWEEPS = 5
+_POOL = 30  # functions for each undefined one
+
+
+@dataclass(frozen=True)
+class Point:
+    """Exact values of the free symbols, some of them by an expression in the others, and concrete functions."""
+
+    values: Mapping[Any, Fraction]
+    defined: tuple[tuple[Any, sp.Expr], ...] = ()
+    functions: Mapping[Any, Concrete] = field(default_factory=dict)
+    work: Work = field(default_factory=Work, compare=False)
+
+    def evaluator(self, digits: int) -> Evaluator:
+        """An evaluator at this point; raises what evaluating a value that is defined may raise."""
+        evaluator = Evaluator(digits, self.functions, self.work)
+        evaluator.point = Scope(dict(self.values))
+        for atom, expression in self.defined:
+            value = evaluator.number(expression, evaluator.point)
+            if not fits(atom, value, evaluator.calculus):
+                raise Inadmissible(f"{atom} is {value}")
+            evaluator.point = evaluator.point.with_values({atom: value})
+        return evaluator
+
+
+class Sampler:
+    """Draws admissible points of a prepared goal, in an order that the seed decides."""
+
+    def __init__(self, goal: Prepared, seed: str) -> None:
+        self.goal = goal
+        self.random = random.Random(seed)
+        self.drawer = Drawer(goal.atoms, goal.parts, self.random, moderate=_needs_moderation(goal))
+        self.attempt = 0
+        self.work = Work()
+        self.pool: dict[tuple[Any, int], Concrete] = {}
+
+    def points(self) -> Iterator[Point | None]:
+        """Points that are admissible, and None for each attempt that led to none."""
+        while True:
+            try:
+                point = self._settled(self._draw())
+            except MISSES:
+                point = None
+            self.attempt += 1
+            yield point
+
+    def _draw(self) -> Point:
+        generator = self.random
+        functions = {node.func: self._function(node) for node in self.goal.functions}
+        if self.goal.solutions and generator.random() < 0.75:
+            functions.update(_without_circles(generator.sample(self.goal.solutions, len(self.goal.solutions))))
+        functions.update(self.goal.defined)
+        functions.update({function: draw(self.random) for function, draw in self.goal.limited})
+        defined, taken = self._definitions()
+        values = self.drawer.values(self.attempt, taken)
+        values[START] = generator.choice((Fraction(1), Fraction(1, 3), Fraction(5), Fraction(1, 50)))
+        return Point(values, defined, functions, self.work)
+
+    def _function(self, node: Any) -> Concrete:
+        """One of a few functions of the declared kind, which are drawn once."""
+        number = self.attempt % _POOL
+        if (node.func, number) not in self.pool:
+            self.pool[node.func, number] = drawn(node, self.random, number, self.goal.atoms)
+        return self.pool[node.func, number]
+
+    def _definitions(self) -> tuple[tuple[tuple[Any, sp.Expr], ...], set[Any]]:
+        """Symbols that equalities give, and some that are put at the end of an inequality."""
+        found: dict[Any, sp.Expr] = {}
+        bounds = list(self.goal.bounds)
+        self.random.shuffle(bounds)
+        bounds.sort(key=lambda bound: bound.relation.sign != "=")
+        for bound in bounds:
+            sign = bound.relation.sign
+            if sign in ("<", ">", "!=") or (sign != "=" and self.random.random() < 0.55):
+                continue
+            choices = [one for one in bound.isolated if one.atom not in found]
+            choices.sort(key=lambda one: not one.factor.is_number)
+            for one in choices:
+                if not _reaches(one.bound, one.atom, found):
+                    found[one.atom] = one.bound
+                    break
+            if bound.roots:
+                atom, root = self.random.choice(bound.roots)
+                if atom not in found and not _reaches(root, atom, found):
+                    found[atom] = root
+        if self.goal.special and self.attempt % 3 == 1:
+            atom, value = self.random.choice(self.goal.special)
+            if atom not in found and not _reaches(value, atom, found):
+                found[atom] = value
+        return _ordered(found), set(found)
+
+    def _settled(self, point: Point) -> Point | None:
+        """The point, changed where an assumption does not hold there; None if that does not help."""
+        if not all(fits_kind(atom, value) for atom, value in point.values.items() if atom is not START):
+            return None
+        for _ in range(_SWEEPS):
+            evaluator = point.evaluator(50)
+            broken = [bound for bound in self.goal.bounds if not holds(bound.relation, evaluator)]
+            if not broken:
+                return point if satisfied(self.goal.quantified, evaluator, dense=False) else None
+            changed = self._repaired(point, broken, evaluator)
+            if changed is None:
+                return None
+            point = changed
+        return None
+
+    def _repaired(self, point: Point, broken: list[Bound], evaluator: Evaluator) -> Point | None:
+        bound = self.random.choice(broken)
+        atoms = [one.atom for one in bound.isolated if one.atom in point.values]
+        self.random.shuffle(atoms)
+        for atom in atoms:
+            value = self._within(atom, evaluator)
+            if value is not None:
+                return replace(point, values={**point.values, atom: value})
+        rest = sorted((atom for atom in bound.atoms if atom in point.values), key=str)
+        return self._tried(point, bound, rest)
+
+    def _within(self, atom: Any, evaluator: Evaluator) -> Fraction | None:
+        """A value of the atom between all the ends that assumptions give it."""
+        low: Number | None = None
+        high: Number | None = None
+        numbers, strict = evaluator.calculus.numbers, False
+        for bound in self.goal.bounds:
+            for one in bound.isolated:
+                if one.atom != atom or bound.relation.sign == "!=":
+                    continue
+                end = evaluator.number(one.bound, evaluator.point)
+                sign = numbers.sign(evaluator.number(one.factor, evaluator.point))
+                strict = strict or bound.relation.sign in ("<", ">")
+                upper = (bound.relation.sign in ("<", "<=")) == (sign > 0)
+                if (upper or bound.relation.sign == "=") and (high is None or numbers.sign(numbers.sub(end, high)) < 0):
+                    high = end
+                if (not upper or bound.relation.sign == "=") and (
+                    low is None or numbers.sign(numbers.sub(end, low)) > 0
+                ):
+                    low = end
+        return self.drawer.between(atom, low, high, strict)
+
+    def _tried(self, point: Point, bound: Bound, atoms: list[Any]) -> Point | None:
+        """The first of some other values of one atom at which the assumption holds."""
+        for atom in self.random.sample(atoms, min(3, len(atoms))):
+            for value in self.drawer.others(atom, point.values[atom]):
+                changed = replace(point, values={**point.values, atom: value})
+                try:
+                    if holds(bound.relation, changed.evaluator(50)):
+                        return changed
+                except MISSES:
+                    continue
+        return None
+
+
+def _without_circles(solutions: list[tuple[Any, Concrete]]) -> dict[Any, Concrete]:
+    """One function each, none of which is defined through itself."""
+    found: dict[Any, Concrete] = {}
+
+    def through(function: Any, seen: set[Any]) -> set[Any]:
+        if function in found and function not in seen:
+            for node in found[function].body.atoms(AppliedUndef):
+                seen |= {function} | through(node.func, seen | {function}) | {node.func}
+        return seen
+
+    for function, concrete in solutions:
+        if function not in found:
+            inside = {node.func for node in concrete.body.atoms(AppliedUndef)}
+            if function not in inside.union(*(through(other, set()) for other in inside)):
+                found[function] = concrete
+    return found
+
+
+def _reaches(expression: sp.Expr, atom: Any, found: Mapping[Any, sp.Expr]) -> bool:
+    """Whether the expression depends on the atom, also through what was defined before."""
+    if expression.has(atom):
+        return True
+    return any(expression.has(other) and _reaches(inner, atom, found) for other, inner in found.items())
+
+
+def _ordered(found: Mapping[Any, sp.Expr]) -> tuple[tuple[Any, sp.Expr], ...]:
+    """Each definition after those that it depends on."""
+    rest, order = dict(found), []
+    while rest:
+        atom = next(one for one, body in rest.items() if not any(body.has(other) for other in rest if other != one))
+        order.append((atom, rest.pop(atom)))
+    return tuple(order)
+
+
+def _needs_moderation(goal: Prepared) -> bool:
+    """Limits and integrals, and "for all" without an end, are looked at up to some size: the values must fit that."""
+    return bool(goal.quantified) or goal.smooth or any(part.has(sp.Limit, sp.Integral) for part in goal.parts)

@@ -1,0 +1,225 @@
+"""Truncated Taylor series over the attacker's numbers: derivatives that are exact, also nested and of any order.
+
+A :class:`Series` has a tag. Its coefficients are numbers or series with smaller tags, so that a derivative inside
+another derivative keeps its own variable.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TypeAlias
+
+from ptproof.proof.attack.numbers import Arithmetic, NotReal, Number, Undefined, Unsure, size
+
+ZERO, ONE = Fraction(0), Fraction(1)
+
+
+@dataclass(frozen=True, slots=True)
+class Series:
+    """Σ ``terms[k]`` εᵏ in the variable ε of ``tag``, up to the power ``len(terms) - 1``."""
+
+    tag: int
+    terms: tuple[Value, ...]
+
+
+Value: TypeAlias = Number | Series
+
+
+def base(value: Value) -> Number:
+    """The number at the expansion point."""
+    while isinstance(value, Series):
+        value = value.terms[0]
+    return value
+
+
+class Calculus:
+    """The operations of :class:`~ptproof.proof.attack.numbers.Arithmetic`, for series too."""
+
+    def __init__(self, digits: int) -> None:
+        self.numbers = Arithmetic(digits)
+
+    def add(self, terms: list[Value]) -> Value:
+        series = [term for term in terms if isinstance(term, Series)]
+        if not series:
+            return self.numbers.add([term for term in terms if not isinstance(term, Series)])
+        tag = max(term.tag for term in series)
+        order = next(len(term.terms) for term in series if term.tag == tag)
+        rows: list[list[Value]] = [[] for _ in range(order)]
+        for term in terms:
+            if isinstance(term, Series) and term.tag == tag:
+                for row, coefficient in zip(rows, term.terms, strict=True):
+                    row.append(coefficient)
+            else:
+                rows[0].append(term)
+        return Series(tag, tuple(self.add(row) if row else ZERO for row in rows))
+
+    def neg(self, value: Value) -> Value:
+        if isinstance(value, Series):
+            return Series(value.tag, tuple(map(self.neg, value.terms)))
+        return self.numbers.neg(value)
+
+    def sub(self, left: Value, right: Value) -> Value:
+        return self.add([left, self.neg(right)])
+
+    def mul(self, left: Value, right: Value) -> Value:
+        if not isinstance(left, Series) and not isinstance(right, Series):
+            return self.numbers.mul(left, right)
+        if not isinstance(left, Series) or (isinstance(right, Series) and right.tag > left.tag):
+            left, right = right, left
+        assert isinstance(left, Series)
+        if not isinstance(right, Series) or right.tag < left.tag:
+            return Series(left.tag, tuple(self.mul(term, right) for term in left.terms))
+        order = len(left.terms)
+        return Series(left.tag, tuple(self._convolution(left.terms, right.terms, k) for k in range(order)))
+
+    def _convolution(self, left: tuple[Value, ...], right: tuple[Value, ...], k: int) -> Value:
+        products = [self.mul(left[j], right[k - j]) for j in range(k + 1) if left[j] != 0 and right[k - j] != 0]
+        return self.add(products) if products else ZERO
+
+    def inverse(self, value: Value) -> Value:
+        if not isinstance(value, Series):
+            return self.numbers.inverse(value)
+        first = self.inverse(value.terms[0])
+        found: list[Value] = [first]
+        for k in range(1, len(value.terms)):
+            rest = self.add([self.mul(value.terms[j], found[k - j]) for j in range(1, k + 1)])
+            found.append(self.neg(self.mul(first, rest)))
+        return Series(value.tag, tuple(found))
+
+    def sign(self, value: Value) -> int:
+        """The sign of the number at the expansion point; of a series that starts with 0 it is not constant."""
+        sign = self.numbers.sign(base(value))
+        if sign == 0 and isinstance(value, Series) and not is_zero(value):
+            raise Unsure("a derivative at a place where something changes its sign")
+        return sign
+
+    def power(self, value: Value, exponent: Value) -> Value:
+        if not isinstance(value, Series) and not isinstance(exponent, Series):
+            return self.numbers.power(value, exponent)
+        if isinstance(exponent, Series):
+            return self.exp(self.mul(exponent, self.log(value)))
+        assert isinstance(value, Series)
+        if isinstance(exponent, Fraction) and exponent.denominator == 1 and abs(exponent) < 100:
+            return self._integer_power(value, int(exponent))
+        start = self.numbers.sign(base(value))
+        if start < 0:
+            return Series(value.tag, (self.numbers.power(base(value), exponent),))  # which says why it has no value
+        if start == 0:
+            return self._power_at_zero(value, exponent)
+        found: list[Value] = [self.power(value.terms[0], exponent)]
+        first = self.inverse(value.terms[0])
+        for k in range(1, len(value.terms)):
+            parts = []
+            for j in range(1, k + 1):
+                factor = self.numbers.sub(self.numbers.mul(exponent, Fraction(j)), Fraction(k - j))
+                parts.append(self.mul(factor, self.mul(value.terms[j], found[k - j])))
+            found.append(self.mul(self.mul(first, Fraction(1, k)), self.add(parts)))
+        return Series(value.tag, tuple(found))
+
+    def _integer_power(self, value: Value, exponent: int) -> Value:
+        if exponent < 0:
+            return self.inverse(self._integer_power(value, -exponent))
+        result: Value = ONE
+        while exponent:
+            if exponent & 1:
+                result = self.mul(result, value)
+            value, exponent = (self.mul(value, value) if exponent > 1 else value), exponent >> 1
+        return result
+
+    def _power_at_zero(self, value: Series, exponent: Number) -> Value:
+        """ε to a power that is larger than the order leaves nothing; any other has a kink or a pole there."""
+        if self.numbers.sign(exponent) < 0:
+            raise Undefined("a negative power of zero")
+        order = len(value.terms) - 1
+        vanishing = next((k for k, term in enumerate(value.terms) if term != 0), order + 1)
+        least = self.numbers.sub(self.numbers.mul(exponent, Fraction(vanishing)), Fraction(order))
+        if not any(isinstance(term, Series) for term in value.terms) and self.numbers.sign(least) > 0:
+            return Series(value.tag, (ZERO,) * (order + 1))
+        raise Unsure("a derivative of a root of zero")
+
+    def exp(self, value: Value) -> Value:
+        if not isinstance(value, Series):
+            return self.numbers.exp(value)
+        found: list[Value] = [self.exp(value.terms[0])]
+        for k in range(1, len(value.terms)):
+            parts = [self.mul(Fraction(j, k), self.mul(value.terms[j], found[k - j])) for j in range(1, k + 1)]
+            found.append(self.add(parts))
+        return Series(value.tag, tuple(found))
+
+    def log(self, value: Value) -> Value:
+        if not isinstance(value, Series):
+            return self.numbers.log(value)
+        return self._integrated(value, self.log(value.terms[0]), self.inverse(value))
+
+    def _integrated(self, value: Series, start: Value, slope: Value) -> Value:
+        """The series y with y(0) = start and y' = slope · value'."""
+        order = len(value.terms)
+        rate: tuple[Value, ...] = (*(self.mul(Fraction(k), value.terms[k]) for k in range(1, order)), ZERO)
+        product = self.mul(slope, Series(value.tag, rate))
+        assert isinstance(product, Series)
+        rest = tuple(self.mul(Fraction(1, k), product.terms[k - 1]) for k in range(1, order))
+        return Series(value.tag, (start, *rest))
+
+    def sine_cosine(self, value: Value) -> tuple[Value, Value]:
+        if not isinstance(value, Series):
+            if value == 0:
+                return ZERO, ONE
+            mp = self.numbers.mp
+            return self.numbers.smooth(mp.sin, value, 0.0), self.numbers.smooth(mp.cos, value, 0.0)
+        first = self.sine_cosine(value.terms[0])
+        sines, cosines = [first[0]], [first[1]]
+        for k in range(1, len(value.terms)):
+            rates = [self.mul(Fraction(j, k), value.terms[j]) for j in range(1, k + 1)]
+            sines.append(self.add([self.mul(rate, cosines[k - j]) for j, rate in enumerate(rates, 1)]))
+            cosines.append(self.neg(self.add([self.mul(rate, sines[k - j]) for j, rate in enumerate(rates, 1)])))
+        return Series(value.tag, tuple(sines)), Series(value.tag, tuple(cosines))
+
+    def arctangent(self, value: Value) -> Value:
+        if not isinstance(value, Series):
+            return ZERO if value == 0 else self.numbers.smooth(self.numbers.mp.atan, value, 0.0)
+        slope = self.inverse(self.add([ONE, self.mul(value, value)]))
+        return self._integrated(value, self.arctangent(value.terms[0]), slope)
+
+    def arcsine(self, value: Value) -> Value:
+        if isinstance(value, Series):
+            slope = self.power(self.sub(ONE, self.mul(value, value)), Fraction(-1, 2))
+            return self._integrated(value, self.arcsine(value.terms[0]), slope)
+        if value == 0:
+            return ZERO
+        if value in (1, -1):
+            return self.numbers.mul(Fraction(value), self.numbers.constant(self.numbers.mp.pi / 2))
+        room = self.numbers.sub(ONE, self.numbers.mul(value, value))
+        if self.numbers.sign(room) < 0:
+            raise NotReal("the arc sine of a number larger than 1")
+        clear = self.numbers.ball(room)
+        if clear.error > size(clear.middle) - 3:
+            raise Unsure("the arc sine near 1")
+        return self.numbers.smooth(self.numbers.mp.asin, value, 2.0 - size(clear.middle) / 2)
+
+    def absolute(self, value: Value) -> Value:
+        if isinstance(value, Series):
+            return value if self.sign(value) >= 0 else self.neg(value)
+        if isinstance(value, Fraction):
+            return abs(value)
+        if self._open(value):
+            return self.numbers.hull(value, self.numbers.neg(value))
+        return value if value.middle >= 0 else self.numbers.neg(value)
+
+    def _open(self, value: Number) -> bool:
+        try:
+            self.numbers.sign(value)
+        except Unsure:
+            return True
+        return False
+
+    def larger(self, left: Value, right: Value) -> Value:
+        difference = self.sub(left, right)
+        if not isinstance(left, Series) and not isinstance(right, Series) and self._open(base(difference)):
+            return self.numbers.hull(left, right)
+        return left if self.sign(difference) >= 0 else right
+
+
+def is_zero(value: Value) -> bool:
+    """Whether every coefficient is exactly 0."""
+    return all(map(is_zero, value.terms)) if isinstance(value, Series) else value == 0

@@ -1,0 +1,117 @@
+"""Values that are worth a try: awkward ones, equal ones, ones at which something vanishes, and random ones."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Iterable, Sequence
+from fractions import Fraction
+from typing import Any
+
+from ptproof.proof.attack.kinds import fits_kind
+from ptproof.proof.attack.numbers import Ball, Number
+
+_PLAIN = ("1", "2", "0", "1/2", "-1", "3", "-2", "-1/2", "3/2", "5")
+_SMALL = ("1/1000", "1/1000000000", "1/1000000000000000000000000000000", "-1/1000000000")
+_LARGE = ("10", "100", "1000000", "100000000000000000000", "-1000000")
+_HALVES = ("5/2", "-3/2", "1/3", "-2/3", "7/4", "9/10", "11/10")
+AWKWARD = tuple(Fraction(text) for text in (*_PLAIN, *_HALVES, *_LARGE, *_SMALL))
+MODERATE = tuple(Fraction(text) for text in (*_PLAIN, *_HALVES, "10", "1/10"))
+
+
+class Drawer:
+    """Draws values of atoms: first all equal, then one awkward among plain ones, two equal ones, and anything."""
+
+    def __init__(self, atoms: Sequence[Any], parts: Sequence[Any], generator: random.Random, moderate: bool) -> None:
+        self.atoms = tuple(atoms)
+        self.random = generator
+        self.moderate = moderate
+        self.choices = {atom: self._choices(atom) for atom in self.atoms}
+
+    def _choices(self, atom: Any) -> list[Fraction]:
+        pool = MODERATE if self.moderate else AWKWARD
+        whole = [Fraction(n) for n in (1, 2, 3, 4, 5, 7, 0, -1, -2, -3)]
+        return [value for value in (whole if atom.is_integer else pool) if fits_kind(atom, value)]
+
+    def values(self, attempt: int, taken: set[Any]) -> dict[Any, Fraction]:
+        """One assignment of every atom that is not in ``taken``."""
+        free = [atom for atom in self.atoms if atom not in taken]
+        if attempt < 10:
+            same = AWKWARD[attempt] if not self.moderate else MODERATE[attempt]
+            return {atom: self._nearest(atom, same) for atom in free}
+        style = attempt % 5
+        if style == 0:
+            return {atom: self._any(atom) for atom in free}
+        values = {atom: self._generic(atom) for atom in free}
+        if style in (1, 2) and free:
+            for atom in self.random.sample(free, min(len(free), style)):
+                values[atom] = self._any(atom)
+        if style == 3 and len(free) > 1:
+            first, second = self.random.sample(free, 2)
+            values[second] = self._nearest(second, values[first])
+        return values
+
+    def _nearest(self, atom: Any, value: Fraction) -> Fraction:
+        for candidate in (value, abs(value), -value, Fraction(1)):
+            if fits_kind(atom, candidate):
+                return candidate
+        return self._generic(atom)
+
+    def _any(self, atom: Any) -> Fraction:
+        return self.random.choice(self.choices[atom]) if self.choices[atom] else self._generic(atom)
+
+    def _generic(self, atom: Any) -> Fraction:
+        """A rational of ordinary size, of the declared kind."""
+        if atom.is_integer:
+            return self._any_whole(atom)
+        value = Fraction(self.random.randint(1, 40), self.random.choice((1, 2, 3, 4, 5, 7, 10, 11)))
+        if atom.is_positive or atom.is_nonnegative:
+            return value
+        if atom.is_negative or atom.is_nonpositive:
+            return -value
+        return value * self.random.choice((1, -1))
+
+    def _any_whole(self, atom: Any) -> Fraction:
+        return self.random.choice(self.choices[atom]) if self.choices[atom] else Fraction(1)
+
+    def between(self, atom: Any, low: Number | None, high: Number | None, strict: bool) -> Fraction | None:
+        """A value of the kind of the atom between two ends, at an end where that is exact and allowed."""
+        candidates: list[Fraction] = []
+        if not strict and self.random.random() < 0.4:
+            candidates += [end for end in (low, high) if isinstance(end, Fraction)]
+        a, b = (None if end is None else _rational(end) for end in (low, high))
+        if a is not None and b is not None:
+            if a > b:
+                return None
+            shares = [Fraction(1, 2), Fraction(1, 3), Fraction(9, 10), Fraction(1, 1000), Fraction(999, 1000)]
+            self.random.shuffle(shares)
+            candidates += [a + (b - a) * share for share in shares]
+        elif a is not None:
+            candidates += [a + step for step in self._steps()] + ([2 * a] if a > 0 else [])
+        elif b is not None:
+            candidates += [b - step for step in self._steps()] + [b / 2, b / 100]
+        if atom.is_integer:
+            candidates = [Fraction(round(value)) for value in candidates]
+        within = (v for v in candidates if (a is None or v >= a) and (b is None or v <= b))
+        return next((value for value in within if fits_kind(atom, value)), None)
+
+    def _steps(self) -> list[Fraction]:
+        steps = [Fraction(1), Fraction(1, 2), Fraction(3), Fraction(1, 1000), Fraction(20)]
+        self.random.shuffle(steps)
+        return steps
+
+    def others(self, atom: Any, value: Fraction) -> Iterable[Fraction]:
+        """Other values of an atom, small and large."""
+        scaled = [
+            value * factor for factor in (Fraction(1, 2), Fraction(2), Fraction(1, 10), Fraction(10), Fraction(-1))
+        ]
+        chosen = self.random.sample(self.choices[atom], min(6, len(self.choices[atom])))
+        return [candidate for candidate in (*scaled, *chosen) if candidate != value and fits_kind(atom, candidate)]
+
+
+def _rational(end: Number) -> Fraction:
+    """A rational close to the end, of a length that is fit for further work."""
+    if isinstance(end, Ball):
+        sign, mantissa, exponent, _ = end.middle._mpf_
+        exact = Fraction((-1) ** sign * int(mantissa)) * Fraction(2) ** exponent
+        return exact.limit_denominator(10**24) if exact else exact
+    return end

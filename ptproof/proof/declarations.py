@@ -1,0 +1,87 @@
+"""What symbols and undefined functions are declared to be: the one place that reads SymPy's assumptions as a promise.
+
+A symbol stands for every value that its declaration allows. An undefined function stands for every smooth function
+of real arguments whose values are of its declared kind, whatever letters it is written with.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any, TypeAlias
+
+import sympy as sp
+from sympy.core.assumptions import StdFactKB
+from sympy.core.function import AppliedUndef
+
+Letter: TypeAlias = sp.Symbol | AppliedUndef
+# Only a sign may be shown otherwise than by SymPy, of what SymPy knows to be real.
+SIGNS = ("positive", "nonnegative", "negative", "nonpositive", "nonzero")
+_WORDS = (
+    "real", *SIGNS, "zero", "integer", "noninteger", "rational", "irrational", "even", "odd", "prime", "composite",
+    "imaginary",
+)  # fmt: skip
+
+
+def declared(letter: Letter) -> dict[str, bool]:
+    """The assumptions that a symbol, or the values of an undefined function, were declared with.
+
+    >>> declared(sp.Symbol("n", integer=True, positive=True)), declared(sp.Function("g", negative=True)(1))["negative"]
+    ({'integer': True, 'positive': True}, True)
+    """
+    if isinstance(letter, sp.Symbol):
+        return {name: truth for name, truth in letter._assumptions_orig.items() if name != "commutative"}
+    known: dict[str, bool] = letter.func._kwargs  # SymPy keeps with it all that follows
+    true = {name: True for name in _WORDS if known.get(name)}
+    implied = StdFactKB(true)
+    return true | {name: False for name in _WORDS if known.get(name) is False and implied.get(name) is not False}
+
+
+def is_plainly_real(symbol: sp.Symbol) -> bool:
+    """Whether the symbol stands for every real number: declared real and nothing more."""
+    return declared(symbol) == {"real": True}
+
+
+def like(symbol: sp.Symbol, name: str = "") -> sp.Symbol:
+    """A fresh symbol of the same kind: nothing that is known of another symbol is known of it."""
+    return sp.Dummy(name or symbol.name, **symbol._assumptions_orig)
+
+
+def admissible(letter: Letter, value: Any) -> bool:
+    """Whether SymPy knows ``value`` to be what ``letter`` may stand for.
+
+    For a function it is an expression in the letter's arguments, and the answer holds for all their real values.
+    """
+    return not missing(letter, value)
+
+
+def missing(letter: Letter, value: Any) -> dict[str, bool]:
+    """What ``letter`` is declared to be and SymPy does not know of ``value``, as in :func:`admissible`."""
+    value = everywhere(letter, sp.sympify(value))
+    return {name: truth for name, truth in declared(letter).items() if getattr(value, f"is_{name}", None) is not truth}
+
+
+def everywhere(letter: Letter, value: sp.Expr) -> sp.Expr:
+    """The value of a function at arbitrary real arguments, whatever its letters were declared to be."""
+    if isinstance(letter, sp.Symbol):
+        return value
+    free: Mapping[Any, Any] = {argument: sp.Dummy(str(argument), real=True) for argument in letter.args}
+    return value.xreplace(free)
+
+
+def is_kind(
+    letter: Letter, value: Any, has_sign: Callable[[sp.Expr, str], bool], is_real: Callable[[sp.Expr], bool]
+) -> bool:
+    """Whether ``value`` is what ``letter`` may stand for.
+
+    ``has_sign`` and ``is_real`` may show what SymPy does not know: a sign of a real value, and that a value is real.
+    """
+    value = sp.sympify(value)
+    lacking = missing(letter, value)
+    if not lacking:
+        return True
+    there = everywhere(letter, value)
+    if lacking.pop("real", False) and not (there.is_real or is_real(there)):
+        return False
+    if not all(name in SIGNS and truth for name, truth in lacking.items()):
+        return False
+    return not lacking or ((there.is_real or is_real(there)) and all(has_sign(there, name) for name in lacking))
