@@ -240,7 +240,7 @@ def _confirmed_hit(goal: Goal, ready: Prepared, point: Point, part: Relation) ->
     found = {_outcome(part, point.evaluator(digits)) for digits in _DIGITS}
     if len(found) != 1 or not (what := found.pop()):
         return None
-    if what != FAILS and getattr(goal, "where_defined", False):
+    if what != FAILS and goal.where_defined:
         return None
     left, right = _sides(part, point.evaluator(_DIGITS[1]))
     return Hit(exact_values(ready, point), part, left, right, what)

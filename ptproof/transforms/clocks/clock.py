@@ -12,6 +12,7 @@ from sympy.core.relational import Relational
 from ptproof.errors import InputError
 from ptproof.proof.signs import vanishes
 from ptproof.transforms.clocks.algebra import factored, is_positive, limit_at_infinity, settle
+from ptproof.transforms.clocks.attack import unshaken
 
 
 @dataclass(frozen=True)
@@ -79,6 +80,7 @@ class Clock:
         ):
             if not shown():
                 raise InputError(f"{self.name}: it does not hold, or cannot be shown, that {what}")
+        unshaken(self, points=3)
 
     def instant(self, nu: sp.Expr) -> sp.Expr:
         """The t at which ν = 1 − (t − t₀)/horizon, which falls from 1 to 0 (eq:nu), has the value ``nu``."""
