@@ -9,7 +9,7 @@ from typing import Any
 
 import sympy as sp
 
-from ptproof.proof.attack.evaluator import Evaluator, text
+from ptproof.proof.attack.evaluator import Evaluator
 from ptproof.proof.attack.exact import exact_values
 from ptproof.proof.attack.kinds import holds
 from ptproof.proof.attack.limiting import Grows
@@ -18,6 +18,7 @@ from ptproof.proof.attack.preparation import Prepared, prepared
 from ptproof.proof.attack.quantified import satisfied
 from ptproof.proof.attack.roughness import rough
 from ptproof.proof.attack.sampling import MISSES, Point, Sampler
+from ptproof.proof.attack.worth import text
 from ptproof.proof.claim import Goal
 from ptproof.proof.statement import Exists, Prose, Relation, Smooth
 

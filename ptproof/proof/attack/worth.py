@@ -10,7 +10,7 @@ import sympy as sp
 
 from ptproof.proof.attack.evaluator import Evaluator, Inadmissible
 from ptproof.proof.attack.functions import Concrete
-from ptproof.proof.attack.numbers import Ball, NotReal, Number, Undefined, Unsure
+from ptproof.proof.attack.numbers import Ball, NotReal, Number, Undefined, Unsure, context
 from ptproof.proof.attack.scope import Scope
 from ptproof.proof.attack.series import Calculus
 
@@ -52,3 +52,10 @@ class Place:
 def as_float(value: Number) -> float:
     """A value for people and for searches, not for decisions."""
     return float(value.middle) if isinstance(value, Ball) else float(value)
+
+
+def text(value: Number, digits: int = 20) -> str:
+    """The value for people."""
+    if isinstance(value, Ball):
+        return str(context(digits + 10).nstr(value.middle, digits))
+    return str(value) if len(str(value)) <= 40 else f"{float(value):.17g}"

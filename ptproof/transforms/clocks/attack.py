@@ -15,20 +15,35 @@ from ptproof.proof.statement import Relation, every, ge, gt, lt
 class ChangeOfTime(Protocol):
     """What is attacked of a clock."""
 
-    t: sp.Symbol
-    tau: sp.Symbol
-    to_tau: sp.Expr
-    to_t: sp.Expr
-    rate: sp.Expr
-    rate_back: sp.Expr
-    start: sp.Expr
-    horizon: sp.Expr
-    name: str
+    @property
+    def t(self) -> sp.Symbol: ...
 
     @property
-    def conditions(self) -> tuple[Relational, ...]:
-        """What the letters of the clock have to satisfy."""
-        ...
+    def tau(self) -> sp.Symbol: ...
+
+    @property
+    def to_tau(self) -> sp.Expr: ...
+
+    @property
+    def to_t(self) -> sp.Expr: ...
+
+    @property
+    def rate(self) -> sp.Expr: ...
+
+    @property
+    def rate_back(self) -> sp.Expr: ...
+
+    @property
+    def start(self) -> sp.Expr: ...
+
+    @property
+    def horizon(self) -> sp.Expr: ...
+
+    @property
+    def name(self) -> str: ...
+
+    @property
+    def conditions(self) -> tuple[Relational, ...]: ...
 
 
 def goals(clock: ChangeOfTime) -> tuple[Goal, ...]:
@@ -37,7 +52,7 @@ def goals(clock: ChangeOfTime) -> tuple[Goal, ...]:
     Derivatives and compositions stay unevaluated, so that the clock's own are held against others.
     """
     t, tau = clock.t, clock.tau
-    given = [Relation(item.lhs, item.rel_op, item.rhs) for item in getattr(clock, "conditions", ())]
+    given = [Relation(item.lhs, item.rel_op, item.rhs) for item in clock.conditions]
     in_t = [*given, ge(t, clock.start)]
     if clock.horizon is not sp.oo:
         in_t.append(lt(t, clock.start + clock.horizon))
