@@ -16,6 +16,7 @@ import sympy as sp
 
 from ptproof.balls.ball import precision
 from ptproof.balls.tape import Undefined
+from ptproof.certify.attack import unshaken
 from ptproof.certify.certificate import FieldCertificate, FieldWitness, Range
 from ptproof.certify.domain import Domain
 from ptproof.certify.evaluator import Goal, Place, start_boxes
@@ -109,7 +110,7 @@ def certify_field(
             return FieldCertificate(field, domain, Verdict.UNDECIDED, detail=detail, rtol=rtol)
         prosecutor = Prosecutor(field, quotients, domain)
         tell = progress or (lambda text: None)
-        return _Search(field, domain, quotients, prosecutor, rtol, began, seconds, tell).run()
+        return unshaken(_Search(field, domain, quotients, prosecutor, rtol, began, seconds, tell).run(), rays=1)
 
 
 def not_differentiable(field: Field, domain: Domain) -> str | None:
