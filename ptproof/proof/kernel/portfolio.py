@@ -11,6 +11,7 @@ from collections.abc import Iterator
 import sympy as sp
 
 from ptproof.proof.kernel.atoms import Atoms
+from ptproof.proof.kernel.limits import near
 from ptproof.proof.kernel.products import products
 from ptproof.proof.kernel.terms import NoTranslation, term
 from ptproof.proof.kernel.theorem import Part, Proposition
@@ -19,10 +20,17 @@ from ptproof.proof.statement import Relation
 
 def script(said: Proposition) -> str:
     """The tactics for the whole proposition, as one sentence for Coq."""
-    known = list(dict.fromkeys(part.relation for part in said.premises if part.relation is not None
+    known = list(dict.fromkeys(part.relation for part in said.premises if part.relation is not None and part.limit is None
                                and part.relation.sign != "!=" and not _trivial(part.relation)))  # fmt: skip
-    leaves = [_leaf(part, known, said) for part in said.conclusions]
+    leaves = [_near(part, said) if part.limit is not None else _leaf(part, known, said) for part in said.conclusions]
     return f"intros; facts; pieces; [> {' | '.join(leaves)} ]"
+
+
+def _near(part: Part, said: Proposition) -> str:
+    try:
+        return f"first [ {near(part, list(said.conclusions), said.names)} | leaf_or_say ]"
+    except (NoTranslation, sp.PolynomialError):
+        return "leaf_or_say"
 
 
 def _trivial(relation: Relation) -> bool:
