@@ -68,9 +68,9 @@ def _directly(relation: Relation, known: list[Relation], said: Proposition) -> I
     start = "; ".join([*atoms.lines, *lines])
     start = f"{start}; " if start else ""
     if relation.sign == "!=":
-        yield f"solve [ {start}timeout 10 (nonzero_as {_text(-gap, atoms)}) ]"
+        yield f"solve [ {start}nonzero_as {_text(-gap, atoms)} ]"
         return
-    yield f"solve [ {start}timeout 10 (difference_as {_text(gap, atoms)}) ]"
+    yield f"solve [ {start}difference_as {_text(gap, atoms)} ]"
     if gap.is_positive or (gap.is_nonnegative and relation.sign in ("<=", ">=")):
         return
     # Here the variables stay as they are: their bounds are facts like any other.

@@ -115,7 +115,7 @@ with sign_pos :=
                             | apply Rplus_lt_le_0_compat; [sign_pos | sign_nonneg] ]
     end
   | match goal with H : forall _, _ |- _ => solve [apply H; first [assumption | lra]] end
-  | lra | timeout 2 nra ]
+  | lra ]
 with sign_nonneg :=
   first
   [ assumption
@@ -133,7 +133,7 @@ with sign_nonneg :=
     | |- 0 <= _ + _ => apply Rplus_le_le_0_compat; sign_nonneg
     end
   | match goal with H : forall _, _ |- _ => solve [apply H; first [assumption | lra]] end
-  | lra | timeout 2 nra | left; sign_pos ]
+  | lra | left; sign_pos ]
 with sign_nonzero :=
   first
   [ assumption
@@ -148,12 +148,11 @@ with sign_nonzero :=
   | lra
   | match goal with
     | H : ?h <> 0 |- ?g <> 0 =>
-        let E := fresh in intro E; apply H; first [ lra | field_simplify_eq; [ first [lra | timeout 2 nra] | repeat split; sign_pos ] ]
+        let E := fresh in intro E; apply H; first [ lra | field_simplify_eq; [ lra | repeat split; sign_pos ] ]
     end
-  | match goal with |- ?g <> 0 => let E := fresh in intro E; timeout 2 nra end
   | match goal with
     | |- ?g <> 0 => let E := fresh in intro E;
-        field_simplify_eq in E; [ first [lra | timeout 2 nra] | repeat split; sign_pos ]
+        field_simplify_eq in E; [ lra | repeat split; sign_pos ]
     end ].
 
 Ltac sides := repeat split; first [ sign | assumption ].
@@ -203,7 +202,7 @@ Ltac opaque := repeat match goal with |- context [Derive ?f ?x] => generalize (D
   | |- context [?f ?x ?y ?z] => is_var f; lazymatch type of (f x y z) with R => generalize (f x y z); intro end
   | |- context [Derive ?f ?x] => generalize (Derive f x); intro
   end.
-Ltac ideal := cbv [pow] in *; solve [nsatz].
+Ltac ideal := cbv [Rpow_def.pow] in *; solve [nsatz].
 Ltac angles_of_PI := rewrite ?cos_2PI, ?sin_2PI, ?cos_PI, ?sin_PI, ?cos_PI2, ?sin_PI2, ?cos_0, ?sin_0.
 Ltac trigonometric := expand_angles; angles_of_PI; opaque; circles; opaque; first [ rational | ideal ].
 
@@ -332,7 +331,7 @@ Ltac leaf :=
   | |- _ \/ (_ = 0 /\ _) => first [ left; solve [sign] | apply rpow_defined; sign ]
   | |- forall _, _ => intros; facts; pieces; leaf
   | |- _ -> _ => intros; facts; pieces; leaf
-  | |- _ <> 0 => sign
+  | |- _ <> 0 => first [ sign | let E := fresh in intro E; timeout 4 nra ]
   | |- _ = _ => equality
   | |- _ => first [ inequality | solve [derivatives; inequality] ]
   end.
@@ -448,7 +447,7 @@ Ltac logarithms_of a b :=
   first
   [ let H := fresh in assert (H : a <= b) by lra; apply (ln_le a b) in H; [ | sign ]
   | let H := fresh in assert (H : a < b) by lra; apply (ln_increasing a b) in H; [ | sign ] ].
-Ltac quickly := try solve [ assumption | lra | timeout 3 sign ].
+Ltac quickly := try solve [ assumption | lra | sign ].
 
 (* Limits: every place is approached as 0 from the right, by a distance d or by 1/d. *)
 Lemma right_positive : at_right 0 (fun d => 0 < d).
