@@ -54,7 +54,8 @@ class System:
     Raises
     ------
     InputError
-        If the lengths differ, a state stands twice, time is a state, or ``parameters`` misses a symbol.
+        If the lengths differ, a state stands twice, time is a state, ``parameters`` misses a symbol, or two symbols
+        have one name.
 
     Examples
     --------
@@ -89,6 +90,13 @@ class System:
         object.__setattr__(self, "state", state)
         object.__setattr__(self, "rhs", rhs)
         object.__setattr__(self, "parameters", parameters)
+        check_names(self.symbols, self.name)
+
+    @property
+    def symbols(self) -> tuple[sp.Symbol, ...]:
+        """Time, states, parameters, and what else stands in the right-hand side."""
+        assert self.parameters is not None
+        return self.time, *self.state, *self.parameters
 
     @property
     def dimension(self) -> int:
@@ -126,7 +134,18 @@ class System:
         return replace(self, rhs=substitute(self.rhs, values), parameters=None)
 
     def rename(self, states: Mapping[sp.Symbol, sp.Symbol], name: str | None = None) -> System:
-        """The same system in other letters for its states."""
+        """The same system in other letters for its states.
+
+        Raises
+        ------
+        InputError
+            If a new letter stands for something else already, or is not of the kind of the old one.
+        """
+        for old, new in states.items():
+            if new in {*self.symbols} - states.keys():
+                raise InputError(f"{self.name}: {old} can't be called {new}, which is in use")
+            if old._assumptions_orig != new._assumptions_orig:
+                raise InputError(f"{self.name}: {old} and {new} are not declared to be of one kind")
         return replace(
             self,
             state=tuple(states.get(symbol, symbol) for symbol in self.state),
@@ -147,6 +166,14 @@ class System:
         return f"$\\displaystyle {self.latex()}$"
 
 
+def check_names(symbols: Sequence[sp.Symbol], where: str) -> None:
+    """Refuse two symbols of one name, which SymPy keeps apart by their assumptions and nobody else can."""
+    names: dict[str, sp.Symbol] = {}
+    for symbol in symbols:
+        if not isinstance(symbol, sp.Dummy) and names.setdefault(symbol.name, symbol) != symbol:
+            raise InputError(f"{where}: two symbols are called {symbol.name}; declare it once")
+
+
 def substitute(expressions: Sequence[sp.Expr], values: Mapping[Any, Any]) -> tuple[sp.Expr, ...]:
     """Replace symbols and applied undefined functions, then carry out the derivatives.
 
@@ -158,7 +185,7 @@ def substitute(expressions: Sequence[sp.Expr], values: Mapping[Any, Any]) -> tup
     for entry in expressions:
         for applied, value in functions.items():
             entry = entry.replace(applied.func, sp.Lambda(applied.args, value))
-        result.append(entry.doit().subs(symbols, simultaneous=True))
+        result.append(differentiated(entry).subs(symbols, simultaneous=True))
     return tuple(result)
 
 
@@ -246,6 +273,9 @@ class DitherSystem:
                 raise InputError(f"{self.name}: dither {i} depends on the state; that belongs into its field")
         if self.period.is_positive is False:
             raise InputError(f"{self.name}: the period {self.period} is not positive")
+        entries = (*self.drift, *(entry for field in self.fields for entry in field), *self.dithers, self.period)
+        others = sorted(set().union(*(entry.free_symbols for entry in entries)), key=lambda symbol: symbol.name)
+        check_names((self.time, self.phase, self.omega, *self.state, *others), self.name)
 
     def to_system(self, name: str | None = None) -> System:
         """The equation itself, with the phase replaced by ω·time; what is Piecewise in it is extended periodically."""

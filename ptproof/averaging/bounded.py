@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
@@ -9,14 +10,16 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 from sympy.utilities.iterables import sift
 
+from ptproof.averaging.samples import masked_functions, sample_points
 from ptproof.proof.engines.limits import limit_of
 from ptproof.proof.engines.reals import follows
+from ptproof.proof.kinks import KINKS
 from ptproof.proof.statement import Relation
 from ptproof.proof.verdict import Evidence, Verdict, Witness
 
 ENGINE = "bounded in time"
 _ENTIRE = (sp.exp, sp.sin, sp.cos, sp.sinh, sp.cosh, sp.tanh, sp.atan, sp.asinh, sp.erf)
-_SAMPLES = (sp.S.One, sp.Rational(1, 2), sp.Integer(-1), sp.S.Zero)
+_MOST = 6
 _SECONDS = 2.0
 
 
@@ -39,7 +42,8 @@ def bounded_in_time(
     domain
         The same as relations, and what else restricts time and states.
     assumed
-        Undefined functions that are bounded in time with their derivatives.
+        Undefined functions, as applied, that are bounded in time with all their derivatives, for the other arguments
+        in any compact set.
 
     Returns
     -------
@@ -48,31 +52,35 @@ def bounded_in_time(
         of affine arguments, rational functions that do not grow, decaying exponentials, …). refuted: with exact
         states at which the limit as time → ∞ is infinite. undecided otherwise.
     """
-    tame = _Tame(time, frozenset(states), start, domain, {applied.func for applied in assumed})
+    tame = _Tame(time, frozenset(states), start, domain, tuple(assumed))
     if tame(expression):
         entering = time in expression.free_symbols
         moving = "time enters through functions that are bounded with their derivatives"
         return Evidence(ENGINE, Verdict.PROVED, moving if entering else "continuous and free of time")
-    # At one point a smooth function of the states may have any value.
-    slow = [applied for applied in expression.atoms(AppliedUndef) if time not in applied.free_symbols]
-    numbers = {applied: sp.Symbol(str(applied), real=True) for applied in slow}
-    masked = expression.xreplace(numbers)
-    for value in _SAMPLES:
-        if masked.atoms(AppliedUndef, sp.Derivative):
-            break
-        others = sorted(masked.free_symbols - {time}, key=lambda symbol: symbol.name)
-        values = {s: value if not (s.is_positive and value <= 0) else sp.S.One for s in others}
-        limit = limit_of(masked.subs(values, simultaneous=True), time, sp.oo)
-        if limit in (sp.oo, -sp.oo):
-            names = {str(symbol): str(entry) for symbol, entry in values.items()}
-            witness = Witness({**names, str(time): "oo"}, str(limit), "a finite bound")
-            detail = f"{expression} tends to {limit} as {time} grows"
-            return Evidence(ENGINE, Verdict.REFUTED, detail, witness=witness)
+    if (found := _unbounded(expression, time, domain)) is not None:
+        limit, witness = found
+        detail = f"{expression} tends to {limit} as {time} grows"
+        return Evidence(ENGINE, Verdict.REFUTED, detail, witness=witness)
     functions = sorted({str(applied) for applied in expression.atoms(AppliedUndef) if time in applied.args})
     detail = f"not known whether {expression} is bounded in {time}"
     if functions:
         detail = f"rests on {', '.join(functions)} being bounded in {time} with its derivatives"
     return Evidence(ENGINE, Verdict.UNDECIDED, detail)
+
+
+def _unbounded(expression: sp.Expr, time: sp.Symbol, domain: Sequence[Relation]) -> tuple[sp.Expr, Witness] | None:
+    """Exact values of everything else, in the region, at which the limit as time grows is infinite."""
+    # At one point a smooth function of the states may have any value of its kind.
+    masked, back = masked_functions(expression)
+    if any(time in node.free_symbols for node in back.values()):
+        return None
+    others = [relation for relation in domain if time not in relation.free_symbols]
+    for point in itertools.islice(sample_points(masked.free_symbols - {time}, others, back), _MOST):
+        limit = limit_of(masked.subs(point, simultaneous=True), time, sp.oo)
+        if limit in (sp.oo, -sp.oo):
+            names = {str(back.get(symbol, symbol)): str(value) for symbol, value in point.items()}
+            return limit, Witness({**names, str(time): "oo"}, str(limit), "a finite bound")
+    return None
 
 
 @dataclass(frozen=True)
@@ -83,7 +91,7 @@ class _Tame:
     states: frozenset[sp.Symbol]
     start: sp.Expr | None
     domain: Sequence[Relation]
-    assumed: set[type]
+    assumed: tuple[AppliedUndef, ...]
 
     def __call__(self, node: sp.Expr) -> bool:
         if self.time not in node.free_symbols:
@@ -104,8 +112,25 @@ class _Tame:
         if isinstance(node, _ENTIRE):
             return self(node.args[0])
         if isinstance(node, AppliedUndef):
-            return node.func in self.assumed or (all(map(self, node.args)) and self.time not in node.args)
+            return self.is_assumed(node) or (all(map(self, node.args)) and self.time not in node.args)
         return False
+
+    def is_assumed(self, node: AppliedUndef) -> bool:
+        """Whether it is one of the functions that are bounded in time, at a time that runs on evenly.
+
+        Of a(τ) it is assumed that all its derivatives are bounded. Those of a(τ²) and, by x, of a(τx) need not be.
+        """
+        for known in self.assumed:
+            if known.func == node.func and len(known.args) == len(node.args):
+                pairs = zip(known.args, node.args, strict=True)
+                return all(self.runs_on(entry) if letter == self.time else self(entry) for letter, entry in pairs)
+        return False
+
+    def runs_on(self, argument: sp.Expr) -> bool:
+        """Whether it is rate·time + rest with a constant rate that leads to late times, or that is 0."""
+        rate = sp.diff(argument, self.time)
+        even = self.is_affine(argument) and not (argument - rate * self.time).expand().has(self.time)
+        return even and (self.start is None or bool(rate.is_nonnegative))
 
     def is_scalar(self, node: sp.Expr) -> bool:
         return not node.free_symbols & self.states and bool(node.is_rational_function(self.time))
@@ -136,6 +161,8 @@ class _Tame:
 
     def is_affine(self, argument: sp.Expr) -> bool:
         """Whether it is rate·time + rest, with a rate that is constant."""
+        if argument.has(*KINKS):
+            return False
         rate = sp.diff(argument, self.time)
         return not (rate.free_symbols & (self.states | {self.time}) or rate.atoms(AppliedUndef))
 

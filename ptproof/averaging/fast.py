@@ -3,25 +3,26 @@
 from __future__ import annotations
 
 import contextlib
-import itertools
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from ptproof.averaging.brackets import Vector
 from ptproof.averaging.problem import FastStates
+from ptproof.averaging.samples import masked_functions, sample_points
 from ptproof.errors import InputError
 from ptproof.proof.algebra import NotAlgebraic
 from ptproof.proof.engines.reals import follows
-from ptproof.proof.signs import vanishes
+from ptproof.proof.engines.smoothness import smoothness
+from ptproof.proof.signs import holds, sign_of, vanishes
 from ptproof.proof.statement import Relation
+from ptproof.proof.substitution import Substitution
 from ptproof.proof.verdict import Evidence, Verdict, Witness
 from ptproof.transforms import reduction
 
 ENGINE = "quasi-steady state"
 _SECONDS = 3.0
-_SAMPLES = (sp.S.Zero, sp.S.One, sp.Rational(-3, 2), sp.Integer(3))
 
 
 def quasi_steady_state(fast: FastStates, domain: Sequence[Relation] = ()) -> tuple[Vector | None, Evidence]:
@@ -43,8 +44,13 @@ def quasi_steady_state(fast: FastStates, domain: Sequence[Relation] = ()) -> tup
     values = fast.quasi_steady_state
     if values is not None:
         there = dict(zip(fast.state, values, strict=True))
-        if not all(vanishes(rate.subs(there, simultaneous=True)) for rate in fast.rate):
-            return result(None, Verdict.REFUTED, f"{list(values)} does not make the fast rates vanish")
+        for rest in (rate.subs(there, simultaneous=True) for rate in fast.rate):
+            if not vanishes(rest):
+                witness = _nonzero(rest, domain)
+                detail = (
+                    f"{list(values)} {'is not shown to' if witness is None else 'does not'} make the fast rates vanish"
+                )
+                return result(None, Verdict.UNDECIDED if witness is None else Verdict.REFUTED, detail, witness)
     if all(sp.expand(sp.diff(rate, a, b)) == 0 for rate in fast.rate for a in fast.state for b in fast.state):
         with contextlib.suppress(InputError):
             affine, shown = reduction.solve_quasi_steady_state(fast.rate, fast.state)
@@ -53,7 +59,7 @@ def quasi_steady_state(fast: FastStates, domain: Sequence[Relation] = ()) -> tup
     found, reason = _cascade(fast, domain)
     if found is not None:
         return result(values or found, Verdict.PROVED, reason)
-    if (counted := _count(fast)) is not None:
+    if (counted := _count(fast, domain)) is not None:
         detail, witness = counted
         return result(values, Verdict.REFUTED, detail, witness)
     if values is None:
@@ -64,6 +70,17 @@ def quasi_steady_state(fast: FastStates, domain: Sequence[Relation] = ()) -> tup
     if _monotone(fast, domain):
         return result(values, Verdict.PROVED, "the rates are strictly monotone in the fast states")
     return result(values, Verdict.UNDECIDED, f"z = {list(values)} is one solution; {reason}")
+
+
+def _nonzero(rest: sp.Expr, domain: Sequence[Relation]) -> Witness | None:
+    """Exact values in the region at which ``rest`` is certainly not 0."""
+    masked, back = masked_functions(rest)
+    for point in sample_points(masked.free_symbols, domain, back):
+        value = masked.subs(point)
+        if sign_of(value) in (-1, 1):
+            names = {str(back.get(entry, entry)): str(number) for entry, number in point.items()}
+            return Witness(names, str(value), "0")
+    return None
 
 
 def _cascade(fast: FastStates, domain: Sequence[Relation]) -> tuple[tuple[sp.Expr, ...] | None, str]:
@@ -95,13 +112,19 @@ def _monotone_root(fast: FastStates, rate: sp.Expr, symbol: sp.Symbol, domain: S
     """The author's value (checked elsewhere to be a zero) if ``rate`` is strictly monotone in ``symbol``."""
     slope = sp.diff(rate, symbol)
     signs = Relation(slope, "<", sp.S.Zero), Relation(sp.S.Zero, "<", slope)
-    if fast.quasi_steady_state and any(follows(sign, domain, seconds=_SECONDS).shown for sign in signs):
+    if (
+        fast.quasi_steady_state
+        and _is_continuous(fast, domain)
+        and any(follows(sign, domain, seconds=_SECONDS).shown for sign in signs)
+    ):
         return fast.quasi_steady_state[fast.state.index(symbol)]
     return None
 
 
 def _only_root(rate: sp.Expr, symbol: sp.Symbol, domain: Sequence[Relation]) -> sp.Expr | None:
     masked, back = masked_functions(rate)
+    if any(symbol in node.free_symbols for node in back.values()):
+        return None  # a function of the fast state itself
     roots, others = [], []
     for factor, _ in sp.factor_list(sp.fraction(sp.together(masked))[0])[1]:
         if symbol in factor.free_symbols and factor.is_polynomial(symbol) and sp.degree(factor, symbol) == 1:
@@ -119,48 +142,66 @@ def _only_root(rate: sp.Expr, symbol: sp.Symbol, domain: Sequence[Relation]) -> 
     return roots[0].xreplace(back)
 
 
-def sample_points(symbols: set[sp.Symbol]) -> Iterator[dict[sp.Symbol, sp.Expr]]:
-    """Exact values for all the symbols at once, which respect that one is positive; not too many."""
-    ordered = sorted(symbols, key=lambda symbol: symbol.name)
-    samples = [[value for value in _SAMPLES if not (symbol.is_positive and value <= 0)] for symbol in ordered]
-    return (dict(zip(ordered, values, strict=True)) for values in itertools.islice(itertools.product(*samples), 64))
-
-
-def masked_functions(expression: sp.Expr) -> tuple[sp.Expr, dict[sp.Symbol, sp.Expr]]:
-    """Undefined functions as real symbols, which they may be at any one point, and the way back."""
-    found = sorted(expression.atoms(AppliedUndef), key=str)
-    table = {node: sp.Symbol(f"_{i}_{node.func}", real=True) for i, node in enumerate(found)}
-    return expression.xreplace(table), {symbol: node for node, symbol in table.items()}
-
-
-def _count(fast: FastStates) -> tuple[str, Witness] | None:
-    """Exact values of everything else at which a scalar polynomial rate has no real zero, or several."""
+def _count(fast: FastStates, domain: Sequence[Relation]) -> tuple[str, Witness] | None:
+    """Exact values of everything else at which a scalar polynomial rate has no zero in the region, or several."""
     if len(fast.state) != 1:
         return None
     (symbol,), (rate,) = fast.state, fast.rate
     masked, back = masked_functions(rate)
-    numerator = sp.fraction(sp.together(masked))[0]
+    if any(symbol in node.free_symbols for node in back.values()):
+        return None  # a function of the fast state itself
+    numerator, denominator = sp.fraction(sp.together(masked))
     if not numerator.is_polynomial(symbol):
         return None
-    for there in sample_points(numerator.free_symbols - {symbol}):
-        polynomial = numerator.subs(there)
+    own = [relation for relation in domain if symbol in relation.free_symbols]
+    for there in sample_points((numerator.free_symbols | denominator.free_symbols) - {symbol}, domain, back):
+        polynomial, bottom = numerator.subs(there), denominator.subs(there)
         if symbol not in polynomial.free_symbols:
             continue
-        scalar = sp.Poly(polynomial, symbol)
-        if not (scalar.domain.is_QQ or scalar.domain.is_ZZ):
-            continue
-        roots = sorted(set(scalar.real_roots()), key=float)
-        if len(roots) != 1:
+        roots = _roots_within(polynomial, bottom, symbol, list(map(Substitution(there).relation, own)))
+        if roots is not None and len(roots) != 1:
             names = {str(back.get(entry, entry)): str(value) for entry, value in there.items()}
+            where = f" with {', '.join(map(str, own))}" if own else ""
             if len(roots) == 0:
-                return f"0 = {polynomial} has no real solution", Witness(names, str(polynomial), "0")
-            detail = f"0 = {polynomial} has {len(roots)} real solutions: {', '.join(map(str, roots))}"
+                return f"0 = {polynomial} has no real solution{where}", Witness(names, str(polynomial), "0")
+            detail = f"0 = {polynomial} has {len(roots)} real solutions{where}: {', '.join(map(str, roots))}"
             return detail, Witness({**names, str(symbol): str(roots[0])}, str(roots[0]), str(roots[1]))
     return None
 
 
+def _roots_within(
+    polynomial: sp.Expr, bottom: sp.Expr, symbol: sp.Symbol, domain: Sequence[Relation]
+) -> list[sp.Expr] | None:
+    """The real roots at which the domain's relations hold, each once; None where something is not certain."""
+    scalar = sp.Poly(polynomial, symbol)
+    if not (scalar.domain.is_QQ or scalar.domain.is_ZZ):
+        return None
+    within = []
+    for root in sorted(set(scalar.real_roots()), key=float):
+        if sign_of(bottom.subs(symbol, root)) not in (-1, 1):
+            return None
+        here = list(map(Substitution({symbol: root}).relation, domain))
+        if all(map(holds, here)):
+            within.append(root)
+        elif not any(holds(relation.negation()) for relation in here):
+            return None
+    return within
+
+
+def _is_continuous(fast: FastStates, domain: Sequence[Relation]) -> bool:
+    """Whether the rates are: a jump, whose derivative comes out as 0, may add a zero to one that is monotone."""
+    smooth = {applied.func: sp.oo for rate in fast.rate for applied in rate.atoms(AppliedUndef)}
+    for rate in fast.rate:
+        variables = sorted((symbol for symbol in rate.free_symbols if symbol.is_real), key=lambda symbol: symbol.name)
+        if smoothness(rate, variables, 0, smooth, domain).verdict is not Verdict.PROVED:
+            return False
+    return True
+
+
 def _monotone(fast: FastStates, domain: Sequence[Relation]) -> bool:
-    """Whether the symmetric part of −∂g/∂z is positive definite everywhere, by its leading minors."""
+    """Whether g is continuous, and the symmetric part of −∂g/∂z is positive definite by its leading minors."""
+    if not _is_continuous(fast, domain):
+        return False
     matrix = -sp.Matrix(list(fast.rate)).jacobian(list(fast.state))
     symmetric = (matrix + matrix.T) / 2
     return all(

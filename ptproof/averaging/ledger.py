@@ -9,7 +9,6 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import sympy as sp
-from sympy.core.function import AppliedUndef
 
 from ptproof.averaging.average import check_form, parts
 from ptproof.averaging.boundary import boundary_layer_stability
@@ -123,12 +122,11 @@ def _states(problem: DitherProblem) -> tuple[sp.Symbol, ...]:
 
 
 def _places(problem: DitherProblem) -> Iterator[tuple[str, sp.Expr]]:
-    """Every entry of drift and fields that is not a constant, with what people call it; each expression once."""
+    """Every entry of drift and fields that is no rational number, with what people call it; each expression once."""
     seen: set[sp.Expr] = set()
-    moving = {problem.system.time, *_states(problem)}
     for name, entries in parts(problem.system):
         for row, entry in enumerate(entries, start=1):
-            if entry.free_symbols & moving and entry not in seen:
+            if not entry.is_Rational and entry not in seen:
                 seen.add(entry)
                 yield f"{name}, entry {row}", entry
 
@@ -146,8 +144,10 @@ def _worst(found: Sequence[tuple[str, Evidence]], engine: str, fine: str) -> Evi
     return Evidence(engine, Verdict.PROVED, fine)
 
 
-def _assumed(problem: DitherProblem) -> dict[AppliedUndef, Any]:
-    return dict.fromkeys(problem.smooth_functions, sp.oo)
+def _assumed(problem: DitherProblem) -> dict[Any, Any]:
+    """The functions that are smooth: those declared, or all that occur, whatever stands in them."""
+    declared = problem.functions is not None
+    return {entry if declared else entry.func: sp.oo for entry in problem.smooth_functions}
 
 
 def _where(problem: DitherProblem) -> str:
@@ -269,4 +269,4 @@ def _steady(problem: DitherProblem, fast: FastStates, steady: Vector | None, uni
 def _boundary_layer(problem: DitherProblem, fast: FastStates, steady: Vector | None) -> Evidence:
     if steady is None:
         return Evidence("boundary layer", Verdict.UNDECIDED, "no quasi-steady state is known")
-    return boundary_layer_stability(fast, steady, problem.domain)
+    return boundary_layer_stability(fast, steady, problem.domain, problem.system.state)

@@ -11,7 +11,7 @@ from sympy.core.function import AppliedUndef
 
 from ptproof.errors import InputError
 from ptproof.proof.statement import Relation
-from ptproof.system import DitherSystem
+from ptproof.system import DitherSystem, check_names
 
 TIME = sp.Symbol("tau", real=True)
 PHASE = sp.Symbol("theta", real=True)
@@ -36,6 +36,9 @@ class FastStates:
             raise InputError(f"{len(self.state)} fast states but {len(self.rate)} rates")
         if self.quasi_steady_state is not None and len(self.quasi_steady_state) != len(self.state):
             raise InputError(f"{len(self.state)} fast states but {len(self.quasi_steady_state)} quasi-steady states")
+        for value in self.quasi_steady_state or ():
+            if value.free_symbols & set(self.state):
+                raise InputError(f"the quasi-steady state {value} contains a fast state")
 
 
 @dataclass(frozen=True)
@@ -74,6 +77,13 @@ class DitherProblem:
         known = {*self.system.state, *(self.fast.state if self.fast else ())}
         if self.fast and set(self.fast.state) & set(self.system.state):
             raise InputError(f"{self.system.name}: a state is slow and fast at once")
+        if self.fast:
+            for i, dither in enumerate(self.system.dithers, start=1):
+                if dither.free_symbols & set(self.fast.state):
+                    raise InputError(f"{self.system.name}: dither {i} depends on a fast state; put that into its field")
+            rates = set().union(*(rate.free_symbols for rate in self.fast.rate))
+            system = (self.system.time, self.system.phase, self.system.omega, *self.system.state, *self.fast.state)
+            check_names((*system, *sorted(rates, key=lambda symbol: symbol.name)), self.system.name)
         for symbol, (low, high) in self.region.items():
             if symbol not in known:
                 raise InputError(f"{self.system.name}: the region speaks of {symbol}, which is not a state")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -146,17 +146,17 @@ def study(problem: DitherProblem | DitherSystem) -> Average:
         derived = derive(problem.reduced(ledger.steady or ()))
     except (AveragingRefused, AveragingUndecided) as error:
         return without({}, str(error))
-    expected = None if asked is None else compare(derived.system, asked)
+    expected = None if asked is None else compare(derived.system, asked, problem.domain)
     return Average(problem, derived.system, derived.v, derived.brackets, ledger, expected)
 
 
-def compare(system: System, expected: Vector) -> Evidence:
-    """Whether the right-hand side of ``system`` equals ``expected``, with a witness where it does not.
+def compare(system: System, expected: Vector, domain: Sequence[Relation] = ()) -> Evidence:
+    """Whether the right-hand side of ``system`` equals ``expected`` on the domain, with a witness where it does not.
 
     proved: the difference has the normal form 0. refuted: exact values (polynomials for undefined functions) at
     which the two sides are apart. What is asked is that they agree wherever both are defined. The two sides are
     compared as given; neither is computed from the other.
     """
     both = Relation(sp.Matrix(system.rhs), "=", sp.Matrix(list(expected)))
-    goal = Goal("expected average", both, where_defined=True)
+    goal = Goal("expected average", both, tuple(domain), where_defined=True)
     return settle(goal, exact)

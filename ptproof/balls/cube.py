@@ -12,7 +12,7 @@ from flint import arb
 
 from ptproof.balls.ball import BALLS, interval
 from ptproof.balls.boxes import Sides, halves, widths
-from ptproof.balls.rest import expandable
+from ptproof.balls.symmetry import is_rotational, same
 
 
 @dataclass(frozen=True)
@@ -79,14 +79,14 @@ def shell(n: int, low: arb, high: arb, pieces: int = 1) -> list[Box]:
 def reduced_faces(drop: sp.Expr, offsets: Sequence[sp.Symbol]) -> tuple[Face, ...]:
     """Faces of the cube that suffice, by symmetries of ``drop`` that hold identically."""
     n = len(offsets)
-    if n > 1 and _rotational(drop, offsets):
+    if n > 1 and is_rotational(drop, offsets):
         return (Face(0, 1, ((0, 0),) * (n - 1)),)
-    even = [_same(drop, drop.subs(y, -y)) for y in offsets]
+    even = [same(drop, drop.subs(y, -y)) for y in offsets]
     swapped = [
-        i == 0 or _same(drop, drop.subs({offsets[0]: offsets[i], offsets[i]: offsets[0]}, simultaneous=True))
+        i == 0 or same(drop, drop.subs({offsets[0]: offsets[i], offsets[i]: offsets[0]}, simultaneous=True))
         for i in range(n)
     ]
-    whole = not any(even) and _same(drop, drop.subs({y: -y for y in offsets}, simultaneous=True))
+    whole = not any(even) and same(drop, drop.subs({y: -y for y in offsets}, simultaneous=True))
     faces = []
     for axis in range(n):
         if axis and swapped[axis]:
@@ -97,15 +97,3 @@ def reduced_faces(drop: sp.Expr, offsets: Sequence[sp.Symbol]) -> tuple[Face, ..
         if not even[axis] and not whole:
             faces.append(Face(axis, -1, sides))
     return tuple(faces)
-
-
-def _same(left: sp.Expr, right: sp.Expr) -> bool:
-    return bool(left == right) or (expandable(left, 3) and bool(sp.expand(left - right) == 0))
-
-
-def _rotational(drop: sp.Expr, offsets: Sequence[sp.Symbol]) -> bool:
-    if not expandable(drop, 3):
-        return False
-    first, *rest = offsets
-    turned = (first * sp.diff(drop, y) - y * sp.diff(drop, first) for y in rest)
-    return all(sp.expand(item) == 0 for item in turned)

@@ -22,7 +22,7 @@ from ptproof.balls.boxes import centre
 from ptproof.balls.cube import Box, shell
 from ptproof.balls.rounding import down, up
 from ptproof.balls.search import Look, Search
-from ptproof.balls.tape import Undefined, compile_tape
+from ptproof.balls.tape import Undefined, compile_tape, switching_part
 from ptproof.errors import InputError
 from ptproof.system import gradient
 
@@ -31,9 +31,6 @@ _RATIO = 1.06  # of the radii that bound a shell
 _NEAR = 24  # shells from which on the Hessian form is used too
 _DEEPEST = 160  # shells below the first radius; the ball inside is one last cell
 _PIECES = 300
-_NOT_SMOOTH = (
-    sp.Piecewise, sp.Abs, sp.sign, sp.Max, sp.Min, sp.floor, sp.ceiling, sp.Mod, sp.atan2, sp.Heaviside, sp.DiracDelta,
-)  # fmt: skip
 _TOLERANCE = 0.02  # of the largest rate of a shell, or of this fraction of any rate there
 _SMALL = 0.1
 
@@ -74,13 +71,14 @@ class RadialEnvelope:
     _cells: dict[tuple[int, int], float] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        if found := [kind.__name__ for kind in _NOT_SMOOTH if self.expression.has(kind)]:
-            raise Undefined(f"a field with {found[0]}, which is not smooth in closed form")
+        if (found := switching_part(self.expression, self.variables)) is not None:
+            raise Undefined(f"a field with {found.func.__name__}, which is not smooth in closed form")
         n = self.dimension
         slope, second = gradient(self.expression, self.variables), list(sp.hessian(self.expression, self.variables))
         try:
-            self._both = compile_tape([*slope, *second], self.variables)
-            self._hessian = compile_tape(second, self.variables)
+            # The field itself is enclosed beside its derivatives, which may be smooth where it jumps.
+            self._both = compile_tape([*slope, *second, self.expression], self.variables)
+            self._hessian = compile_tape([*second, self.expression], self.variables)
         except Undefined as error:
             raise Undefined(f"a field without enclosures ({error})") from None
         with precision(BITS):

@@ -7,7 +7,7 @@ power series of balls (a Taylor form with an enclosed remainder).
 from __future__ import annotations
 
 import operator
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache, partial, reduce
 from typing import Any
@@ -55,6 +55,19 @@ def nonnegative_by_form(expression: sp.Expr) -> bool:
     if isinstance(expression, sp.Add | sp.Mul):
         return all(map(nonnegative_by_form, expression.args))
     return False
+
+
+def switching_part(node: sp.Basic, symbols: Collection[sp.Symbol]) -> sp.Basic | None:
+    """The outermost part of ``node`` that may have an enclosure beside a jump or a kink in ``symbols``, or None.
+
+    Without such a part, an expression whose value and derivatives have finite enclosures on a box is analytic there:
+    sums, products, powers and :data:`METHODS` are undefined where they are not, or their derivatives are.
+    """
+    if node.is_Symbol or not any(symbol in symbols for symbol in node.free_symbols):
+        return None
+    if not (node.is_Add or node.is_Mul or node.is_Pow or node.func in METHODS):
+        return node
+    return next((found for part in node.args if (found := switching_part(part, symbols)) is not None), None)
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ from flint import arb
 
 from ptproof.balls.ball import BALLS, ball_from, enclosure_text
 from ptproof.balls.newton import krawczyk, newton
-from ptproof.balls.tape import compile_tape
+from ptproof.balls.tape import Undefined, compile_tape
 from ptproof.certify.certificate import FieldWitness, distance_to
 from ptproof.certify.domain import Domain
 from ptproof.certify.quotients import Quotients
@@ -42,8 +42,11 @@ class CriticalPoints:
     def _newton(self, start: Sequence[float], kept: Sequence[int]) -> FieldWitness | None:
         active = [self.quotients.offsets[i] for i in kept]
         drop = self.quotients.drop.subs({y: 0 for y in self.quotients.offsets if y not in active})
-        gradient = compile_tape([sp.diff(drop, y) for y in active], active)
-        hessian = compile_tape([sp.diff(drop, y, z) for y in active for z in active], active)
+        try:
+            gradient = compile_tape([sp.diff(drop, y) for y in active], active)
+            hessian = compile_tape([sp.diff(drop, y, z) for y in active for z in active], active)
+        except Undefined:  # a gradient with a kink
+            return None
         begin = [start[i] for i in kept]
         if len(kept) < len(start):
             begin = [math.copysign(math.hypot(*start), begin[0])]

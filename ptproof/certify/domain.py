@@ -4,11 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import sympy as sp
 
 from ptproof.errors import InputError
+
+if TYPE_CHECKING:
+    from ptproof.problem.field import Field
+    from ptproof.proof.statement import Relation
 
 
 @dataclass(frozen=True)
@@ -70,6 +74,14 @@ class Domain:
             return False
         low = self.inner == 0 or separated(square, self.inner**2) == 1 or square == self.inner**2
         return low and (self.outer is None or square == self.outer**2 or separated(square, self.outer**2) == -1)
+
+    def relations(self, field: Field) -> tuple[Relation, ...]:
+        """What holds for the squared distance from the source of ``field`` on the domain."""
+        from ptproof.proof.statement import ge, le
+
+        square = sp.Add(*((x - s) ** 2 for x, s in zip(field.variables, field.source, strict=True)))
+        above = () if self.has_source else (ge(square, self.inner**2),)
+        return above if self.outer is None else (*above, le(square, self.outer**2))
 
     @property
     def has_source(self) -> bool:

@@ -26,6 +26,7 @@ from ptproof.certify.source import degenerate_direction, source_order
 from ptproof.certify.witness import Prosecutor
 from ptproof.errors import InputError
 from ptproof.problem.field import Field
+from ptproof.problem.smooth import roughness
 from ptproof.proof.verdict import Verdict
 from ptproof.reading.expressions import parse
 from ptproof.reading.limits import check_seconds
@@ -97,6 +98,10 @@ def certify_field(
         raise InputError(f"the relative width must be between 1e-9 and 1, but is {rtol}")
     check_seconds(seconds)
     with precision(BITS):
+        if (reason := not_differentiable(field, domain)) is not None:
+            return FieldCertificate(
+                field, domain, Verdict.UNDECIDED, detail=f"the field has no gradient: {reason}", rtol=rtol
+            )
         try:
             quotients = Quotients(*_drop(field), field.kappa)
         except Undefined as error:
@@ -105,6 +110,14 @@ def certify_field(
         prosecutor = Prosecutor(field, quotients, domain)
         tell = progress or (lambda text: None)
         return _Search(field, domain, quotients, prosecutor, rtol, began, seconds, tell).run()
+
+
+def not_differentiable(field: Field, domain: Domain) -> str | None:
+    """Why the field is not shown to have a continuous gradient on ``domain``, jumps and kinks named; None if it has.
+
+    The quotients are enclosed all over the domain, so that poles need no look here.
+    """
+    return roughness(field.expression, field.variables, 1, domain.relations(field), covered=True)
 
 
 def _field(
@@ -196,6 +209,8 @@ class _Search:
             return found is not None
 
         search.run(deadline, None if search.goal.largest else stop)
+        if found is None and search.place is not None and not search.goal.largest and search.search.best >= 0:
+            stop(search.place, search.search.best)  # a search that is finished at once has not asked
         if search.stuck is not None and not search.stuck.is_limit:
             return self.prosecutor.undefined_near(search.stuck.offset()) or found
         return found

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import click
+
+from ptproof.commands import options
 
 if TYPE_CHECKING:
     from ptproof.averaging import Average
@@ -27,7 +28,7 @@ class Outcome:
 
 @click.command()
 @click.argument("file", metavar="FILE.toml")
-@click.option("--json", "as_json", is_flag=True, help="Print JSON on standard output.")
+@options.as_json
 @click.option("--timeout", type=float, default=60.0, show_default=True, help="Time limit, in seconds.")
 def average(file: str, as_json: bool, timeout: float) -> int:
     """Average the dither system in FILE.toml, and examine every assumption of the theorem.
@@ -39,7 +40,7 @@ def average(file: str, as_json: bool, timeout: float) -> int:
     if outcome.reason:
         click.echo(f"ptproof: {outcome.reason}", err=True)
     if as_json:
-        click.echo(json.dumps(outcome.data, indent=2, ensure_ascii=False))
+        options.print_json(outcome.data)
     else:
         _show(outcome)
     return 0 if outcome.as_expected else 1
@@ -91,12 +92,11 @@ def _reason(found: Average) -> str:
 
 
 def _show(outcome: Outcome) -> None:
-    from rich.console import Console
     from rich.text import Text
 
-    from ptproof.commands.terminal import COLOURS, plain_table
+    from ptproof.commands.terminal import COLOURS, output, plain_table
 
-    console, data = Console(), outcome.data
+    console, data = output(), outcome.data
     if data["average"] is not None:
         for symbol, entry in zip(outcome.state, data["average"], strict=True):
             console.print(Text(f"d{symbol}/dtau = {entry}", style="bold"))

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-import json
 from typing import TYPE_CHECKING, Any
 
 import click
+
+from ptproof.commands import options
 
 if TYPE_CHECKING:
     from ptproof.certify import FieldCertificate
@@ -15,16 +16,16 @@ class _WithExpression(click.Command):
     """A command whose argument may begin with a minus sign."""
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        options = {name: param for param in self.get_params(ctx) for name in param.opts}
+        known = {name: param for param in self.get_params(ctx) for name in param.opts}
         front: list[str] = []
         back: list[str] = []
         rest = iter(args)
         for token in rest:
             if token == "--":
                 back.extend(rest)
-            elif token in options:
+            elif token in known:
                 front.append(token)
-                param = options[token]
+                param = known[token]
                 if not (isinstance(param, click.Option) and param.is_flag) and (value := next(rest, None)) is not None:
                     front.append(value)
             elif token.startswith("--"):
@@ -44,7 +45,7 @@ class _WithExpression(click.Command):
 @click.option("--rtol", type=float, default=1e-3, show_default=True, help="Relative width of each enclosure.")
 @click.option("--timeout", type=float, default=60.0, show_default=True, help="Time limit, in seconds.")
 @click.option("--plot", metavar="FILE", help="Write a picture of the quotients and the certified band.")
-@click.option("--json", "as_json", is_flag=True, help="Print JSON on standard output.")
+@options.as_json
 def bounds(
     expression: str,
     names: str,
@@ -72,7 +73,7 @@ def bounds(
     if as_json:
         if certificate.verdict is Verdict.UNDECIDED:
             click.echo(f"ptproof: {certificate.summary}", err=True)
-        click.echo(json.dumps(certificate.to_json(), indent=2, ensure_ascii=False))
+        options.print_json(certificate.to_json())
     else:
         _show(certificate)
     return 0 if certificate.verdict is Verdict.PROVED else 1
@@ -145,13 +146,12 @@ def _draw(certificate: FieldCertificate, path: str) -> None:
 
 
 def _show(certificate: FieldCertificate) -> None:
-    from rich.console import Console
     from rich.text import Text
 
-    from ptproof.commands.terminal import COLOURS, plain_table
+    from ptproof.commands.terminal import COLOURS, output, plain_table
     from ptproof.proof.verdict import Verdict
 
-    console = Console()
+    console = output()
     head, _, *lines = str(certificate).splitlines()
     console.print(Text(head))
     console.print(Text(certificate.summary, style=COLOURS[str(certificate.verdict)]))

@@ -13,6 +13,7 @@ from typing import Any
 import click
 
 from ptproof import __version__
+from ptproof.commands import guard
 from ptproof.errors import InputError
 
 
@@ -58,21 +59,35 @@ def group() -> None:
     """Derive, decide and simulate prescribed-time source seeking from one symbolic source."""
 
 
-def main(arguments: list[str] | None = None) -> Any:
-    """Run the command line; bad input ends with one sentence on standard error and status 2."""
+def run(arguments: list[str] | None = None) -> int:
+    """Run the command line, and give its status; bad input ends with one sentence on standard error and status 2."""
     try:
-        sys.exit(group.main(arguments, standalone_mode=False) or 0)
+        return int(group.main(arguments, standalone_mode=False) or 0)
     except InputError as error:
-        click.echo(f"ptproof: {error}", err=True)
-        sys.exit(2)
+        _say(str(error))
+        return 2
     except click.ClickException as error:
         error.show()
-        sys.exit(2)
+        return 2
     except (click.Abort, KeyboardInterrupt):
-        click.echo("ptproof: interrupted", err=True)
-        sys.exit(130)
+        _say("interrupted")
+        return guard.interrupt_status()
+    except MemoryError:
+        _say("there is not enough memory for this")
+        return 1
     except BrokenPipeError:
-        sys.exit(1)
+        return 1
+
+
+def _say(text: str) -> None:
+    click.echo(f"ptproof: {text}", err=True)
+
+
+def main(arguments: list[str] | None = None) -> Any:
+    """Run the command line and exit; without ``arguments`` those of the process, under guard."""
+    if arguments is None and guard.possible():
+        guard.guarded(run)
+    sys.exit(run(arguments))
 
 
 if __name__ == "__main__":

@@ -22,7 +22,6 @@ def coverage(paper: str, paths: tuple[str, ...], as_json: bool) -> int:
     Exit status 1 if a label of an equation is not covered, or a claim names a label that the paper does not have.
     """
     from ptproof.errors import InputError
-    from ptproof.proof.load import load
     from ptproof.report.coverage import coverage as match
     from ptproof.report.labels import all_labels, equation_labels, read_paper
 
@@ -30,24 +29,23 @@ def coverage(paper: str, paths: tuple[str, ...], as_json: bool) -> int:
     labels = equation_labels(source)
     if not labels:
         raise InputError(rf"{paper}: no \label stands in an equation; name the LaTeX source of the paper")
-    derivation = load(paths)
-    found = match(labels, [*derivation.claims, *derivation.definitions], all_labels(source))
-    for label, ids in found.stale:
-        click.echo(f"ptproof: {paper} has no label {label}, which is named by {', '.join(ids)}", err=True)
-    if as_json:
-        options.print_json(found.to_json())
-    else:
-        _show(found)
+    with options.loaded(paths) as derivation:
+        found = match(labels, [*derivation.claims, *derivation.definitions], all_labels(source))
+        for label, ids in found.stale:
+            click.echo(f"ptproof: {paper} has no label {label}, which is named by {', '.join(ids)}", err=True)
+        if as_json:
+            options.print_json(found.to_json())
+        else:
+            _show(found)
     return 0 if found.complete else 1
 
 
 def _show(found: Coverage) -> None:
-    from rich.console import Console
     from rich.text import Text
 
-    from ptproof.commands.terminal import plain_table
+    from ptproof.commands.terminal import output, plain_table
 
-    console = Console()
+    console = output()
     rows = [(Text(label, style="green"), Text(", ".join(ids), style="dim")) for label, ids in found.covered]
     rows += [(Text(label, style="bold red"), Text("nothing", style="red")) for label in found.missing]
     console.print(plain_table(("equation", "covered by"), rows))

@@ -12,6 +12,8 @@ from ptproof.commands import options
 from ptproof.errors import InputError
 
 if TYPE_CHECKING:
+    import sympy as sp
+
     from ptproof.gains.answer import Gains
     from ptproof.gains.problem import Study
     from ptproof.problem import Problem
@@ -37,7 +39,7 @@ _NUMBERS = {
     "t0": "Start.",
     "omega": "Frequency of the seeker.",
     "mu": "Filter constant of the seeker.",
-    "residual": "A distance that is wanted at t0 + T (exit status 1 if it is not guaranteed).",
+    "residual": "A distance wanted at t0 + T: status 1 unless the average and 1/sqrt(omega) are certainly within it.",
     "radius": "Of the ball on which a problem's constants are certified.",
 }
 
@@ -64,6 +66,7 @@ def gains(problem: str | None, clock: str | None, plot: str | None, as_json: boo
     \b
     Example:  ptproof gains --kappa 2 --a1 3/2 --a2 1/2 --b1 1.4 --b2 3.3 --drift-norm 1.5 --k 1.8 --T 1 --V0 0.5
     """
+    from ptproof.gains.residual import Residual
     from ptproof.reading.expressions import parse
 
     values: dict[str, Any] = {
@@ -72,27 +75,27 @@ def gains(problem: str | None, clock: str | None, plot: str | None, as_json: boo
     if clock is not None:
         values["clock"] = clock
     residual = values.get("residual")
-    content, show, best, answered = (
+    content, show, bounds, answered, omega = (
         _from_numbers(values, plot) if problem is None else _from_problem(problem, values, plot)
     )
-    met = None if residual is None else best is not None and best <= float(residual)
+    asked = None if residual is None else Residual(residual, bounds, omega)
     if as_json:
-        options.print_json(content)
+        options.print_json(content | {"residual": None if asked is None else asked.to_json()})
     else:
         show()
-        if met is not None:
-            said = "guaranteed" if met else "not guaranteed by these bounds"
-            click.echo(f"\nResidual {residual} at t₀ + T: {said}.")
-    return 0 if answered and met is not False else 1
+        if asked is not None:
+            click.echo("\n" + "\n".join(asked.sentences))
+    return 0 if answered and (asked is None or asked.is_met) else 1
 
 
 class _Found(NamedTuple):
-    """What either kind of question comes to: its JSON, its tables, the best bound at t₀ + T."""
+    """What either kind of question comes to: its JSON, its tables, the bounds of the average at t₀ + T, and ω."""
 
     content: dict[str, Any]
     show: Callable[[], None]
-    best: float | None
+    bounds: tuple[sp.Expr, ...]
     answered: bool = True
+    omega: sp.Expr | None = None
 
 
 def _from_numbers(values: dict[str, Any], plot: str | None) -> _Found:
@@ -113,7 +116,8 @@ def _from_numbers(values: dict[str, Any], plot: str | None) -> _Found:
 
         plot_gains(answer.data, path=plot)
     bound = answer["clip.residual_bound"]
-    return _Found(answer.to_json(), partial(_table, answer), None if bound is None else bound.value)
+    best = () if bound is None else (bound.exact,)
+    return _Found(answer.to_json(), partial(_table, answer), best, omega=answer.data.omega)
 
 
 def _from_problem(name: str, values: dict[str, Any], plot: str | None) -> _Found:
@@ -132,9 +136,9 @@ def _from_problem(name: str, values: dict[str, Any], plot: str | None) -> _Found
         from ptproof.gains.plot import plot_gains
 
         plot_gains(None if result.answer is None else result.answer.data, result.curve, simulated.curves, plot)
-    best = min((bound for bound in result.bounds_at_end.values() if bound is not None), default=None)
-    show = partial(_summary, result, simulated)
-    return _Found(_problem_json(result, simulated), show, best, result.answer is not None)
+    content, show = _problem_json(result, simulated), partial(_summary, result, simulated)
+    answered, omega = result.answer is not None, result.problem.tuning.omega
+    return _Found(content, show, result.exact_bounds_at_end, answered, omega)
 
 
 def _declared(problem: Problem, values: dict[str, Any]) -> FieldBounds | None:
@@ -219,7 +223,7 @@ def _summary(result: Study, simulated: Simulated) -> None:
     click.echo(f"\nField constants: {status}, valid {result.condition}.")
     if result.answer is None and certificate is not None:
         click.echo(f"  {certificate.summary}")
-    click.echo(f"Averaged distance at t₀ + T from a start at {float(curve.initial):.6g}, drift and clip included:")
+    click.echo(f"Distance of the averaged system at t₀ + T, from {float(curve.initial):.6g}, with drift and clip:")
     names = {
         "printed": ("the paper's chain", "clip.residual_bound_printed"),
         "closed_form": ("closed form, sharper", "clip.residual_bound"),
@@ -236,5 +240,7 @@ def _summary(result: Study, simulated: Simulated) -> None:
         click.echo(f"  no worst simulated distance: {simulated.why}")
     else:
         click.echo(f"  {'worst simulated':<26} {worst:.6g}        (observed, not a bound)")
+    hover = float(result.problem.tuning.omega) ** -0.5
+    click.echo(f"  {'the vehicle circles at':<26} {hover:.6g}        (1/√ω, to leading order, around its average)")
     if str(curve.evidence.verdict) != "proved":
         click.echo(f"  the certified bound was {curve.evidence.detail}")

@@ -3,16 +3,24 @@
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
+from ptproof.commands import guard, streams
 from ptproof.errors import InputError
 
+if TYPE_CHECKING:
+    from ptproof.proof.load import Derivation
+    from ptproof.proof.memory import Memory
+    from ptproof.proof.run import Interrupted
+
 Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]
+INTERRUPTED = "interrupted"
 PICTURES = (".png", ".svg", ".pdf")
 
 derivations = click.argument("paths", nargs=-1, metavar="[PATH]...")
@@ -69,6 +77,50 @@ def connected(address: str | None) -> Iterator[Any]:
         yield client
 
 
+@contextmanager
+def loaded(paths: tuple[str, ...], memory: Memory | None = None) -> Iterator[Derivation]:
+    """The derivation below the paths; what its code prints, now and while it is used, goes to standard error."""
+    from ptproof.proof.load import load
+
+    with streams.aside():
+        guard.doing("while the derivation was loaded; nothing is decided")
+        folder = os.getcwd()
+        guard.limit()
+        try:
+            with nullcontext() if memory is None else memory.loading():
+                derivation = load(paths)
+        except KeyboardInterrupt:
+            if guard.own_interrupt():
+                raise InputError("the derivation raised KeyboardInterrupt while it was loaded") from None
+            raise
+        os.chdir(folder)
+        guard.doing("before the command had come to its end")
+        yield derivation
+
+
+fresh = click.option("--fresh", is_flag=True, help="Decide every claim anew; ignore what is remembered.")
+
+
+def memory_of(paths: tuple[str, ...], fresh: bool) -> Memory:
+    """What earlier runs have decided about the derivations below the paths (the shipped ones where left out)."""
+    from ptproof.proof.memory import Memory
+    from ptproof.proof.shipped import shipped
+
+    return Memory(
+        paths or (shipped(),), fresh=fresh, say=lambda text: click.echo(f"ptproof: warning: {text}", err=True)
+    )
+
+
+def interrupted(run: Interrupted) -> int:
+    """Say that the run was ended from outside, and with how much decided; gives the exit status."""
+    results = run.verification.results
+    left = sum(item.evidence[0].engine == INTERRUPTED for item in results)
+    click.echo(f"ptproof: interrupted; {len(results) - left} of {len(results)} claims were decided", err=True)
+    return guard.interrupt_status()
+
+
 def print_json(data: Any) -> None:
-    """The data on standard output."""
-    click.echo(json.dumps(data, indent=2, ensure_ascii=False))
+    """The data on standard output, in one piece; what its encoding lacks is escaped."""
+    encoding = (getattr(streams.out(), "encoding", None) or "utf-8").lower()
+    text = json.dumps(data, indent=2, ensure_ascii=not encoding.startswith(("utf-", "utf8")))
+    click.echo(text, file=streams.out())

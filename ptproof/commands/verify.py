@@ -2,9 +2,18 @@
 
 from __future__ import annotations
 
+import time
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
 import click
 
 from ptproof.commands import options
+from ptproof.commands.shown import Shown
+
+if TYPE_CHECKING:
+    from ptproof.proof.load import Derivation
+    from ptproof.proof.memory import Memory
 
 
 @click.command()
@@ -14,22 +23,57 @@ from ptproof.commands import options
 @options.cluster
 @options.timeout("one claim")
 @click.option("-k", "select", default="", metavar="TEXT", help="Only claims that contain TEXT, and what they use.")
+@options.fresh
 def verify(
-    paths: tuple[str, ...], as_json: bool, jobs: int | None, cluster: str | None, timeout: float, select: str
+    paths: tuple[str, ...],
+    as_json: bool,
+    jobs: int | None,
+    cluster: str | None,
+    timeout: float,
+    select: str,
+    fresh: bool,
 ) -> int:
     """Verify the claims below each PATH (the shipped derivation of the paper where left out).
 
-    Exit status 1 if a claim did not come out as its author recorded.
+    What an earlier run has decided is not decided again while every file that it depends on is the same. Exit status 1
+    if a claim did not come out as its author recorded.
     """
-    from ptproof.commands.terminal import claim_progress, verification_table
-    from ptproof.proof.load import load
+    start = time.perf_counter()
+    memory = options.memory_of(paths, fresh)
+    if cluster is None and (shown := Shown.again(memory.run(select))) is not None:
+        _print(replace(shown, seconds=time.perf_counter() - start), as_json)
+        return 0 if shown.as_expected else 1
+    with options.loaded(paths, memory) as derivation:
+        shown, status = _decided(derivation, memory, jobs, cluster, timeout, select)
+        _print(shown, as_json)
+    return status
+
+
+def _decided(
+    derivation: Derivation, memory: Memory, jobs: int | None, cluster: str | None, timeout: float, select: str
+) -> tuple[Shown, int]:
+    """What came out, and the exit status."""
+    from ptproof.commands.terminal import claim_progress
+    from ptproof.proof.run import Interrupted
     from ptproof.proof.run import verify as run
 
-    derivation = load(paths)
-    with options.connected(cluster) as client, claim_progress(len(derivation.select(select))) as progress:
-        verification = run(derivation, workers=jobs, client=client, timeout=timeout, select=select, progress=progress)
+    try:
+        with options.connected(cluster) as client, claim_progress(len(derivation.select(select))) as progress:
+            verification = run(
+                derivation, workers=jobs, client=client, timeout=timeout, select=select, progress=progress,
+                memory=memory,
+            )  # fmt: skip
+    except Interrupted as interrupted:
+        return Shown.of(interrupted.verification), options.interrupted(interrupted)
+    shown = Shown.of(verification)
+    memory.keep_run(select, shown.data, verification)
+    return shown, 0 if verification.as_expected else 1
+
+
+def _print(shown: Shown, as_json: bool) -> None:
     if as_json:
-        options.print_json(verification.to_json())
+        options.print_json(shown.json)
     else:
-        verification_table(verification)
-    return 0 if verification.as_expected else 1
+        from ptproof.commands.terminal import verification_table
+
+        verification_table(shown)

@@ -14,9 +14,9 @@ from ptproof.gains.numbers import NotApplicable, short, sign
 from ptproof.problem.field import FieldBounds
 
 _LARGEST_KAPPA = 1000
-_POSITIVE = ("k", "T", "nu_min", "V0", "x0_norm", "residual", "omega", "mu", "exponent")
+_POSITIVE = ("k", "T", "nu_min", "V0", "x0_norm", "residual", "omega", "mu", "exponent", "radius")
 _ANY_SIGN = ("t0", "tau_star")
-_NUMBERS = (*_POSITIVE, "drift_norm", "drift_bound", *_ANY_SIGN)
+_NUMBERS = (*_POSITIVE, "drift_norm", "drift_bound", "drift_bound_later", "filter_error", *_ANY_SIGN)
 
 
 @dataclass(frozen=True)
@@ -34,15 +34,22 @@ class GainData:
     drift_matrix, drift_norm
         E (n × n) of a drift E∇F, and its largest singular value ‖E‖; the norm follows from the matrix.
     drift_bound
-        sup d of a bounded drift ‖f‖ ≤ d. [length/time]
+        sup d of a bounded drift ‖f‖ ≤ d: for all time, or up to t₀ + T where ``drift_until_end`` says so. [length/time]
+    drift_until_end, drift_bound_later
+        Whether ``drift_bound`` speaks of [t₀, t₀ + T] alone, and a bound for all time where one is known.
     V0, x0_norm
         V = F(x*) − F at the start, and ‖x₀ − x*‖; V₀ ≤ a₁‖x₀ − x*‖^(2κ) where only the distance is known.
     t0, tau_star
         The start, and a stretched time τ* > t₀.
     residual
-        A distance to the source that is wanted at t₀ + T.
+        A distance to the source that is wanted at t₀ + T. Bounds are of the average; the vehicle circles around it.
     omega, mu
         The seeker's frequency and filter constant, for the peak inputs.
+    filter_error
+        |y − z| at the start: 0 where the filter starts at the measured field.
+    radius
+        Of the ball around the source on which the constants hold; None for the whole space. Thresholds then are such
+        that the average stays in it up to t₀ + T; that it does is the caller's to show for all other bounds.
 
     Raises
     ------
@@ -72,6 +79,10 @@ class GainData:
     mu: sp.Expr | None = None
     clock: str = "paper"
     exponent: sp.Expr | None = None
+    radius: sp.Expr | None = None
+    drift_until_end: bool = False
+    drift_bound_later: sp.Expr | None = None
+    filter_error: sp.Expr = sp.S.Zero
 
     def __post_init__(self) -> None:
         if not isinstance(self.bounds.kappa, sp.Integer):
@@ -155,6 +166,20 @@ class GainData:
         It is negative for a drift that always helps.
         """
         return self.norm if self.drift_matrix is None else -smallest_eigenvalue(symmetric_part(self.drift_matrix))
+
+    @property
+    def level(self) -> sp.Expr | None:
+        """a₂·radius^(2κ): while V is at most that, the position is where the constants hold; None for everywhere."""
+        return None if self.radius is None else self.bounds.a2 * self.radius ** (2 * self.bounds.kappa)
+
+    @property
+    def everlasting_drift(self) -> sp.Expr:
+        """A bound of ‖f‖ for all time."""
+        if self.drift_bound_later is not None:
+            return self.drift_bound_later
+        if self.drift_until_end:
+            raise NotApplicable("the drift is enclosed up to t0 + T only; give a drift_bound that holds for all time")
+        return self.known("drift_bound")[0]
 
     @property
     def start_value(self) -> sp.Expr:

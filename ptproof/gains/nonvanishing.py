@@ -82,6 +82,19 @@ def exact_bound(data: GainData) -> sp.Expr:
     return _fading_in_letters().subs(values, simultaneous=True)
 
 
+def exact_bound_clipped(data: GainData) -> sp.Expr:
+    """:func:`exact_bound` up to the cap of a clipped gain and, the input being constant from there on, after it."""
+    early = exact_bound(data)
+    if data.nu_min is None:
+        return early
+    h, cap = damping(data.bounds, data.known("k")[0]), data.horizon.cap
+    corner = data.t0 + data.horizon.stretched_corner
+    fade = sp.exp(-h * (STRETCHED - corner))
+    rest = input_factor(data.bounds) * data.known("drift_bound")[0] / (cap * h)
+    late = early.subs(STRETCHED, corner) * fade + rest * (1 - fade)
+    return sp.Piecewise((early, corner >= STRETCHED), (late, True))
+
+
 def distance_bound(data: GainData, elapsed: sp.Expr) -> sp.Expr:
     """How far x̄ can be from the source at the elapsed time e, under a clipped gain or before T without one.
 

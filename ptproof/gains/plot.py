@@ -111,6 +111,8 @@ def _distance_bound(data: GainData, elapsed: sp.Expr, chain: Chain) -> sp.Expr |
 
 def _critical(axes: Any, data: GainData) -> None:
     last = float(vanishing.last_critical(data))
+    if data.nu_min is not None:  # the formula is for the gain before its clip
+        last = min(last, float(data.horizon.stretched_corner))
     if last <= 0:
         axes.text(0.5, 0.5, "no critical value:\nthe bound decreases", ha="center", transform=axes.transAxes)
         return
@@ -118,18 +120,29 @@ def _critical(axes: Any, data: GainData) -> None:
     values = _along(vanishing.critical_values(data, _X), s)
     axes.plot(float(data.t0) + s, values, color=_COLOURS["printed"], label="V0 that escapes at τ*")
     for name, chain in _chains(data):
-        value = vanishing.critical_value(data, chain)
-        if value is not None:
+        value = _threshold(data, chain)
+        if value is not None and value is not sp.oo:
             axes.axhline(float(value), linestyle=":", color=_COLOURS[name], label=f"threshold, {name}")
     axes.set(xlabel="τ*", ylabel="V0", yscale="log")
+
+
+def _threshold(data: GainData, chain: Chain, T: sp.Expr | None = None) -> sp.Expr | None:
+    """The critical V₀, infinite where there is none; None where the chain says nothing."""
+    try:
+        value = vanishing.critical_value(data, chain, T)
+    except NotApplicable:
+        return None
+    return sp.oo if value is None else value
 
 
 def _safe_start(axes: Any, data: GainData) -> None:
     T = float(data.horizon.T)
     grid = np.geomspace(T / 20, 20 * T, 200)
     for name, chain in _chains(data):
-        threshold = vanishing.critical_value(data, chain, _X)
+        threshold = _threshold(data, chain, _X)
         if threshold is None:
+            continue
+        if threshold is sp.oo:
             axes.text(0.5, 0.5, "safe everywhere", ha="center", transform=axes.transAxes)
             continue
         values = _along(threshold, grid)

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from typing import Any
 
 import sympy as sp
+from flint import arb
 
-from ptproof.balls.ball import Undefined, ball_from, interval, largest_along
-from ptproof.balls.rounding import decimal_up
+from ptproof.balls.ball import BALLS, Undefined, ball_from, interval, largest_along
+from ptproof.balls.rounding import decimal_up, up
+from ptproof.balls.tape import compile_tape
 from ptproof.certify import FieldCertificate, certify_field
 from ptproof.errors import InputError
 from ptproof.gains.answer import Gains, gains
@@ -47,6 +50,12 @@ class Study:
     answer: Gains | None
 
     @property
+    def applies(self) -> bool:
+        """Whether the constants certainly hold where this average moves up to the end, or were declared."""
+        everywhere = self.certificate is None or self.certificate.domain.outer is None
+        return everywhere or self.curve.evidence.verdict is Verdict.PROVED
+
+    @property
     def condition(self) -> str:
         """Under which condition the constants apply along the averaged system."""
         if self.certificate is None:
@@ -56,7 +65,7 @@ class Study:
         where = f"within {float(self.certificate.domain.outer):.6g} of the source"
         if self.curve.evidence.verdict is not Verdict.PROVED:
             return where + ", if it stays there"
-        return where + f", which is certified up to t = {self.curve.times[-1]:.6g}"
+        return where + f", which is certified up to t = {self.curve.times[-1]:.6g} for this start"
 
     @property
     def bounds_at_end(self) -> Mapping[str, float | None]:
@@ -68,6 +77,17 @@ class Study:
             **{name: None if quantity is None else quantity.value for name, quantity in found.items()},
             "tight": self.curve.final if proved else None,
         }
+
+    @property
+    def exact_bounds_at_end(self) -> tuple[sp.Expr, ...]:
+        """Those of them that certainly hold, exact; the tight one is a float that is rounded up."""
+        if not self.applies:
+            return ()
+        keys = ("clip.residual_bound_printed", "clip.residual_bound")
+        quantities = () if self.answer is None else (self.answer[key] for key in keys)
+        tight = self.bounds_at_end["tight"]
+        closed = (quantity.exact for quantity in quantities if quantity is not None)
+        return (*closed, *(() if tight is None else (sp.Rational(tight),)))
 
     def looseness(self, worst: float) -> dict[str, float | None]:
         """Each of :attr:`bounds_at_end` divided by the worst simulated distance."""
@@ -105,7 +125,7 @@ def study(
     >>> from ptproof.problem import example
     >>> found = study(example("saturated"))
     >>> found.condition, found.answer["asymptotic.k_min"].exact
-    ('within 2.82843 of the source, which is certified up to t = 1', 0)
+    ('within 2.82843 of the source, which is certified up to t = 1 for this start', 0)
     """
     until = None if problem.tuning.nu_min is not None else problem.tuning.T * _UNCLIPPED
     curve = tight_bound(problem, known.get("x0_norm"), until=until)
@@ -124,18 +144,22 @@ def study(
     )
     answer = None
     if certificate.verdict is Verdict.PROVED:
-        answer = gains(gain_data(problem, certificate.field_bounds(), radius, **known))
+        answer = gains(gain_data(problem, certificate.field_bounds(), radius, confined=True, **known))
     return Study(problem, curve, certificate, answer)
 
 
-def gain_data(problem: Problem, bounds: FieldBounds, radius: sp.Expr | None = None, **known: Any) -> GainData:
+def gain_data(
+    problem: Problem, bounds: FieldBounds, radius: sp.Expr | None = None, *, confined: bool = False, **known: Any
+) -> GainData:
     """The problem's numbers with these constants; ``known`` replaces any of them.
 
-    ``radius`` is that of the ball on which a bounded drift is enclosed, None for the whole space.
+    ``radius`` is that of the ball on which a bounded drift is enclosed, None for the whole space, and where
+    ``confined`` says so, of the ball to which the constants are confined.
     """
     tuning, drift = problem.tuning, problem.drift
     data: dict[str, Any] = {
-        "bounds": bounds, "x0_norm": distance_from_source(problem),
+        "bounds": bounds, "x0_norm": distance_from_source(problem), "radius": radius if confined else None,
+        "filter_error": sp.Abs(problem.field.value(problem.initial.x) - problem.measured),
         **{field.name: getattr(tuning, field.name) for field in fields(tuning)},
     }  # fmt: skip
     if "V0" in known and "x0_norm" not in known:
@@ -144,6 +168,7 @@ def gain_data(problem: Problem, bounds: FieldBounds, radius: sp.Expr | None = No
         data["drift_matrix"] = drift.matrix
     elif drift.kind == "bounded" and known.get("drift_bound") is None:
         data["drift_bound"] = largest_drift(problem, radius)
+        data["drift_bound_later"], data["drift_until_end"] = lasting_drift(problem, radius), True
     if known.get("drift_norm") is not None:
         data.pop("drift_matrix", None)
     data |= {name: value for name, value in known.items() if value is not None}
@@ -169,6 +194,25 @@ def largest_drift(problem: Problem, radius: sp.Expr | None) -> sp.Rational:
         except Undefined:
             continue
     raise InputError(f"{problem.name}: the drift has no finite enclosure; give its bound")
+
+
+def lasting_drift(problem: Problem, radius: sp.Expr | None) -> sp.Rational | None:
+    """A rational upper bound of ‖f‖ for all time and ‖x − x*‖ ≤ radius, None where the whole line gives none."""
+    names = (TIME, *problem.field.variables)
+    norm = sp.sqrt(sp.Add(*(entry**2 for entry in problem.drift.rate)))
+    whole = arb(0, math.inf)
+    reach = whole if radius is None else interval(-ball_from(radius), ball_from(radius))
+    for candidate in (norm, problem.drift.bound):
+        if candidate is None:
+            continue
+        try:
+            tape = compile_tape([candidate], names)
+            (value,) = tape.run([whole, *(ball_from(c) + reach for c in problem.source)], BALLS)
+        except Undefined:
+            continue
+        if value.is_finite():
+            return _rounded_up(up(value))
+    return None
 
 
 def _rounded_up(value: float) -> sp.Rational:

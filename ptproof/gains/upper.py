@@ -72,9 +72,6 @@ class UpperSolution:
 
     def __init__(self, problem: Problem, initial: sp.Expr, grid: list[Node]) -> None:
         field, drift = problem.field, problem.drift
-        at_source = dict(zip(field.variables, field.source, strict=True))
-        if not all(vanishes(entry.subs(at_source, simultaneous=True)) for entry in field.gradient):
-            raise InputError(f"the gradient of the field is not zero at the source {field.source}")
         matrix = drift.matrix if drift.kind == "gradient" else None
         with precision(BITS):
             self.y = up(ball_from(initial))
@@ -92,6 +89,9 @@ class UpperSolution:
             )
         except Undefined as error:
             raise NotApplicable(str(error)) from None
+        at_source = dict(zip(field.variables, field.source, strict=True))
+        if not all(vanishes(entry.subs(at_source, simultaneous=True)) for entry in field.gradient):
+            raise InputError(f"the gradient of the field is not zero at the source {field.source}")
         self.drift = compile_tape(list(drift.rate), (TIME, *field.variables)) if drift.kind == "bounded" else None
 
     def step(self, left: Node, right: Node) -> float:

@@ -9,6 +9,7 @@ negative, gives the *split* bound, which is never larger.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import lru_cache
 from typing import Literal
 
@@ -16,7 +17,7 @@ import sympy as sp
 
 from ptproof.comparison import DilatedBound
 from ptproof.gains.data import GainData
-from ptproof.gains.numbers import Unlimited, sign, times_exponential
+from ptproof.gains.numbers import NotApplicable, Unlimited, short, sign, times_exponential
 from ptproof.problem.field import FieldBounds
 
 Chain = Literal["printed", "split"]
@@ -91,38 +92,78 @@ def _in_letters(sigma: sp.Expr) -> DilatedBound:
 
 
 def threshold_factor(data: GainData, chain: Chain) -> sp.Expr | None:
-    """The largest A of the uncapped clock through T = 1; None if A falls from the start, for every V₀.
+    """The largest A up to the prescribed time 1, the cap included; None if A falls from the start, for every V₀.
 
     A is in proportion to T, so that V₀ is critical when σT·factor·V₀^σ = 1. Printed: (k·c₁²/2)(ρ − 1)² with
-    ρ = (c₂/c₁)√(2‖E‖/k). Split: c₂²J at the turning point.
+    ρ = (c₂/c₁)√(2‖E‖/k), for a clock whose cap, if it has one, lies behind the turning point K = ρ². Split: c₂²J at
+    the turning point, or at the prescribed time where the cap keeps the gain below what would turn it.
+
+    Raises
+    ------
+    NotApplicable
+        For the printed chain where the cap comes first: the paper proves it without a clip.
     """
     bounds, (k,) = data.bounds, data.known("k")
     if chain == "printed":
         ratio = bounds.c2 / bounds.c1 * sp.sqrt(2 * data.norm / k)
-        return None if sign(ratio - 1) <= 0 else k * bounds.c1**2 / 2 * (ratio - 1) ** 2
-    horizon = data.unit.uncapped
+        if sign(ratio - 1) <= 0:
+            return None
+        if data.nu_min is not None and sign(ratio**2 - data.unit.cap) > 0:
+            raise NotApplicable(
+                f"printed without a clip: nu_min = {short(data.nu_min)} caps the gain before this bound turns"
+            )
+        return k * bounds.c1**2 / 2 * (ratio - 1) ** 2
+    horizon = data.unit
     turning = horizon.turning(data.push, k)
     return None if sign(turning) == 0 else bounds.c2**2 * horizon.balance(turning, data.push, k)
 
 
 def critical_value(data: GainData, chain: Chain, T: sp.Expr | None = None) -> sp.Expr | None:
-    """(σT·factor)^(−1/σ): below it the bound is finite for all time (κ ≥ 2); None if every V₀ is below.
+    """(σT·factor)^(−1/σ): below it the bound is finite up to t₀ + T (κ ≥ 2); None if every V₀ is below.
 
-    ``T`` may be a positive symbol; left out, it is the data's.
+    Where the constants hold on a ball only, the bound must also stay below the level L that lies in it:
+    (L^(−σ) + σT·factor)^(−1/σ), or L·exp(−T·factor) for κ = 1. ``T`` may be a positive symbol; left out, it is the
+    data's.
     """
-    factor = threshold_factor(data, chain)
+    factor, level, sigma = threshold_factor(data, chain), data.level, data.bounds.sigma
+    if level is not None and chain == "printed":
+        raise NotApplicable(f"printed for constants that hold everywhere; these hold within {short(data.radius)}")
     if factor is None:
-        return None
+        return level
     T = data.known("T")[0] if T is None else T
-    return (data.bounds.sigma * T * factor) ** (-1 / data.bounds.sigma)
+    if sigma == 0:
+        return None if level is None else times_exponential(level, -T * factor)
+    return ((sp.S.Zero if level is None else level ** (-sigma)) + sigma * T * factor) ** (-1 / sigma)
 
 
 def critical_horizon(data: GainData, chain: Chain) -> sp.Expr:
-    """The T below which the guarantee holds for this drift and V₀ (κ ≥ 2); see :class:`Unlimited`."""
-    factor = threshold_factor(data, chain)
-    if factor is None:
-        raise Unlimited("no threshold: the guarantee holds for every T")
-    return data.start_value ** (-data.bounds.sigma) / (data.bounds.sigma * factor)
+    """The T below which the bound is finite up to t₀ + T for this drift, V₀ and ν_min; see :class:`Unlimited`.
+
+    Where the constants hold on a ball only, it also stays in that ball; then V₀ must lie below its level.
+    """
+    factor, level, sigma = threshold_factor(data, chain), data.level, data.bounds.sigma
+    if level is not None and chain == "printed":
+        raise NotApplicable(f"printed for constants that hold everywhere; these hold within {short(data.radius)}")
+    if level is not None and sign(level - data.start_value) <= 0:
+        raise NotApplicable(f"the start need not lie where the constants hold: needs V0 < {short(sp.N(level, 6))}")
+    if factor is None or (sigma == 0 and level is None):
+        raise Unlimited("no threshold: the bound holds for every T")
+    if sigma == 0:
+        assert level is not None
+        return sp.log(level / data.start_value) / factor
+    room = data.start_value ** (-sigma) - (sp.S.Zero if level is None else level ** (-sigma))
+    return room / (sigma * factor)
+
+
+def escape_after_cap(data: GainData, initial: sp.Expr) -> sp.Expr:
+    """The τ − t₀ at which the split bound from V₀ = ``initial`` is infinite where it survives until the cap.
+
+    From there on A grows at the steady rate c₂²(m/K − k/2), K the largest rate; it must be positive.
+    """
+    bounds, horizon, (k,) = data.bounds, data.horizon, data.known("k")
+    slope = bounds.c2**2 * (data.push / horizon.cap - k / 2)
+    room = initial ** (-bounds.sigma) / bounds.sigma - growth(data, horizon.corner, "split")
+    return horizon.stretched_corner + room / slope
 
 
 def growth(data: GainData, elapsed: sp.Expr, chain: Chain) -> sp.Expr:
@@ -160,6 +201,7 @@ def clip_for_residual(data: GainData, chain: Chain, residual: sp.Expr) -> sp.Exp
     The bound at T falls with the stretched time s_T that the clip allows, and A at T is linear in s_T, so the
     condition is solved for s_T in closed form, and that for ν_min where the gain is a power of ν.
     """
+    data = replace(data, nu_min=None)  # which is what is sought
     bounds, initial, (k, T) = data.bounds, data.start_value, data.known("k", "T")
     sigma, target, clip = bounds.sigma, bounds.a2 * residual ** (2 * bounds.kappa), data.horizon.clip_for
     wanted = (

@@ -8,6 +8,7 @@ from collections.abc import Iterable
 import sympy as sp
 
 from ptproof.problem.problem import Problem
+from ptproof.problem.smooth import roughness
 from ptproof.proof.signs import sign_of
 
 _ALL_MINORS = 5
@@ -18,7 +19,8 @@ def source_doubt(problem: Problem) -> str | None:
     """A sentence if the field certainly has no maximum at the stated source, else None, which proves nothing.
 
     Certain is a component of the gradient that is not zero, or a direction in which the field rises to second order:
-    −∇²F(x*) has a negative principal minor. What has no exact value there, as at a kink, is passed over.
+    −∇²F(x*) has a negative principal minor. A field that is not
+    shown to be smooth is passed over, and so is what has no exact value there.
 
     Examples
     --------
@@ -27,6 +29,8 @@ def source_doubt(problem: Problem) -> str | None:
     True
     """
     field = problem.field
+    if roughness(field.expression, field.variables, 2) is not None:
+        return None  # a derivative that SymPy makes of a jump or a kink says nothing
     at = dict(zip(field.variables, field.source, strict=True))
     where = f"field.source: ({', '.join(map(str, field.source))}) is no maximum of the field"
     slope = [entry.subs(at, simultaneous=True) for entry in field.gradient]

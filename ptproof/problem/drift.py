@@ -9,6 +9,7 @@ from typing import Literal
 import sympy as sp
 
 from ptproof.errors import InputError
+from ptproof.problem.smooth import require_smooth
 from ptproof.system import gradient
 
 
@@ -40,10 +41,17 @@ def no_drift(dimension: int = 2) -> Drift:
 
 
 def gradient_drift(matrix: Sequence[Sequence[sp.Expr]], field: sp.Expr, position: Sequence[sp.Symbol]) -> Drift:
-    """f = E∇F for the matrix E (n × n) and the field F(x) over n coordinates."""
+    """f = E∇F for the matrix E (n × n) and the field F(x) over n coordinates, which must have a gradient everywhere.
+
+    Raises
+    ------
+    InputError
+        If E has another shape, or F is not shown to be continuously differentiable, as where it jumps.
+    """
     E = sp.ImmutableDenseMatrix(matrix)
     if E.shape != (len(position), len(position)):
         raise InputError(f"drift: E is {E.rows} × {E.cols}, but there are {len(position)} coordinates")
+    require_smooth(field, position, 1, "drift: E∇F needs the gradient of the field")
     return Drift("gradient", tuple(E * gradient(field, position)), matrix=E)
 
 

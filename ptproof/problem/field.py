@@ -16,6 +16,7 @@ from functools import cached_property
 from typing import Any
 
 import sympy as sp
+from sympy.core.function import AppliedUndef
 
 from ptproof.errors import InputError
 from ptproof.proof.signs import sign_of
@@ -95,9 +96,9 @@ class Field:
     Parameters
     ----------
     variables
-        n ≥ 1 distinct real symbols.
+        n ≥ 1 distinct symbols, declared real or not declared at all.
     expression
-        F, in these variables and nothing else that is free.
+        F, a formula in these variables and nothing else that is free.
     source
         The n exact coordinates of x*.
     kappa
@@ -106,9 +107,9 @@ class Field:
     Raises
     ------
     InputError
-        If the lengths differ, a coordinate is not an exact real number, F has other symbols or is not defined at
-        the source, or κ is not a positive integer. That x* is a maximum is not checked here but proved by
-        :func:`ptproof.certify.certify_field`.
+        If the lengths differ, a coordinate is not an exact real number, F has other symbols or undefined functions
+        or is not defined at the source, a variable is declared positive or the like, or κ is not a positive
+        integer. That x* is a maximum is not checked here but proved by :func:`ptproof.certify.certify_field`.
 
     Examples
     --------
@@ -127,8 +128,13 @@ class Field:
         variables = tuple(self.variables)
         if not variables or not all(isinstance(item, sp.Symbol) for item in variables):
             raise InputError("field.variables: expected at least one variable, and each must be a symbol")
-        if len(set(variables)) != len(variables):
+        if len({item.name for item in variables}) != len(variables):
             raise InputError("field.variables: must be distinct")
+        for item in variables:
+            if not item.assumptions0.items() <= _REAL.items():
+                raise InputError(
+                    f"field.variables: {item} is declared to be more than real, but a coordinate takes every real value"
+                )
         source = tuple(_exact(item, "field.source") for item in self.source)
         if len(source) != len(variables):
             raise InputError(
@@ -141,9 +147,7 @@ class Field:
         if not (isinstance(kappa, sp.Integer) and kappa > 0):
             raise InputError(f"field.kappa: must be a positive integer, not {_short(kappa)}")
         expression = _exact(self.expression, "field.expression")
-        if unknown := expression.free_symbols - set(variables):
-            names = ", ".join(sorted(str(symbol) for symbol in unknown))
-            raise InputError(f"field.expression: contains {names}, which is not among the variables")
+        _check_expression(expression, variables)
         object.__setattr__(self, "variables", variables)
         object.__setattr__(self, "expression", expression)
         object.__setattr__(self, "source", source)
@@ -185,6 +189,30 @@ class Field:
 
     def _at(self, x: Sequence[Any]) -> dict[sp.Symbol, sp.Expr]:
         return dict(zip(self.variables, map(sp.sympify, x), strict=True))
+
+
+_REAL = sp.Symbol("x", real=True).assumptions0
+_UNFINISHED = (sp.Derivative, sp.Subs, sp.Integral, sp.Limit, sp.Sum, sp.Product)
+
+
+def _check_expression(expression: sp.Expr, variables: Sequence[sp.Symbol]) -> None:
+    """Refuse what is no formula in the variables alone."""
+    if unknown := expression.free_symbols - set(variables):
+        names = ", ".join(sorted(str(symbol) for symbol in unknown))
+        text = f"field.expression: contains {names}, which is not among the variables"
+        if twins := sorted({symbol.name for symbol in unknown} & {item.name for item in variables}):
+            text += f"; the symbol {twins[0]} of the expression is declared otherwise than the variable {twins[0]}"
+        raise InputError(text)
+    if undefined := expression.atoms(AppliedUndef):
+        names = ", ".join(sorted(map(str, undefined)))
+        raise InputError(f"field.expression: contains the undefined function {names}; put a formula in its place")
+    if expression.has(sp.I, *_UNFINISHED):
+        raise InputError(f"field.expression: must be a real formula without {_first_unfinished(expression)}")
+
+
+def _first_unfinished(expression: sp.Expr) -> str:
+    found = next((item for item in sp.preorder_traversal(expression) if isinstance(item, _UNFINISHED)), None)
+    return "the imaginary unit" if found is None else f"an unevaluated {type(found).__name__}, {_short(found)}"
 
 
 def _exact(value: Any, name: str) -> sp.Expr:

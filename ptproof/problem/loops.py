@@ -14,7 +14,7 @@ import sympy as sp
 from ptproof.errors import InputError
 from ptproof.problem.drift import Drift
 from ptproof.problem.field import Field
-from ptproof.problem.model import GAIN, TAU, TIME, parameters
+from ptproof.problem.model import GAIN, PHASE, TAU, TIME, parameters
 from ptproof.problem.seekers.law import Letters
 from ptproof.problem.seekers.seeker import Law, Seeker
 from ptproof.system import System
@@ -90,7 +90,7 @@ def reduced_loop(field: sp.Expr, drift: Drift, law: Law, states: Letters) -> Sys
 
     θ is exchanged for p = θ + kz, and p for its solution p₀ + ω(τ − t₀).
     """
-    symbols, p = parameters, sp.Symbol("p", real=True)
+    symbols, p = parameters, PHASE
     turn = symbols.k * states.filter
     rotated = change_variable(law(field, drift, GAIN, states), states.heading, p, states.heading + turn, p - turn)
     # dτ/dt = K, so that the equation dp/dt = Kω loses the gain in τ, where its solution is checked.

@@ -13,6 +13,7 @@ from ptproof.transforms.clocks.named import check_clock
 TIME = sp.Symbol("t", real=True)
 TAU = sp.Symbol("tau", real=True)
 GAIN = sp.Symbol("K", positive=True)
+PHASE = sp.Symbol("p", real=True)
 _LARGEST = 1e15
 _SMALLEST = 1e-15
 
@@ -24,6 +25,15 @@ class parameters:
     # As the tables of a problem file call them, so that a table's values find their symbols.
     epsilon, level, gain = sp.symbols("epsilon S C", positive=True)
     t0, p0 = sp.symbols("t0 p0", real=True)
+
+
+def loop_letters() -> frozenset[str]:
+    """The names that the closed loops need for their own symbols, which no coordinate may have.
+
+    The states theta, z and u2 are not among them: they give way to a coordinate of that name.
+    """
+    own = (item.name for item in vars(parameters).values() if isinstance(item, sp.Symbol))
+    return frozenset({TIME.name, TAU.name, GAIN.name, PHASE.name, *own})
 
 
 def number(value: Any, where: str) -> sp.Expr:

@@ -14,6 +14,7 @@ from ptproof.problem.loops import FRAMES, check_word, in_frame, reduced_loop, st
 from ptproof.problem.model import GAIN, TAU, TIME, parameters
 from ptproof.problem.seekers.law import letters
 from ptproof.problem.seekers.seeker import Law, Seeker
+from ptproof.problem.smooth import require_smooth
 from ptproof.system import DitherSystem, System, substitute
 from ptproof.transforms.clocks import CappedClock, Clock
 from ptproof.transforms.reduction import split
@@ -56,6 +57,7 @@ def averaged_system(field: Field, drift: Drift, seeker: Seeker, clock: Clock | C
     """The symbolic average (eq:lie_bracket_system_real); see :meth:`ptproof.problem.Problem.averaged`."""
     _check(seeker, frame)
     states_of(field.variables)
+    require_smooth(field.expression, field.variables, 2, "average: the Lie brackets need a smooth field")
     _, generic = generic_dithers(seeker.law)
     renamed = dict(zip(field.variables, generic.state, strict=True))
     F = sp.Function("F", real=True)(*generic.state)

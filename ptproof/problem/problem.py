@@ -14,7 +14,7 @@ from ptproof.errors import InputError
 from ptproof.problem import loops, models
 from ptproof.problem.drift import Drift
 from ptproof.problem.field import Field
-from ptproof.problem.model import TAU, TIME, Initial, Saturation, Tuning, number, parameters
+from ptproof.problem.model import TAU, TIME, Initial, Saturation, Tuning, loop_letters, number, parameters
 from ptproof.problem.seekers import SEEKERS, Letters, Seeker, seeker_named
 from ptproof.system import System
 from ptproof.transforms.clocks import CappedClock, Clock, capped, named_clock
@@ -57,9 +57,14 @@ class Problem:
 
     def __post_init__(self) -> None:
         n = self.field.dimension
+        if taken := sorted({item.name for item in self.variables} & loop_letters()):
+            raise InputError(
+                f"field.variables: {', '.join(taken)} has a meaning of its own in the loop; choose another name"
+            )
         for what, length in (("initial.x", len(self.initial.x)), ("drift", len(self.drift.rate))):
             if length != n:
                 raise InputError(f"{what}: {length} entries for {n} coordinates; give one for each")
+        self._check_drift()
         if self.kappa > 1000:
             raise InputError(f"field.kappa: must be a positive integer (up to 1000), got {self.kappa}")
         for i, value in enumerate(self.source):
@@ -72,6 +77,22 @@ class Problem:
                 raise InputError(
                     f"field.expression at {where}: the field has no finite real value there ({value})"
                 ) from None
+
+    def _check_drift(self) -> None:
+        """The drift speaks of the time and the coordinates alone, and is that of this field where it follows one."""
+        drift = self.drift
+        for where, entries, allowed in (
+            ("drift", drift.rate, {TIME, *self.variables}), ("drift.bound", (drift.bound or sp.S.Zero,), {TIME}),
+        ):  # fmt: skip
+            if unknown := set().union(*(entry.free_symbols for entry in entries)) - allowed:
+                names, known = (", ".join(sorted(map(str, symbols))) for symbols in (unknown, allowed))
+                raise InputError(
+                    f"{where}: contains {names}, but may depend on {known} alone (with their declarations)"
+                )
+        if drift.matrix is not None:
+            rate = drift.matrix * self.field.gradient
+            if any(sp.expand(a - b) != 0 for a, b in zip(rate, drift.rate, strict=True)):
+                raise InputError("drift: is E∇F of another field; make it with gradient_drift(E, F, x) of this one")
 
     def __hash__(self) -> int:
         return self._hash

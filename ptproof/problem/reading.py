@@ -14,14 +14,14 @@ import sympy as sp
 from ptproof.errors import InputError
 from ptproof.problem.drift import Drift, bounded_drift, gradient_drift, no_drift
 from ptproof.problem.field import Field
-from ptproof.problem.model import TIME, Initial, Saturation, Tuning, number, positive
+from ptproof.problem.model import TIME, Initial, Saturation, Tuning, loop_letters, number, positive
 from ptproof.problem.problem import Problem
 from ptproof.reading.tables import RESERVED, build_from, check_choice, declared, finite, hint, listed, read_file
 from ptproof.transforms.clocks.named import CLOCKS
 
 EXAMPLES = ("vanishing", "nonvanishing", "saturated")
 _DRIFTS = {"none": (), "gradient": ("E",), "bounded": ("f",)}
-_RESERVED = RESERVED | {"t", "tau"}
+_RESERVED = RESERVED | loop_letters()
 
 
 @dataclass(frozen=True)

@@ -13,6 +13,8 @@ from types import ModuleType
 
 from ptproof.errors import InputError
 from ptproof.proof.claim import Claim, Definition
+from ptproof.proof.shipped import shipped as shipped
+from ptproof.reading.outcomes import in_words
 
 
 class NoClaims(InputError):
@@ -76,15 +78,6 @@ def with_ancestors(claims: Iterable[Claim]) -> tuple[Claim, ...]:
     for item in claims:
         take(item)
     return tuple(found.values())
-
-
-def shipped() -> Path:
-    """The folder of the derivations that ship with the package, or that stand beside it in a checkout."""
-    here = Path(__file__).resolve().parents[1]  # the package
-    for folder in (here / "_derivations", here.parent / "derivations"):
-        if folder.is_dir():
-            return folder
-    raise InputError("the derivations that ship with ptproof are missing; name a folder of derivations")
 
 
 def load(paths: Sequence[str | Path] = ()) -> Derivation:
@@ -203,11 +196,14 @@ def _import(name: str, file: Path, folders: list[str] | None = None) -> ModuleTy
     sys.modules[name] = module = importlib.util.module_from_spec(spec)
     try:
         spec.loader.exec_module(module)
-    except (Exception, SystemExit) as error:
+    except BaseException as error:
         sys.modules.pop(name, None)
         if isinstance(error, InputError):
             raise InputError(f"{file}: {error}") from error
-        raise InputError(f"{_where(error, file)}: {type(error).__name__}: {error}") from error
+        if isinstance(error, KeyboardInterrupt):  # it may be a person's
+            raise
+        what = f"{type(error).__name__}: {error}" if isinstance(error, Exception) else f"the module {in_words(error)}"
+        raise InputError(f"{_where(error, file)}: {what}") from error
     return module
 
 

@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 import os
-import threading
 import time
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, TypeAlias
 
 from ptproof.errors import InputError
+from ptproof.proof.answering import INTERRUPTED, Decided, in_workers, on_cluster, run_here
 from ptproof.proof.claim import Claim, Result
-from ptproof.proof.deciding import run_one
-from ptproof.proof.load import Derivation, claims_in, homes_of, with_ancestors
+from ptproof.proof.load import Derivation, homes_of, with_ancestors
+from ptproof.proof.memory import Memory
+from ptproof.proof.settling import ATTACK
 from ptproof.proof.verdict import Evidence, Verdict
-from ptproof.reading.limits import Answered, OutOfTime, Unanswered, Why, Workers, within
 
 SECONDS_PER_CLAIM = 60.0
 Progress: TypeAlias = Callable[[Claim, Evidence], None]
@@ -22,10 +22,11 @@ Progress: TypeAlias = Callable[[Claim, Evidence], None]
 
 @dataclass(frozen=True)
 class Verification:
-    """The outcome of every claim, in the order of the derivation."""
+    """The outcome of every claim, in the order of the derivation; ``remembered`` are those of an earlier run."""
 
     results: tuple[Result, ...]
     seconds: float
+    remembered: frozenset[str] = frozenset()
 
     @property
     def as_expected(self) -> bool:
@@ -33,54 +34,91 @@ class Verification:
         return all(result.as_expected for result in self.results)
 
     def summary(self) -> dict[str, int]:
-        """How many claims ended in each verdict, and how many are fully proved or not as expected."""
+        """How many claims ended in each verdict, are fully proved, not as expected, or proved and yet hit."""
         counts = {str(verdict): 0 for verdict in Verdict}
         for result in self.results:
             counts[str(result.verdict)] += 1
         counts["total"] = len(self.results)
         counts["fully_proved"] = sum(result.fully_proved for result in self.results)
         counts["unexpected"] = sum(not result.as_expected for result in self.results)
+        counts["hit"] = sum(result.hit is not None for result in self.results)
         return counts
 
     def to_json(self) -> dict[str, Any]:
-        return {"claims": [result.to_json() for result in self.results], "summary": self.summary()}
+        claims = [result.to_json() for result in self.results]
+        for item in claims:
+            if item["id"] in self.remembered:
+                item["evidence"][0]["remembered"] = True
+        return {"claims": claims, "summary": self.summary()}
 
 
-def conclude(claims: Sequence[Claim], evidence: dict[str, Evidence]) -> tuple[Result, ...]:
+class Interrupted(KeyboardInterrupt):
+    """The run was ended from outside; ``verification`` holds what was decided by then, the rest as undecided."""
+
+    def __init__(self, verification: Verification) -> None:
+        super().__init__("interrupted")
+        self.verification = verification
+
+
+def conclude(claims: Sequence[Claim], evidence: Mapping[str, Evidence]) -> tuple[Result, ...]:
     """Verdicts after looking at the ancestors.
 
-    A proof that uses a refuted claim shows nothing, so it counts as undecided. ``fully_proved`` says that the
-    claim and everything it uses, all the way, is proved.
+    Evidence counts for the claim that it was found for, by what that says and not by its id; so does a claim that is
+    used. A proof that uses a refuted claim, or one that nobody decided, shows nothing, so it counts as undecided.
+    ``fully_proved`` says that the claim and everything it uses, all the way, is proved.
     """
+    decided = {claim.id: claim for claim in claims}
     results: dict[str, Result] = {}
 
     def result_of(claim: Claim) -> Result:
-        if claim.id in results:
-            return results[claim.id]
-        used = [result_of(item) for item in claim.uses]
-        own = evidence[claim.id]
-        verdict = own.verdict
-        items = [replace(own, besides=()), *own.besides]
-        false = [item.claim.id for item in used if item.verdict is Verdict.REFUTED]
-        if verdict is Verdict.PROVED and false:
-            verdict = Verdict.UNDECIDED
-            items.append(Evidence("ancestors", verdict, f"the proof uses what is refuted: {', '.join(false)}"))
-        open_ones = tuple(
-            dict.fromkeys(
-                name for item in used for name in (() if item.fully_proved else (item.rests_on or (item.claim.id,)))
-            )
-        )
-        fully = verdict is Verdict.PROVED and not open_ones
-        rests = open_ones if verdict is Verdict.PROVED else (claim.id,)
-        results[claim.id] = Result(claim, verdict, tuple(items), fully, () if fully else rests)
+        if claim.id not in results:
+            same = [item for item in claim.uses if item.id in decided and decided[item.id].content == item.content]
+            used = [result_of(decided[item.id]) for item in same]
+            others = [item.id for item in claim.uses if item not in same]
+            results[claim.id] = _concluded(claim, evidence[claim.id], used, others)
         return results[claim.id]
 
     return tuple(result_of(claim) for claim in claims)
 
 
+def _concluded(claim: Claim, own: Evidence, used: Sequence[Result], others: Sequence[str]) -> Result:
+    """One claim's result from its own evidence, from what it uses, and from the ids that it uses but nobody decided."""
+    sound = not others and all(item.fully_proved for item in used)
+    verdict, items = own.verdict, [replace(own, besides=()), *(_blamed(item, sound) for item in own.besides)]
+    false = [item.claim.id for item in used if item.verdict is Verdict.REFUTED]
+    for engine, reason in (
+        ("content", "what was decided is not what this claim says" if own.content != claim.content else ""),
+        ("ancestors", f"the proof uses what is refuted: {', '.join(false)}" if false else ""),
+        ("ancestors", f"the claims decided under these ids say something else than those that the proof uses: "
+                      f"{', '.join(others)}" if others else ""),
+    ):  # fmt: skip
+        if reason and (verdict is Verdict.PROVED or (engine == "content" and verdict is not Verdict.UNDECIDED)):
+            verdict = Verdict.UNDECIDED
+            items.append(Evidence(engine, verdict, reason))
+    open_ones = tuple(
+        dict.fromkeys(
+            name for item in used for name in (() if item.fully_proved else (item.rests_on or (item.claim.id,)))
+        )
+    )
+    fully = verdict is Verdict.PROVED and not open_ones
+    rests = open_ones if verdict is Verdict.PROVED else (claim.id,)
+    return Result(claim, verdict, tuple(items), fully, () if fully else rests)
+
+
+def _blamed(item: Evidence, sound: bool) -> Evidence:
+    """A hit of the attacker with what is to blame: ptproof itself, or something unproved that the claim uses."""
+    if (item.engine, item.verdict) != (ATTACK, Verdict.REFUTED):
+        return item
+    if sound:
+        return replace(item, detail=f"ptproof contradicts itself; please report this: {item.detail}")
+    return replace(
+        item, verdict=Verdict.OBSERVED, detail=f"what it uses is not all proved, and is false: {item.detail}"
+    )
+
+
 def verify(
     derivation: Derivation, *, workers: int | None = None, client: Any = None, timeout: float = SECONDS_PER_CLAIM,
-    select: str = "", progress: Progress | None = None,
+    select: str = "", progress: Progress | None = None, memory: Memory | None = None,
 ) -> Verification:  # fmt: skip
     """Run every proof in worker processes, or on a cluster, and draw the conclusions.
 
@@ -98,6 +136,8 @@ def verify(
         Only claims that contain this text, and what they use.
     progress
         Called with each claim and its own evidence as it comes in.
+    memory
+        Of earlier runs, and for later ones (:class:`ptproof.proof.memory.Memory`, which was told of the loading).
 
     Raises
     ------
@@ -119,7 +159,13 @@ def verify(
     if not claims:
         raise InputError(f"no claim contains {select!r} in its id, title, section or labels")
     return _decided(
-        claims, derivation.homes, (os.cpu_count() or 1) if workers is None else workers, client, timeout, progress
+        claims,
+        derivation.homes,
+        (os.cpu_count() or 1) if workers is None else workers,
+        client,
+        timeout,
+        progress,
+        memory,
     )
 
 
@@ -159,7 +205,7 @@ def decide(
 
 def _decided(
     claims: Sequence[Claim], homes: Mapping[str, str], workers: int | None, client: Any, timeout: float,
-    progress: Progress | None,
+    progress: Progress | None, memory: Memory | None = None,
 ) -> Verification:  # fmt: skip
     if workers is not None and workers < 1:
         raise InputError(f"workers takes a number of at least 1, got {workers}")
@@ -168,76 +214,30 @@ def _decided(
     start = time.perf_counter()
     # Only the files in which the claims stand are read again elsewhere.
     files = tuple(sorted({homes[claim.id] for claim in claims if claim.id in homes}))
-    if client is not None:
-        answers = _on_cluster(claims, files, client, timeout)
-    elif workers is not None:
-        answers = _in_workers(claims, files, workers, timeout)
-    else:
-        answers = ((claim, _here(claim, timeout)) for claim in claims)
     evidence: dict[str, Evidence] = {}
-    for claim, found in answers:
-        evidence[claim.id] = found
-        if progress is not None:
-            progress(claim, found)
-    return Verification(conclude(claims, evidence), time.perf_counter() - start)
-
-
-def _here(claim: Claim, timeout: float) -> Evidence:
+    if memory is not None:
+        evidence = {claim.id: kept for claim in claims if (kept := memory.recall(claim)) is not None}
+    remembered = frozenset(evidence)
+    left = [claim for claim in claims if claim.id not in remembered]
+    if client is not None:
+        answers = on_cluster(left, files, client, timeout)
+    elif workers is not None:
+        answers = in_workers(left, files, workers, timeout)
+    else:
+        answers = ((claim, Decided("", run_here(claim, timeout))) for claim in left)
     try:
-        return within(timeout, lambda: run_one(claim))
-    except OutOfTime:
-        return evidence_of(Unanswered(Why.TIME, f"no answer in {timeout:g} s"), timeout)
-
-
-def _in_workers(
-    claims: Sequence[Claim], files: tuple[str, ...], workers: int, timeout: float
-) -> Iterator[tuple[Claim, Evidence]]:
-    """Each claim with its evidence, as they finish; a worker over its time is killed, and only its claim is lost."""
-    by_id = {claim.id: claim for claim in claims}
-    with Workers(min(workers, len(claims)), start=read, arguments=(files,)) as processes:
-        for id, outcome in processes.each(timeout, run_by_id, {id: (id,) for id in by_id}):
-            yield by_id[id], evidence_of(outcome, timeout)
-
-
-def _on_cluster(
-    claims: Sequence[Claim], files: tuple[str, ...], client: Any, timeout: float
-) -> Iterator[tuple[Claim, Evidence]]:
-    from distributed import as_completed
-
-    running = {client.submit(_on_worker, files, claim.id, timeout, pure=False): claim for claim in claims}
-    for future in as_completed(running):
-        error = future.exception()
-        lost = Unanswered(Why.DIED, f"the worker was lost: {type(error).__name__}: {error}")
-        yield running[future], future.result() if error is None else evidence_of(lost, timeout)
-
-
-def evidence_of(outcome: Answered[Evidence] | Unanswered, timeout: float) -> Evidence:
-    """The evidence of a claim that ran elsewhere; a claim without an answer is undecided."""
-    match outcome:
-        case Answered(evidence):
-            return evidence
-        case Unanswered(Why.TIME, reason):
-            return Evidence("time limit", Verdict.UNDECIDED, reason, timeout)
-        case Unanswered(_, reason):
-            return Evidence("crash", Verdict.UNDECIDED, reason)
-
-
-_read: dict[str, Claim] = {}
-_one_at_a_time = threading.Lock()
-
-
-def read(files: Sequence[str]) -> None:
-    """In a worker: the claims of these files, so that they can be asked for by their ids."""
-    _read.update(claims_in(files))
-
-
-def run_by_id(id: str) -> Evidence:
-    """In a worker: what the proof of a claim that was read says."""
-    return run_one(_read[id])
-
-
-def _on_worker(files: Sequence[str], id: str, timeout: float) -> Evidence:
-    with _one_at_a_time:  # a worker of a cluster may have threads, and z3 works with one
-        if id not in _read:
-            read(files)
-        return _here(_read[id], timeout)
+        for claim in claims:
+            if progress is not None and claim.id in remembered:
+                progress(claim, evidence[claim.id])
+        for claim, found in answers:
+            evidence[claim.id] = found.evidence
+            if memory is not None:
+                memory.keep(claim, found.evidence, found.files)
+            if progress is not None:
+                progress(claim, found.evidence)
+    except KeyboardInterrupt:
+        answers.close()
+        open_ = Evidence(INTERRUPTED, Verdict.UNDECIDED, "interrupted before it was decided")
+        known = {claim.id: evidence.get(claim.id, open_) for claim in claims}
+        raise Interrupted(Verification(conclude(claims, known), time.perf_counter() - start, remembered)) from None
+    return Verification(conclude(claims, evidence), time.perf_counter() - start, remembered)

@@ -18,6 +18,7 @@ from sympy.core.function import AppliedUndef
 from ptproof.errors import InputError
 from ptproof.proof.declarations import everywhere, is_kind
 from ptproof.proof.definedness import Obligation, obligations
+from ptproof.proof.signs import holds
 from ptproof.proof.statement import ForAll, Relation
 
 _WITH_LIMITS = (sp.Integral, sp.Sum, sp.Product)
@@ -104,6 +105,15 @@ class Substitution:
             if letter in item.variables or (value.free_symbols - own) & set(item.variables):
                 raise InputError(f"the value of {letter} would be caught by the quantifier of {item}")
         return ForAll(item.variables, self.relation(item.relation), tuple(map(self.relation, item.domain)))
+
+
+def holds_at(relations: Iterable[Relation], values: Mapping[Any, Any]) -> bool:
+    """Whether exact values are ones that their letters may have, and certainly satisfy all the relations."""
+    try:
+        there = Substitution(values)
+    except NotOfKind:
+        return False
+    return all(holds(there.relation(relation)) for relation in relations)
 
 
 def replaced(expression: sp.Expr, equal: Mapping[sp.Expr, sp.Expr]) -> sp.Expr:

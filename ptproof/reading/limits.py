@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
-import contextlib
 import ctypes
-import math
 import threading
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
-from enum import StrEnum
-from typing import Any, Generic, TypeVar
+from typing import Any, TypeVar
 
-from ptproof.errors import InputError
+from ptproof.reading.copies import Copies, possible
+from ptproof.reading.outcomes import Answered as Answered
+from ptproof.reading.outcomes import Unanswered as Unanswered
+from ptproof.reading.outcomes import Why as Why
+from ptproof.reading.outcomes import check_seconds as check_seconds
+from ptproof.reading.spawned import Spawned
+from ptproof.reading.system import MEMORY, memory_here
 
 Answer = TypeVar("Answer")
 Key = TypeVar("Key")
-MEMORY = 8 * 2**30
 _STACK = 64 * 2**20
 
 
@@ -23,7 +24,7 @@ class OutOfTime(Exception):
     """No answer within the time limit."""
 
 
-class _Stop(BaseException):
+class Stop(BaseException):
     """Ends the thread whose answer nobody waits for any more."""
 
 
@@ -55,39 +56,8 @@ def within(seconds: float, work: Callable[[], Answer]) -> Answer:
     if errors:
         raise errors[0]
     if thread.ident is not None:
-        ctypes.pythonapi.PyThreadState_SetAsyncExc(ctypes.c_ulong(thread.ident), ctypes.py_object(_Stop))
+        ctypes.pythonapi.PyThreadState_SetAsyncExc(ctypes.c_ulong(thread.ident), ctypes.py_object(Stop))
     raise OutOfTime
-
-
-def check_seconds(seconds: Any, where: str = "seconds") -> None:
-    """Refuse a time limit that is none; ``where`` is what the caller calls it."""
-    if isinstance(seconds, bool) or not isinstance(seconds, int | float) or not 0 < seconds < math.inf:
-        raise InputError(f"{where}: the time limit is a positive number of seconds, got {seconds!r}")
-
-
-class Why(StrEnum):
-    """Why there is no answer."""
-
-    TIME = "no answer within the time limit"
-    MEMORY = "no answer within the limit of memory"
-    DIED = "the process ended without an answer"
-    FAILED = "the work raised an error"
-
-
-@dataclass(frozen=True)
-class Answered(Generic[Answer]):
-    """Work that came to its end."""
-
-    answer: Answer
-
-
-@dataclass(frozen=True)
-class Unanswered:
-    """Work without an answer: why, the reason in words, and the error that the work raised, if it did."""
-
-    why: Why
-    reason: str
-    error: Exception | None = None
 
 
 def apart(seconds: float, work: Callable[..., Answer], *arguments: Any) -> Answered[Answer] | Unanswered:
@@ -99,17 +69,19 @@ def apart(seconds: float, work: Callable[..., Answer], *arguments: Any) -> Answe
 class Workers:
     """Processes in which one piece of work can end, run out of time or die without the others.
 
-    Each starts afresh rather than as a copy of this process, since a copy of a process with threads can hang; so
-    the work is a top-level function, and it, its arguments and its answer are sent.
+    They are copies of one process in which ``start`` was called (:mod:`ptproof.reading.copies`); where the system
+    cannot copy a process, each starts afresh. The work is a top-level function, since it, its arguments and its answer
+    are sent.
 
     Parameters
     ----------
     count
         How many processes; they start when there is something to do.
     start, arguments
-        Called as ``start(*arguments)`` once in each process, and not counted as the time of any work.
+        Called as ``start(*arguments)`` before any work, and not counted as the time of any.
     memory
-        How much a process may hold, in bytes; systems without such a limit leave it out.
+        How much a process may hold, in bytes; systems without such a limit leave it out. Left out: 8 GiB, or less
+        where the machine has less for all of them.
 
     Examples
     --------
@@ -120,19 +92,12 @@ class Workers:
 
     def __init__(
         self, count: int = 1, *, start: Callable[..., None] | None = None, arguments: tuple[Any, ...] = (),
-        memory: int = MEMORY,
+        memory: int | None = None,
     ) -> None:  # fmt: skip
-        import multiprocessing
-
-        from pebble import ProcessPool
-
-        self._memory = memory
-        self._pool = ProcessPool(
-            max_workers=count,
-            context=multiprocessing.get_context("spawn"),
-            initializer=_start,
-            initargs=(memory, start, arguments),
-        )
+        most = MEMORY if memory is None else memory
+        if memory is None:  # all of them together leave some of the machine's
+            most = max(min(MEMORY, int(memory_here() * 0.8 / count)), 2**30)
+        self._backend = (Copies if possible() else Spawned)(count, start, arguments, most)
 
     def __enter__(self) -> Workers:
         return self
@@ -142,8 +107,7 @@ class Workers:
 
     def stop(self) -> None:
         """End the processes, and what still runs in them."""
-        self._pool.stop()
-        self._pool.join()
+        self._backend.stop()
 
     def run(self, seconds: float, work: Callable[..., Answer], *arguments: Any) -> Answered[Answer] | Unanswered:
         """What came of ``work(*arguments)``; waits for it."""
@@ -153,47 +117,5 @@ class Workers:
         self, seconds: float, work: Callable[..., Answer], tasks: Mapping[Key, tuple[Any, ...]]
     ) -> Iterator[tuple[Key, Answered[Answer] | Unanswered]]:
         """The key of each task with what came of ``work(*task)``, as they end; the limit is that of one task."""
-        from concurrent.futures import as_completed
-
         check_seconds(seconds)
-        waiting = {
-            self._pool.schedule(_call, args=(work, arguments), timeout=seconds): key for key, arguments in tasks.items()
-        }
-        for future in as_completed(waiting):
-            yield waiting[future], self._outcome(future, seconds)
-
-    def _outcome(self, future: Any, seconds: float) -> Answered[Any] | Unanswered:
-        from pebble import ProcessExpired
-
-        try:
-            return Answered(future.result())
-        except TimeoutError:
-            return Unanswered(Why.TIME, f"no answer in {seconds:g} s")
-        except ProcessExpired as error:
-            return Unanswered(Why.DIED, f"the process ended: {type(error).__name__}: {error}", error)
-        except MemoryError as error:
-            return Unanswered(Why.MEMORY, f"no answer in {self._memory / 2**30:g} GiB of memory", error)
-        except Exception as error:
-            return Unanswered(Why.FAILED, f"{type(error).__name__}: {error}", error)
-
-
-_not_started: list[BaseException] = []
-
-
-def _start(memory: int, start: Callable[..., None] | None, arguments: tuple[Any, ...]) -> None:
-    """In a new process; an error is kept for the work, as the pool would start the process again and again."""
-    with contextlib.suppress(ImportError, ValueError, OSError):  # a system that has no such limit, or a lower one
-        import resource
-
-        resource.setrlimit(resource.RLIMIT_DATA, (memory, resource.getrlimit(resource.RLIMIT_DATA)[1]))
-    try:
-        if start is not None:
-            start(*arguments)
-    except BaseException as error:
-        _not_started.append(error)
-
-
-def _call(work: Callable[..., Any], arguments: tuple[Any, ...]) -> Any:
-    if _not_started:
-        raise _not_started[0]
-    return work(*arguments)
+        return self._backend.each(seconds, work, tasks)

@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+import contextlib
 import sys
 from pathlib import Path
 
+from ptproof.errors import InputError
+from ptproof.proof.answering import decided, read, run_by_id
 from ptproof.proof.claim import Claim, Result
 from ptproof.proof.load import NoClaims, load, twice, with_ancestors
-from ptproof.proof.run import conclude, evidence_of, read, run_by_id
+from ptproof.proof.run import conclude
 from ptproof.proof.verdict import Evidence
-from ptproof.reading.limits import Workers
+from ptproof.reading.limits import Unanswered, Workers
 from ptproof.testing.wording import lines, witness_text
+
+_LOADING = 600.0  # of one file [s]
 
 
 class Claims:
@@ -23,6 +28,7 @@ class Claims:
         self._ids: dict[tuple[Path, str], Claim] = {}
         self._evidence: dict[tuple[Path, str], Evidence] = {}
         self._workers: dict[Path, Workers] = {}
+        self._vetting = Workers()
 
     def may_hold_claims(self, file: Path) -> bool:
         """Whether the text of a file speaks of claims; what does not is never imported."""
@@ -37,8 +43,11 @@ class Claims:
         Raises
         ------
         InputError
-            If it cannot be imported, or an id stands twice in its folder.
+            If it cannot be imported, or ends the process that does, or an id stands twice in its folder.
         """
+        outcome = self._vetting.run(_LOADING, _can_be_imported, str(_loadable(file)))
+        if isinstance(outcome, Unanswered):
+            raise InputError(f"{file}: cannot be imported: {outcome.reason.replace('the work', 'the module', 1)}")
         try:
             derivation = load([_loadable(file)])
         except NoClaims:
@@ -54,12 +63,12 @@ class Claims:
 
     def result(self, file: Path, claim: Claim) -> Result:
         """The verdict of one claim after its ancestors, with their evidence taken from this session where known."""
-        evidence = {item.id: self._decided(file.parent, item) for item in with_ancestors([claim])}
-        return conclude([claim], evidence)[0]
+        claims = with_ancestors([claim])
+        return conclude(claims, {item.id: self._decided(file.parent, item) for item in claims})[-1]
 
     def close(self) -> None:
         """End the processes."""
-        for workers in self._workers.values():
+        for workers in (self._vetting, *self._workers.values()):
             workers.stop()
         self._workers.clear()
 
@@ -68,8 +77,14 @@ class Claims:
             if folder not in self._workers:  # one process for each folder
                 self._workers[folder] = Workers(start=read, arguments=(sorted(self._files[folder]),))
             outcome = self._workers[folder].run(self.seconds, run_by_id, claim.id)
-            self._evidence[folder, claim.id] = evidence_of(outcome, self.seconds)
+            self._evidence[folder, claim.id] = decided(claim, outcome, self.seconds).evidence
         return self._evidence[folder, claim.id]
+
+
+def _can_be_imported(path: str) -> None:
+    """In a process of its own: a module may end its process, and with it pytest as if all were well."""
+    with contextlib.suppress(InputError):  # it is said in pytest's own process
+        load([path])
 
 
 def _text(file: Path) -> str:

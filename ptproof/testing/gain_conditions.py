@@ -37,7 +37,8 @@ def assert_gain_condition(data: GainData | Problem, condition: str, *, seconds: 
         One of <, <=, > or >= between two expressions in the numbers of ``data`` (``k``, ``T``, ``V0``, …), its
         constants (``kappa``, ``a1``, …) and the keys of :func:`ptproof.gains.gains`: ``"k > asymptotic.k_min"``,
         ``"V0 < critical.V0_threshold"``, ``"clip.residual_bound <= 1/10"``. A threshold that does not exist, since
-        the bound holds for every value, counts as infinite.
+        the bound holds for every value, counts as infinite. Bounds and thresholds are those of the averaged system;
+        the vehicle circles around it at about ``vehicle.hover_radius``.
     seconds
         The time limit. [s]
 
@@ -117,7 +118,6 @@ def _answer(asked: GainData | Problem) -> tuple[Gains | None, str]:
     """All quantities; None, and why, where the constants of a problem are not certain along its average."""
     from ptproof.gains import GainData, gains
     from ptproof.gains.problem import study
-    from ptproof.proof.verdict import Verdict
 
     if isinstance(asked, GainData):
         return gains(asked), ""
@@ -125,7 +125,7 @@ def _answer(asked: GainData | Problem) -> tuple[Gains | None, str]:
     assert found.certificate is not None
     if found.answer is None:
         return None, f"the constants of the field are not certified: {found.certificate.summary}"
-    if found.certificate.domain.outer is not None and found.curve.evidence.verdict is not Verdict.PROVED:
+    if not found.applies:
         return None, f"the constants of the field hold {found.condition}, which is not shown"
     return found.answer, ""
 

@@ -11,6 +11,7 @@ from sympy.solvers.solveset import NonlinearError
 from ptproof.errors import InputError
 from ptproof.proof.signs import vanishes
 from ptproof.system import System
+from ptproof.transforms.names import fresh
 
 
 @dataclass(frozen=True)
@@ -45,9 +46,19 @@ class SlowFast:
     name: str = "system"
 
     def boundary_layer(self, deviation: Sequence[sp.Symbol], fast_time: sp.Symbol) -> System:
-        """dỹ/dτ̃ = g(x, ỹ + l(x)) with ỹ = z − l(x) and x frozen."""
+        """dỹ/dτ̃ = g(x, ỹ + l(x)) with ỹ = z − l(x) and x frozen.
+
+        Raises
+        ------
+        InputError
+            If there are more or fewer deviations than fast states, or a letter is in use.
+        """
         if len(deviation) != len(self.fast_state):
             raise InputError(f"{self.name}: {len(self.fast_state)} fast states but {len(deviation)} deviations")
+        entries = (*self.fast_rate, *self.quasi_steady_state)
+        frozen = set().union(self.slow_state, *(entry.free_symbols for entry in entries)) - set(self.fast_state)
+        for letter in (*deviation, fast_time):
+            fresh(letter, frozen, self.name)
         layers = zip(self.fast_state, deviation, self.quasi_steady_state, strict=True)
         moved = {symbol: away + steady for symbol, away, steady in layers}
         rhs = tuple(sp.expand(entry.subs(moved, simultaneous=True)) for entry in self.fast_rate)
@@ -71,8 +82,9 @@ def split(
     Raises
     ------
     InputError
-        If a fast rate times μ still contains μ, if no quasi-steady state is found or the given one does not
-        solve g(x, l(x)) = 0, or if several are found (the theorem asks for a unique one).
+        If a fast rate times μ still contains μ, a slow rate contains μ, no quasi-steady state is found, the given one
+        contains a fast state or does not solve g(x, l(x)) = 0, or several are found (the theorem asks for a unique
+        one).
     """
     index = {symbol: i for i, symbol in enumerate(system.state)}
     if missing := [symbol.name for symbol in fast if symbol not in index]:
@@ -80,14 +92,19 @@ def split(
     rates = tuple(sp.expand(mu * system.rhs[index[symbol]]) for symbol in fast)
     if any(mu in rate.free_symbols for rate in rates):
         raise InputError(f"{system.name}: the rate of the fast states is not of the form g(x, z)/{mu}")
+    slow = [i for i, symbol in enumerate(system.state) if symbol not in fast]
+    if fast_too := [system.state[i].name for i in slow if mu in system.rhs[i].free_symbols]:
+        raise InputError(f"{system.name}: the rate of the slow state {', '.join(fast_too)} depends on {mu}")
     if quasi_steady_state is None:
         steady, unique = solve_quasi_steady_state(rates, fast, system.name)
     else:
         steady, unique = tuple(map(sp.sympify, quasi_steady_state)), _is_affine_regular(rates, fast)
+        if len(steady) != len(fast) or any(entry.free_symbols & {*fast, mu} for entry in steady):
+            raise InputError(f"{system.name}: the quasi-steady state {steady} is not one expression in the slow states "
+                             "for each fast state")  # fmt: skip
         residual = [rate.subs(dict(zip(fast, steady, strict=True)), simultaneous=True) for rate in rates]
         if not all(vanishes(entry) for entry in residual):
             raise InputError(f"{system.name}: the quasi-steady state {steady} does not make the fast rates vanish")
-    slow = [i for i, symbol in enumerate(system.state) if symbol not in fast]
     return SlowFast(
         system.time, tuple(system.state[i] for i in slow), tuple(system.rhs[i] for i in slow),
         tuple(fast), rates, mu, steady, unique, name=system.name,

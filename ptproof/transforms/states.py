@@ -9,6 +9,7 @@ import sympy as sp
 from ptproof.errors import InputError
 from ptproof.proof.signs import vanishes
 from ptproof.system import System
+from ptproof.transforms.names import fresh, is_differentiable, is_of_kind, moves_smoothly
 
 
 def change_variable(system: System, replaced: sp.Symbol, by: sp.Symbol, forward: sp.Expr, backward: sp.Expr) -> System:
@@ -17,19 +18,33 @@ def change_variable(system: System, replaced: sp.Symbol, by: sp.Symbol, forward:
     Parameters
     ----------
     replaced, by
-        The old and the new state.
+        The old state, and the new one: a letter that the system does not use.
     forward
-        The new state in terms of the old ones.
+        The new state in terms of the old ones, and of time.
     backward
-        The old state in terms of the new one and the states that stay.
+        The old state in terms of the new one, the states that stay, and time.
 
     Raises
     ------
     InputError
-        Unless ``forward`` and ``backward`` undo each other by exact algebra.
+        Unless ``forward`` and ``backward`` are differentiable for all values of time and states, have values of the
+        kind that the letters are declared to be, and undo each other by exact algebra.
     """
+    where = f"{system.name}: {by} = {forward} and {replaced} = {backward}"
+    forward, backward = sp.sympify(forward), sp.sympify(backward)
+    _check_state(system, replaced)
+    fresh(by, system.symbols, system.name)
+    if by in forward.free_symbols or replaced in backward.free_symbols:
+        raise InputError(f"{where}: {by} has to be given by {replaced}, and {replaced} by {by}")
     if not (vanishes(forward.subs(replaced, backward) - by) and vanishes(backward.subs(by, forward) - replaced)):
-        raise InputError(f"{system.name}: {by} = {forward} and {replaced} = {backward} do not undo each other")
+        raise InputError(f"{where} do not undo each other")
+    others = [symbol for symbol in (system.time, *system.state) if symbol != replaced]
+    if not (is_differentiable(forward, [*others, replaced]) and is_differentiable(backward, [*others, by])):
+        raise InputError(f"{where} are not shown to be differentiable for all values of time and states")
+    if not (is_of_kind(by, forward) and is_of_kind(replaced, backward)):
+        raise InputError(
+            f"{where} are not shown to have values of the kind that {by} and {replaced} are declared to be"
+        )
     old = {replaced: backward}
     rate = system.derivative_along(forward).subs(old)
     rhs = tuple(
@@ -40,14 +55,28 @@ def change_variable(system: System, replaced: sp.Symbol, by: sp.Symbol, forward:
 
 
 def solve_state(system: System, variable: sp.Symbol, solution: sp.Expr) -> System:
-    """Remove a state whose equation has the closed-form ``solution`` in time.
+    """Remove a state whose equation has the closed-form ``solution``, in time and perhaps in the other states.
+
+    What is shown is that the state stays at the solution once it is there, on every interval of time on which the
+    solution is defined: its derivative along the motion of the other states is the state's rate.
 
     Raises
     ------
     InputError
-        Unless the derivative of ``solution`` is the state's right-hand side by exact algebra.
+        Unless that holds by exact algebra, for a solution that is differentiable where it is defined.
     """
+    solution = sp.sympify(solution)
+    _check_state(system, variable)
+    if variable in solution.free_symbols:
+        raise InputError(f"{system.name}: the solution {solution} of {variable} contains {variable} itself")
     rates = {state: rate.subs(variable, solution) for state, rate in zip(system.state, system.rhs, strict=True)}
-    if not vanishes(sp.diff(solution, system.time) - rates.pop(variable)):
+    rate = rates.pop(variable)
+    remaining = System(system.time, tuple(rates), tuple(rates.values()), name=system.name)
+    if not (moves_smoothly(solution, (system.time, *rates)) and vanishes(remaining.derivative_along(solution) - rate)):
         raise InputError(f"{system.name}: {variable} = {solution} does not solve its equation")
-    return System(system.time, tuple(rates), tuple(rates.values()), name=system.name)
+    return remaining
+
+
+def _check_state(system: System, variable: sp.Symbol) -> None:
+    if variable not in system.state:
+        raise InputError(f"{system.name}: {variable} is not one of the states {', '.join(map(str, system.state))}")

@@ -18,13 +18,20 @@ from ptproof.system import System
 from ptproof.transforms.clocks.algebra import factored, settle
 from ptproof.transforms.clocks.cap import CappedClock
 from ptproof.transforms.clocks.clock import Clock, Piece
+from ptproof.transforms.names import fresh
 
 
 def dilate(system: System, clock: Clock | CappedClock, gain: sp.Symbol | None = None) -> System:
     """The system in the clock's stretched time: dx/dτ = (dt/dτ) · rhs(a⁻¹(τ), x).
 
     An undefined function of time, such as a drift f(t, x), is taken at the same instant: f(a⁻¹(τ), x). A symbol
-    ``gain`` in the system stands for dτ/dt; what it multiplies loses it before anything is put in.
+    ``gain`` in the system stands for dτ/dt; what it multiplies loses it before anything is put in, and τ may stand
+    beside it for the dilated time. Guaranteed for the times τ that the clock reaches.
+
+    Raises
+    ------
+    InputError
+        If the system runs in another time, or contains τ and no gain.
 
     >>> from ptproof.transforms import prescribed_time_clock
     >>> t, tau, x = sp.symbols("t tau x", real=True)
@@ -36,6 +43,7 @@ def dilate(system: System, clock: Clock | CappedClock, gain: sp.Symbol | None = 
     if system.time != clock.t:
         raise InputError(f"{system.name}: runs in {system.time}, but {clock.name} dilates {clock.t}")
     if gain is None:
+        fresh(clock.tau, system.symbols, system.name)
         return _through(system, clock, clock.tau, lambda entry, piece: _tidy(
             entry.subs(clock.t, piece.to_t), piece.rate_back
         ))  # fmt: skip
@@ -56,6 +64,7 @@ def contract(system: System, clock: Clock | CappedClock) -> System:
     """
     if system.time != clock.tau:
         raise InputError(f"{system.name}: runs in {system.time}, but {clock.name} contracts {clock.tau}")
+    fresh(clock.t, system.symbols, system.name)
     undone = clock.pieces[0].to_tau.has(sp.exp, sp.log)
 
     def change(entry: sp.Expr, piece: Piece) -> sp.Expr:
@@ -108,9 +117,14 @@ def join(first: sp.Expr, second: sp.Expr, condition: Relational) -> sp.Expr:
         rests = [first.func(*(Counter(side.args) - shared).elements()) for side in (first, second)]
         if shared:
             return first.func(*shared.elements(), join(rests[0], rests[1], condition))
-    elif first.func == second.func and len(first.args) == len(second.args) > 0 and isinstance(first, sp.Function):
+    elif _same_function(first, second):
         return first.func(*(join(a, b, condition) for a, b in zip(first.args, second.args, strict=True)))
     return sp.Piecewise((first, condition), (second, True))
+
+
+def _same_function(first: sp.Expr, second: sp.Expr) -> bool:
+    plain = isinstance(first, sp.Function) and not isinstance(first, sp.Piecewise)
+    return plain and first.func == second.func and len(first.args) == len(second.args) > 0
 
 
 def _tidy(entry: sp.Expr, rate: sp.Expr) -> sp.Expr:
@@ -131,6 +145,17 @@ def _cancel_factors(term: sp.Expr) -> sp.Expr:
 
 
 def scale_time(system: System, factor: sp.Expr, time: sp.Symbol) -> System:
-    """The system in the time ``system.time``/factor, such as the fast time τ̃ = τ/μ."""
+    """The system in the time ``system.time``/factor, such as the fast time τ̃ = τ/μ.
+
+    Raises
+    ------
+    InputError
+        If the factor is not a positive constant, or the new time is a letter in use.
+    """
+    factor = sp.sympify(factor)
+    if not factor.is_positive or factor.free_symbols & {system.time, *system.state}:
+        raise InputError(f"{system.name}: the factor {factor} is not a positive constant")
+    if time != system.time:
+        fresh(time, (*system.symbols, *factor.free_symbols), system.name)
     rhs = tuple(factor * entry.subs(system.time, factor * time) for entry in system.rhs)
     return System(time, system.state, rhs, name=system.name)

@@ -37,6 +37,7 @@ def test_exact_value(text: str) -> None:
 
 
 REFUSED = {
+    "sqrt(x, 0)": "wrong number",
     "__import__('os').system('true')": "not arithmetic",
     "x.__class__": "not arithmetic",
     "(lambda: 1)()": "not arithmetic",
@@ -48,11 +49,11 @@ REFUSED = {
     "foo(x)": "unknown function",
     "F": "needs arguments",
     "1/0": "division by zero",
-    "0**-1": "not a finite value",
+    "0**-1": "not a finite",
     "": "empty",
     "x +": "cannot read",
-    "x < 1": "is a condition",
-    "(x < 1) + 1": "condition stands",
+    "x < 1": "stands where a number",
+    "(x < 1) + 1": "stands where a number",
     "9**9**9": "exponent over",
     "(10**5000)**5000": "too large",
     "1e999999999": "out of range",

@@ -58,7 +58,7 @@ def _refuse(text):
 
 _NO_ANSWER = [
     (_forever, (), Why.TIME, "no answer in 0.3 s"),
-    (_fill, (2**30,), Why.MEMORY, "no answer in 0.5 GiB of memory"),
+    (_fill, (2**30,), Why.MEMORY, "more than 0.5 GiB of memory"),
     (os._exit, (3,), Why.DIED, "the process ended"),
     (_refuse, ("too long",), Why.FAILED, "InputError: too long"),
 ]

@@ -1,5 +1,7 @@
 """A small derivation with every kind of statement and verdict, and its report."""
 
+from dataclasses import replace
+
 import pytest
 
 from ptproof.proof.load import load
@@ -105,8 +107,10 @@ def derivation(sample):
 def verification(derivation):
     # The proofs as they are, without the check that evidence comes from an engine: some are written by hand here, so
     # that every verdict occurs.
-    evidence = {claim.id: with_witness(claim.goal(), claim.prove(claim.goal())) for claim in derivation.claims}
-    return Verification(conclude(derivation.claims, evidence), 1.25)
+    def decided(claim):
+        return replace(with_witness(claim.goal(), claim.prove(claim.goal())), content=claim.content)
+
+    return Verification(conclude(derivation.claims, {claim.id: decided(claim) for claim in derivation.claims}), 1.25)
 
 
 @pytest.fixture(scope="session")

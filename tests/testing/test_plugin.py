@@ -162,6 +162,20 @@ def test_a_file_that_cannot_be_imported_is_an_error_with_its_line(pytester, deri
     result.stdout.fnmatch_lines(["*broken.py, line 2: SyntaxError*"])
 
 
+@pytest.mark.parametrize(
+    ("body", "words"),
+    [
+        ("os._exit(0)", "*ends.py: cannot be imported: the process ended with status 0*"),
+        ("raise KeyboardInterrupt", "*ends.py: cannot be imported: the module raised KeyboardInterrupt*"),
+    ],
+)
+def test_a_file_that_ends_its_process_is_an_error_of_collection(pytester, derivation, body, words):
+    (derivation / "ends.py").write_text(f"# a claim for ptproof\nimport os\n{body}\n")
+    result = run(pytester, "--ptproof", "-q", derivation)
+    assert result.ret == 2
+    result.stdout.fnmatch_lines([words])
+
+
 def test_a_file_that_does_not_speak_of_claims_is_never_imported(pytester, derivation):
     (derivation / "script.py").write_text("raise SystemExit('imported')\n")
     result = run(pytester, "--ptproof", "-q", "--collect-only", derivation)

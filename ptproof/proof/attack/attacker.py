@@ -16,6 +16,7 @@ from ptproof.proof.attack.limiting import Grows
 from ptproof.proof.attack.numbers import NotReal, Undefined, Unsure, size
 from ptproof.proof.attack.preparation import Prepared, prepared
 from ptproof.proof.attack.quantified import satisfied
+from ptproof.proof.attack.roughness import rough
 from ptproof.proof.attack.sampling import MISSES, Point, Sampler
 from ptproof.proof.claim import Goal
 from ptproof.proof.statement import Exists, Prose, Relation, Smooth
@@ -25,6 +26,7 @@ UNDEFINED = "a side is undefined"
 NOT_REAL = "a side is not real"
 _MISSES_IN_A_ROW = 300
 _WORK = 60_000  # evaluated nodes: about half a second
+_SMOOTH_POINTS = 15
 _FEW = 12  # points, with which a third of the work is enough
 _DIGITS = (50, 100, 200)
 
@@ -80,8 +82,8 @@ def attack(goal: Goal, *, seed: int = 0, points: int = 60, seconds: float = 2.0)
             return Attack(0, 0, None, "not attacked: no choice can be shown to be the wrong one by trying")
     ready = prepared(goal)
     count, tried, end = 0, 0, time.process_time() + seconds
-    if isinstance(goal.statement, Smooth):
-        return Attack(0, 0, None, "not attacked yet")
+    if ready.smooth:
+        points = min(points, _SMOOTH_POINTS)
     for point in _candidates(ready, goal, seed, end):
         tried += 1
         if point is None:
@@ -121,6 +123,8 @@ def _candidates(ready: Prepared, goal: Goal, seed: int, end: float) -> Iterator[
 
 def _at(goal: Goal, ready: Prepared, point: Point) -> tuple[bool, Hit | None]:
     """Whether every part could be evaluated at the point, and what is hit there."""
+    if isinstance(goal.statement, Smooth):
+        return _smooth_at(goal.statement, ready, point)
     suspects, complete = [], True
     try:
         evaluator = point.evaluator(_DIGITS[0])
@@ -137,6 +141,18 @@ def _at(goal: Goal, ready: Prepared, point: Point) -> tuple[bool, Hit | None]:
         if hit is not None:
             return True, hit
     return complete and not suspects, None
+
+
+def _smooth_at(statement: Smooth, ready: Prepared, point: Point) -> tuple[bool, Hit | None]:
+    try:
+        found = rough(statement, ready, point, _DIGITS[0])
+        if found and _confirmed(ready, point):
+            again = [rough(statement, ready, point, digits) for digits in _DIGITS[1:]]
+            if all(item == found for item in again):
+                return True, Hit(exact_values(ready, point), statement, "", "", f"{FAILS}: {found}")
+    except MISSES:
+        return False, None
+    return not found, None
 
 
 def _outcome(part: Relation, evaluator: Evaluator) -> str | None:

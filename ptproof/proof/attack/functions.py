@@ -49,6 +49,18 @@ def drawn(applied: Any, generator: random.Random, attempt: int, known: Collectio
     return Concrete(places, body)
 
 
+def differentiable(applied: Any, order: int, generator: random.Random) -> Concrete:
+    """A function that is ``order`` times continuously differentiable, and no more where ``applied`` is."""
+    plain = _real(_arguments(len(applied.args)), generator, generator.randint(0, 5), None)
+    if generator.random() < 0.3:
+        return Concrete(_arguments(len(applied.args)), plain)
+    rough = sp.S.Zero
+    for place, argument in zip(_arguments(len(applied.args)), applied.args, strict=True):
+        middle = argument if argument.is_Symbol else sp.S.Zero
+        rough += generator.choice((1, -2)) * sp.Abs(place - middle) ** sp.Rational(2 * order + 1, 2)
+    return Concrete(_arguments(len(applied.args)), plain + rough)
+
+
 def _whole(applied: Any, generator: random.Random) -> int:
     choice = [n for n in range(-3, 4) if applied.func and _may_be(applied, n)]
     return generator.choice(choice or [1])

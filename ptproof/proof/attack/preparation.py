@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from functools import partial
+from random import Random
 from typing import Any
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ptproof.proof.attack.functions import Concrete, solutions
+from ptproof.proof.attack.functions import Concrete, differentiable, solutions
 from ptproof.proof.claim import Goal
 from ptproof.proof.statement import (
     Exists,
@@ -68,6 +70,10 @@ class Prepared:
     special
         An atom and a value of it, in the other atoms, at which something vanishes: a denominator, what is under a
         root, the distance from a kink, or the difference of the two sides.
+    limited
+        Functions that are differentiable only so often, by what draws one.
+    smooth
+        Whether the statement is about smoothness.
     """
 
     parts: tuple[Relation, ...]
@@ -78,6 +84,8 @@ class Prepared:
     defined: tuple[tuple[Any, Concrete], ...]
     solutions: tuple[tuple[Any, Concrete], ...]
     special: tuple[tuple[Any, sp.Expr], ...]
+    limited: tuple[tuple[Any, Callable[[Random], Concrete]], ...] = ()
+    smooth: bool = False
 
 
 def prepared(goal: Goal) -> Prepared:
@@ -104,12 +112,28 @@ def prepared(goal: Goal) -> Prepared:
         tuple(functions.values()),
         tuple(defined.items()),
         tuple(itertools.chain.from_iterable(solutions(item) for item in quantified)),
-        tuple(itertools.islice(_special(parts, (*symbols, *pinned)), 60)),
+        tuple(itertools.islice(_special(_places(goal.statement), (*symbols, *pinned)), 60)),
+        _limited(goal.statement),
+        isinstance(goal.statement, Smooth),
+    )
+
+
+def _limited(statement: Statement) -> tuple[tuple[Any, Callable[[Random], Concrete]], ...]:
+    assumed = statement.assumed if isinstance(statement, Smooth) else ()
+    return tuple(
+        (function.func, partial(differentiable, function, order)) for function, order in assumed if order != sp.oo
     )
 
 
 def _parts(statement: Statement) -> tuple[Relation, ...]:
     return () if isinstance(statement, Prose | Smooth | Exists) else relations_of(statement)
+
+
+def _places(statement: Statement) -> tuple[Relation, ...]:
+    """The relations in which special places are looked for."""
+    if isinstance(statement, Smooth):
+        return tuple(Relation(expression, "=", sp.S.Zero) for expression in statement.expressions)
+    return _parts(statement)
 
 
 def _free(goal: Goal, everything: list[Any]) -> list[sp.Symbol]:

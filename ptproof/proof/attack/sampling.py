@@ -73,6 +73,7 @@ class Sampler:
         if self.goal.solutions and generator.random() < 0.75:
             functions.update(_without_circles(generator.sample(self.goal.solutions, len(self.goal.solutions))))
         functions.update(self.goal.defined)
+        functions.update({function: draw(self.random) for function, draw in self.goal.limited})
         defined, taken = self._definitions()
         values = self.drawer.values(self.attempt, taken)
         values[START] = generator.choice((Fraction(1), Fraction(1, 3), Fraction(5), Fraction(1, 50)))
@@ -207,4 +208,4 @@ def _ordered(found: Mapping[Any, sp.Expr]) -> tuple[tuple[Any, sp.Expr], ...]:
 
 def _needs_moderation(goal: Prepared) -> bool:
     """Limits and integrals, and "for all" without an end, are looked at up to some size: the values must fit that."""
-    return bool(goal.quantified) or any(part.has(sp.Limit, sp.Integral) for part in goal.parts)
+    return bool(goal.quantified) or goal.smooth or any(part.has(sp.Limit, sp.Integral) for part in goal.parts)

@@ -9,6 +9,8 @@ import sympy as sp
 from ptproof.proof.kinks import SignOf, is_kink, level, resolved, switching
 from ptproof.proof.signs import vanishes
 
+_BINDERS = (sp.Derivative, sp.Integral, sp.Subs, sp.Limit, sp.Sum, sp.Product, sp.Lambda)
+
 
 def glued_smoothly(
     term: sp.Expr, variables: frozenset[sp.Symbol], order: int, is_smooth: Callable[[sp.Expr], bool]
@@ -16,8 +18,11 @@ def glued_smoothly(
     """Whether ``term`` is C^order because its kinks, all at the zeros of one g, cancel to that order.
 
     ``is_smooth`` decides about expressions without these kinks. True is a proof: with D = E₊ − E₋ = g^(order+1) q
-    and q smooth, the term is E₋ + max(g, 0)^(order+1) q, and the values on g = 0 are checked separately.
+    and q smooth, the term is E₋ + max(g, 0)^(order+1) q, and the values on g = 0 are checked separately. Where the
+    term is defined is not looked at.
     """
+    if term.has(*_BINDERS):  # what is inside may be about a variable of its own
+        return False
     kinks = [node for node in sp.preorder_traversal(term) if is_kink(node, variables)]
     sides = {_canonical(side) for node in kinks for side in switching(node)}
     if len(sides) != 1 or any(level(node) is not None for node in kinks):
@@ -32,7 +37,7 @@ def glued_smoothly(
     plus, minus, on = branches
     if not (is_smooth(side) and is_smooth(plus) and is_smooth(minus)):
         return False
-    return _divisible(plus - minus, side, order + 1) and _divisible(on - plus, side, 1)
+    return _divisible(plus - minus, side, order + 1, is_smooth) and _divisible(on - plus, side, 1, is_smooth)
 
 
 def _canonical(side: sp.Expr) -> sp.Expr:
@@ -45,13 +50,18 @@ def _signs(side: sp.Expr, sign: int) -> SignOf:
     return lambda entry: known.get(sp.expand(entry))
 
 
-def _divisible(difference: sp.Expr, side: sp.Expr, power: int) -> bool:
-    """Whether difference = side^power · (polynomial in the symbols and in smooth functions)."""
+def _divisible(difference: sp.Expr, side: sp.Expr, power: int, is_smooth: Callable[[sp.Expr], bool]) -> bool:
+    """Whether difference = side^power · q, with q a polynomial in the symbols of ``side`` over smooth functions.
+
+    The coefficients of q are sums of numbers times coefficients of the difference, which must be smooth themselves.
+    """
     if vanishes(difference):
         return True
     try:
         generators = sorted(side.free_symbols, key=lambda symbol: symbol.name)
+        divisor = sp.Poly(side, *generators)
         numerator = sp.Poly(sp.expand(difference), *generators)
-        return bool(sp.rem(numerator, sp.Poly(side, *generators) ** power, *generators) == 0)
+        divides = bool(sp.rem(numerator, divisor**power, *generators) == 0)
     except sp.PolynomialError:
         return False
+    return divides and all(value.is_number for value in divisor.coeffs()) and all(map(is_smooth, numerator.coeffs()))

@@ -4,20 +4,27 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ptproof.proof.declarations import admissible
-from ptproof.proof.kinks import resolved, switching
-from ptproof.proof.signs import holds, sign_of
-from ptproof.proof.statement import Relation
-from ptproof.proof.substitution import NotOfKind, Substitution
+from ptproof.proof.declarations import admissible, declared
+from ptproof.proof.engines.beside import is_analytic, is_not_real, is_pole, one_sided, sign_beside
+from ptproof.proof.kinks import switching
+from ptproof.proof.signs import sign_of
+from ptproof.proof.statement import MEANING, Relation, RelationSign
+from ptproof.proof.substitution import Substitution, holds_at
 from ptproof.proof.verdict import Witness
 from ptproof.system import substitute
 
-_OTHERS = (sp.S.Zero, sp.S.One, sp.Rational(-1, 2), sp.Rational(3, 2))
+_OTHERS = (sp.S.Zero, sp.S.One, sp.Rational(-1, 2), sp.Rational(3, 2), sp.Integer(-2), sp.Integer(2))
 _MOST = 60
+_DISTANCES = (sp.Rational(1, 8), sp.Rational(1, 1024))
+_NEVER = (sp.Integral, sp.Limit, sp.Sum, sp.Product)
+_SIGN: dict[str, RelationSign] = {
+    "positive": ">", "nonnegative": ">=", "negative": "<", "nonpositive": "<=", "nonzero": "!="
+}  # fmt: skip
 Found = tuple[str, Witness]
 
 
@@ -28,30 +35,71 @@ def find_singularity(
     suspects: Sequence[sp.Basic],
     domain: Sequence[Relation] = (),
 ) -> Found | None:
-    """A reason and a witness that ``expression`` is not C^order, or None where none was found.
+    """A reason and a witness that ``expression`` is not C^order on the domain, or None where none was found.
 
     Along one variable, with exact values for everything else, the zeros of what the suspect nodes depend on are
-    found exactly. A derivative of order up to ``order`` that differs from the left and from the right, a pole, or
-    a value that is not real near such a point is a witness; all comparisons are certain.
+    found exactly. A derivative of order up to ``order`` that differs from the left and from the right inside the
+    domain, a pole that is approached within it, or a point of it at which the value is not real is a witness. All
+    comparisons are certain, and all values are allowed by the declarations and by the domain.
     """
+    unknown = expression.atoms(AppliedUndef)
+    if expression.has(*_NEVER) or not all(map(_has_concrete, unknown)):
+        return None
     names = {str(applied): str(_concrete(applied)) for applied in sorted(_plain(expression), key=str)}
-    # A relation among symbols that play no part here does not exclude a point.
-    free = expression.free_symbols
-    domain = [relation for relation in domain if relation.free_symbols & free]
+    here, elsewhere = _connected(expression, [*domain, *_declared_relations(variables)])
+    others = _some_values(elsewhere)
+    if others is None:
+        return None  # what is assumed of other symbols may contradict itself
     expression = _concrete(expression).replace(sp.tan, lambda angle: sp.sin(angle) / sp.cos(angle))
-    for suspect in suspects:
-        for argument in _arguments(_concrete(suspect)):
-            for variable, values in _lines(argument, expression, variables):
-                restricted = argument.subs(values, simultaneous=True)
-                for root in _roots(restricted, variable):
-                    point = {**values, variable: root}
-                    if not _inside(domain, point):
-                        continue
-                    line = expression.subs(values, simultaneous=True)
-                    found = _examine(line, variable, order, point, domain, names)
-                    if found is not None:
-                        return found
+    beside = [expression, *(relation.left - relation.right for relation in here)]
+    for argument in (entry for suspect in suspects for entry in _arguments(_concrete(suspect))):
+        for variable, values in _lines(argument, beside, variables):
+            try:
+                restricted, line = (entry.subs(values, simultaneous=True) for entry in (argument, expression))
+            except ZeroDivisionError:  # SymPy's answer to a remainder modulo 0
+                continue
+            for root in _roots(restricted, variable):
+                place = _Place(variable, root, values, tuple(here), {**names, **others})
+                found = place.examine(line, order) if place.is_allowed(root) else None
+                if found is not None:
+                    return found
     return None
+
+
+def _connected(expression: sp.Expr, domain: Sequence[Relation]) -> tuple[list[Relation], list[Relation]]:
+    """The relations that speak, if only through each other, of the expression's symbols, and the others."""
+    reached, here, rest = set(expression.free_symbols), [], list(domain)
+    while more := [relation for relation in rest if relation.free_symbols & reached]:
+        here += more
+        rest = [relation for relation in rest if relation not in more]
+        reached |= set().union(*(relation.free_symbols for relation in more))
+    return here, rest
+
+
+def _some_values(relations: Sequence[Relation]) -> dict[str, str] | None:
+    """Values with which all of the relations hold, as text; None where none was found."""
+    symbols = sorted(set().union(*(relation.free_symbols for relation in relations)), key=lambda symbol: symbol.name)
+    for values in _choices(symbols, _MOST):
+        if holds_at(relations, values):
+            return {str(symbol): str(value) for symbol, value in values.items()}
+    return None
+
+
+def _choices(symbols: Sequence[sp.Symbol], most: int) -> Iterator[dict[sp.Symbol, sp.Expr]]:
+    """Values that the symbols' declarations allow, for all of them at once; none where one has none."""
+    pools = [[value for value in _OTHERS if admissible(symbol, value)] for symbol in symbols]
+    for values in itertools.islice(itertools.product(*pools), most):
+        yield dict(zip(symbols, values, strict=True))
+
+
+def _declared_relations(variables: Sequence[sp.Symbol]) -> list[Relation]:
+    """The declared signs of the variables as relations."""
+    return [
+        Relation(symbol, sign, sp.S.Zero)
+        for symbol in variables
+        for word, sign in _SIGN.items()
+        if declared(symbol).get(word)
+    ]
 
 
 def _plain(expression: sp.Basic) -> set[AppliedUndef]:
@@ -62,11 +110,16 @@ def _plain(expression: sp.Basic) -> set[AppliedUndef]:
     }
 
 
+def _has_concrete(applied: AppliedUndef) -> bool:
+    """Whether the polynomial of :func:`_concrete` is of the function's declared kind."""
+    return set(declared(applied)) <= {"real", *_SIGN} and bool(applied.is_real)
+
+
 def _concrete(expression: sp.Basic) -> sp.Basic:
     """Undefined functions become one fixed polynomial in their arguments, of their declared sign."""
     for applied in sorted(expression.atoms(AppliedUndef), key=str):
         places = [sp.Dummy(f"s{i}", real=True) for i in range(len(applied.args))]
-        power = 2 if applied.is_nonnegative or applied.is_nonpositive else 1
+        power = 2 if set(declared(applied)) & _SIGN.keys() else 1
         polynomial = sp.Integer(2) + sum((i + 1) * place**power for i, place in enumerate(places))
         polynomial = -polynomial if applied.is_nonpositive else polynomial
         (expression,) = substitute([expression], {applied.func(*places): polynomial})
@@ -86,21 +139,20 @@ def _arguments(node: sp.Basic) -> list[sp.Expr]:
 
 
 def _lines(
-    argument: sp.Expr, expression: sp.Expr, variables: Sequence[sp.Symbol]
+    argument: sp.Expr, beside: Sequence[sp.Expr], variables: Sequence[sp.Symbol]
 ) -> Iterator[tuple[sp.Symbol, dict[sp.Symbol, sp.Expr]]]:
-    """A variable to move, with exact values for all other symbols."""
-    free = argument.free_symbols | expression.free_symbols
+    """A variable to move, with exact values for all other symbols, in the argument and ``beside`` it."""
+    free = argument.free_symbols.union(*(entry.free_symbols for entry in beside))
     count = 0
     for variable in variables:
         if variable not in argument.free_symbols:
             continue
         others = sorted(free - {variable}, key=lambda symbol: symbol.name)
-        choices = [[value for value in _OTHERS if admissible(symbol, value)] or [sp.S.One] for symbol in others]
-        for values in itertools.islice(itertools.product(*choices), 12):
+        for values in _choices(others, 12):
             count += 1
             if count > _MOST:
                 return
-            yield variable, dict(zip(others, values, strict=True))
+            yield variable, values
 
 
 def _roots(argument: sp.Expr, variable: sp.Symbol) -> list[sp.Expr]:
@@ -121,97 +173,57 @@ def _roots(argument: sp.Expr, variable: sp.Symbol) -> list[sp.Expr]:
     return [root for root in found if root.is_real and not root.free_symbols][:4]
 
 
-def _examine(
-    line: sp.Expr,
-    variable: sp.Symbol,
-    order: int,
-    point: dict[sp.Symbol, sp.Expr],
-    domain: Sequence[Relation],
-    names: dict[str, str],
-) -> Found | None:
-    root = point[variable]
-    where = ", ".join(f"{symbol} = {value}" for symbol, value in point.items())
-    names = {**names, **{str(symbol): str(value) for symbol, value in point.items()}}
-    left, right = (_one_sided(line, variable, root, side) for side in (-1, 1))
-    if left is None or right is None:
-        return None
-    for side, branch in ((-1, left), (1, right)):
-        for near in _not_real(branch, variable, root, side):
-            if _inside(domain, {**point, variable: near}):
+@dataclass(frozen=True)
+class _Place:
+    """A point on a line: ``variable`` moves through ``root``, all other symbols have the ``values``."""
+
+    variable: sp.Symbol
+    root: sp.Expr
+    values: dict[sp.Symbol, sp.Expr]
+    domain: tuple[Relation, ...]
+    names: dict[str, str]
+
+    def is_allowed(self, position: sp.Expr) -> bool:
+        """Whether the domain certainly contains this position on the line."""
+        point = {**self.values, self.variable: position}
+        return holds_at(self.domain, point)
+
+    def is_inside(self, side: int) -> bool:
+        """Whether the domain certainly contains all positions close to the root, on this side of it."""
+        return all(self._holds_beside(Substitution(self.values).relation(relation), side) for relation in self.domain)
+
+    def _holds_beside(self, relation: Relation, side: int) -> bool:
+        difference = relation.left - relation.right
+        if self.variable in difference.free_symbols and not is_analytic(difference, self.variable, self.root):
+            return False
+        sign = sign_beside(difference, self.variable, self.root, side)
+        return sign is not None and bool(MEANING[relation.sign](sign, 0))
+
+    def examine(self, line: sp.Expr, order: int) -> Found | None:
+        """What is wrong with the ``line`` at the root, if anything certainly is."""
+        variable, root = self.variable, self.root
+        point = {**self.values, variable: root}
+        where = ", ".join(f"{symbol} = {value}" for symbol, value in point.items())
+        names = {**self.names, **{str(symbol): str(value) for symbol, value in point.items()}}
+        branches = {side: one_sided(line, variable, root, side) for side in (-1, 1)}
+        for near in (root + side * distance for side in (-1, 1) for distance in _DISTANCES):
+            if self.is_allowed(near) and is_not_real(value := line.subs(variable, near)):
                 there = {**names, str(variable): str(near)}
-                return f"no real value at {variable} = {near}", Witness(there, str(branch.subs(variable, near)), "real")
-        if _is_pole(branch, variable, root):
-            return f"unbounded near {where}", Witness(names, str(branch), "a finite value")
-    if not _inside(list(map(_strict, domain)), point):
-        return None  # on the boundary there is only one side
-    value, limit = line.subs(variable, root), left.subs(variable, root)
-    if value.is_finite and limit.is_finite and sign_of(value - limit) in (-1, 1):
-        return f"the value jumps at {where}", Witness(names, str(limit), str(value))
-    for count in range(order + 1):
-        before, after = (sp.diff(branch, variable, count).subs(variable, root) for branch in (left, right))
-        if any(value.has(sp.nan, sp.zoo, sp.oo, sp.AccumBounds) for value in (before, after)):
+                return f"no real value at {variable} = {near}", Witness(there, str(value), "real")
+        for side, branch in branches.items():
+            if branch is not None and self.is_inside(side) and is_pole(branch, variable, root):
+                return f"unbounded near {where}", Witness(names, str(branch), "a finite value")
+        left, right = branches[-1], branches[1]
+        if left is None or right is None or not (self.is_inside(-1) and self.is_inside(1)):
+            return None  # on the boundary there is only one side
+        if not all(is_analytic(branch, variable, root) for branch in (left, right)):
             return None
-        if sign_of(before - after) in (-1, 1):
-            what = "the value" if count == 0 else f"derivative {count} in {variable}"
-            return f"{what} jumps at {where}", Witness(names, str(before), str(after))
-    return None
-
-
-def _inside(domain: Sequence[Relation], point: dict[sp.Symbol, sp.Expr]) -> bool:
-    """Whether the point is certainly one that the symbols and the domain allow."""
-    try:
-        there = Substitution(point)
-    except NotOfKind:
-        return False
-    return all(holds(there.relation(relation)) for relation in domain)
-
-
-def _strict(relation: Relation) -> Relation:
-    relation = relation.standard()
-    return Relation(relation.left, "<" if relation.sign == "<=" else relation.sign, relation.right)
-
-
-def _one_sided(line: sp.Expr, variable: sp.Symbol, root: sp.Expr, side: int) -> sp.Expr | None:
-    """The smooth expression that ``line`` is beside ``root``, or None."""
-
-    def sign(entry: sp.Expr) -> int | None:
-        """The sign of ``entry`` on that side, from its first derivative that does not vanish at the root."""
-        for count in range(5):
-            value = sign_of(sp.diff(entry, variable, count).subs(variable, root))
-            if value != 0:
-                return None if value is None else value * side**count
+        value, limit = line.subs(variable, root), left.subs(variable, root)
+        if value.is_finite and sign_of(value - limit) in (-1, 1):
+            return f"the value jumps at {where}", Witness(names, str(limit), str(value))
+        for count in range(order + 1):
+            before, after = (sp.diff(branch, variable, count).subs(variable, root) for branch in (left, right))
+            if sign_of(before - after) in (-1, 1):
+                what = "the value" if count == 0 else f"derivative {count} in {variable}"
+                return f"{what} jumps at {where}", Witness(names, str(before), str(after))
         return None
-
-    def floor_of(level: sp.Expr) -> int | None:
-        """The integer part of ``level`` on that side."""
-        there = level.subs(variable, root)
-        if not there.is_number or sign_of(there - sp.floor(there)) not in (0, 1):
-            return None
-        whole = sp.floor(there)
-        return int(whole) - (sign_of(there - whole) == 0 and sign(level - whole) == -1)
-
-    branch = resolved(line, {variable}, sign, floor_of)
-    return None if branch is None or branch.has(sp.nan) else branch
-
-
-def _not_real(branch: sp.Expr, variable: sp.Symbol, root: sp.Expr, side: int) -> Iterator[sp.Expr]:
-    """Points close to ``root`` at which the branch has certainly no real value."""
-    for node in branch.atoms(sp.Pow, sp.log):
-        if isinstance(node, sp.Pow) and (node.exp.is_integer or not node.exp.is_Rational):
-            continue
-        if variable not in node.free_symbols:
-            continue
-        for distance in (sp.Rational(1, 8), sp.Rational(1, 1024)):
-            near = root + side * distance
-            if sign_of(node.args[0].subs(variable, near)) == -1:
-                yield near
-
-
-def _is_pole(branch: sp.Expr, variable: sp.Symbol, root: sp.Expr) -> bool:
-    """Whether the branch is a quotient whose denominator alone vanishes at ``root``."""
-    numerator, denominator = sp.fraction(sp.cancel(sp.together(branch)) if branch.is_rational_function(variable) else
-                                         sp.together(branch))  # fmt: skip
-    if variable not in denominator.free_symbols:
-        return False
-    top = sign_of(numerator.subs(variable, root))
-    return top in (-1, 1) and sign_of(denominator.subs(variable, root)) == 0

@@ -8,7 +8,9 @@ import sympy as sp
 
 from ptproof.proof.engines.limits import limit_of
 from ptproof.proof.engines.reals import follows
+from ptproof.proof.engines.smoothness import smoothness
 from ptproof.proof.statement import Relation, ge, gt
+from ptproof.proof.verdict import Verdict
 
 
 def factored(expression: sp.Expr) -> sp.Expr:
@@ -61,6 +63,18 @@ def is_nonnegative(expression: sp.Expr, given: Sequence[Relation] = ()) -> bool:
     """As :func:`is_positive`, with 0 allowed; for expressions without tan."""
     form = sp.factor(expression)
     return bool(form.is_nonnegative) or follows(ge(form, 0), given, seconds=2.0).shown
+
+
+def is_smooth(expression: sp.Expr, variable: sp.Symbol) -> bool:
+    """Whether it is shown to be real and continuously differentiable in ``variable``, on all that it is declared to be.
+
+    Within a quarter turn a tangent is smooth, which is more than the engine knows of it.
+    """
+    tangent = sp.Function("tangent", real=True)
+    expression = expression.replace(
+        sp.tan, lambda angle: tangent(angle) if _within_quarter_turn(angle) else sp.tan(angle)
+    )
+    return smoothness(expression, [variable], 1, {tangent: sp.oo}).verdict is Verdict.PROVED
 
 
 def limit_at_infinity(expression: sp.Expr, variable: sp.Symbol) -> sp.Expr | None:

@@ -10,8 +10,9 @@ import sympy as sp
 from sympy.core.relational import Relational
 
 from ptproof.errors import InputError
+from ptproof.proof.engines.reals import follows
 from ptproof.proof.signs import vanishes
-from ptproof.proof.statement import Relation, le
+from ptproof.proof.statement import Relation, le, lt
 from ptproof.transforms.clocks.algebra import factored, is_nonnegative, is_positive, settle
 from ptproof.transforms.clocks.clock import Clock, Piece, displayed
 
@@ -53,7 +54,9 @@ class CappedClock:
     def __post_init__(self) -> None:
         object.__setattr__(self, "until", sp.sympify(self.until))
         end = self.start + self.clock.horizon
-        if not (
+        if self.given and follows(lt(1, 0), self.given, seconds=1.0).shown:
+            raise InputError(f"{self.name}: what is given of its symbols contradicts itself")
+        if self.until.free_symbols & {self.t, self.tau} or not (
             is_nonnegative(sp.expand(self.until - self.start), self.given)
             and (end is sp.oo or is_positive(sp.expand(end - self.until), self.given))
         ):

@@ -10,8 +10,17 @@ import sympy as sp
 from sympy.core.relational import Relational
 
 from ptproof.errors import InputError
+from ptproof.proof.declarations import is_plainly_real
+from ptproof.proof.engines.limits import limit_of
 from ptproof.proof.signs import vanishes
-from ptproof.transforms.clocks.algebra import factored, is_positive, limit_at_infinity, settle
+from ptproof.transforms.clocks.algebra import (
+    factored,
+    is_nonnegative,
+    is_positive,
+    is_smooth,
+    limit_at_infinity,
+    settle,
+)
 
 
 @dataclass(frozen=True)
@@ -51,12 +60,21 @@ class Clock:
     name
         For people.
 
+    The times in τ are those that a reaches: from t₀ on, and all of them where :meth:`tends_to_the_end`.
+
     Raises
     ------
     InputError
-        Unless a⁻¹(a(t)) = t, a(t₀) = t₀ and (da/dt)·(da⁻¹/dτ) = 1 hold by exact algebra, and da/dt > 0 on the
-        interval. Where a⁻¹(a(t)) = t is out of reach, as for arctan(tan), a(a⁻¹(τ)) = τ serves if a⁻¹ is shown to
-        increase from t₀ and to tend to the interval's end: then it is onto, and the only inverse.
+        Unless both times are plain real symbols, the start is real, the horizon positive, and no formula contains the
+        wrong time or a symbol that is not real; a(t₀) = a⁻¹(t₀) = t₀; a is continuously differentiable on the interval
+        by its structure, da/dt > 0 there, and a⁻¹ is the inverse. The last two in one of four ways:
+
+        1. da/dt > 0 is shown on the interval, and a⁻¹(a(t)) = t by exact algebra, with a⁻¹ smooth where a leads;
+        2. da/dt > 0, and a(a⁻¹(τ)) = τ for τ ≥ t₀, with an a⁻¹ that is shown to stay in the interval;
+        3. da⁻¹/dτ > 0 for all τ ≥ t₀, a⁻¹ tends to the interval's end, and a(a⁻¹(τ)) = τ: it is onto, so that a is its
+           inverse on the whole interval;
+        4. da⁻¹/dτ > 0 for all τ ≥ t₀, a⁻¹(a(t)) = t, and a(t) ≥ t₀ is shown: without the last, a may be another branch
+           of the inverse, which may well fall.
     """
 
     t: sp.Symbol
@@ -70,15 +88,32 @@ class Clock:
     def __post_init__(self) -> None:
         for field in ("to_tau", "to_t", "start", "horizon"):
             object.__setattr__(self, field, sp.sympify(getattr(self, field)))
-        if not isinstance(self.t, sp.Symbol) or not isinstance(self.tau, sp.Symbol) or self.t == self.tau:
-            raise InputError(f"{self.name}: the two times must be distinct symbols")
+        self._check_symbols()
         for what, shown in (
             ("both times agree at the start", self._agree_at_start),
-            ("the inverse undoes the map", self._is_inverse),
-            ("the map increases", lambda: self._grows() or self._rises_to_the_end()),
+            ("the map is smooth", lambda: self.is_smooth_on_interval(self.to_tau)),
+            ("the inverse undoes the map", lambda: self._undoes_map or self._is_undone),
+            ("the map increases", self._is_increasing_inverse),
         ):
             if not shown():
                 raise InputError(f"{self.name}: it does not hold, or cannot be shown, that {what}")
+
+    def _check_symbols(self) -> None:
+        times = {self.t, self.tau}
+        if not all(isinstance(time, sp.Symbol) for time in times) or len(times) < 2:
+            raise InputError(f"{self.name}: the two times must be distinct symbols")
+        for time in (self.t, self.tau):
+            if not is_plainly_real(time):
+                raise InputError(f"{self.name}: the time {time} must be declared real, and nothing more")
+        if not (self.start.is_real and self.start.is_finite) or self.start.free_symbols & times:
+            raise InputError(f"{self.name}: the start {self.start} is not a real instant")
+        if not (self.horizon is sp.oo or self.horizon.is_positive) or self.horizon.free_symbols & times:
+            raise InputError(f"{self.name}: the horizon {self.horizon} is not shown to be a positive length of time")
+        for formula, other in ((self.to_tau, self.tau), (self.to_t, self.t)):
+            if other in formula.free_symbols:
+                raise InputError(f"{self.name}: {formula} contains {other}, the other time")
+            if unknown := [symbol.name for symbol in formula.free_symbols if not symbol.is_real]:
+                raise InputError(f"{self.name}: not declared real: {', '.join(sorted(unknown))}")
 
     def instant(self, nu: sp.Expr) -> sp.Expr:
         """The t at which ν = 1 − (t − t₀)/horizon, which falls from 1 to 0 (eq:nu), has the value ``nu``."""
@@ -117,41 +152,79 @@ class Clock:
         """An expression in τ for τ > t₀, by the symbol τ − t₀ > 0."""
         return settle(expression.subs(self.tau, self.start + sp.Dummy("e", positive=True)))
 
+    def _from_start_on(self, expression: sp.Expr) -> sp.Expr:
+        """An expression in τ for τ ≥ t₀, by the symbol τ − t₀ ≥ 0."""
+        return settle(expression.subs(self.tau, self.start + sp.Dummy("e", nonnegative=True)))
+
     def _agree_at_start(self) -> bool:
         starts = (self.to_tau.subs(self.t, self.start), self.to_t.subs(self.tau, self.start))
         return all(vanishes(instant - self.start) for instant in starts)
 
+    def is_smooth_on_interval(self, expression: sp.Expr) -> bool:
+        """Whether an expression in t is continuously differentiable on the interval, as it is written."""
+        w = sp.Dummy("w", nonnegative=True)
+        elapsed = w if self.horizon is sp.oo else self.horizon * w / (1 + w)
+        return is_smooth(expression.subs(self.t, self.start + elapsed), w)
+
+    @cached_property
+    def _inverse_is_smooth(self) -> bool:
+        """Whether a⁻¹ is continuously differentiable for all τ ≥ t₀, as it is written."""
+        e = sp.Dummy("e", nonnegative=True)
+        return is_smooth(self.to_t.subs(self.tau, self.start + e), e)
+
+    @cached_property
     def _grows(self) -> bool:
         return is_positive(self.on_interval(self.rate))
 
-    def _is_inverse(self) -> bool:
+    @cached_property
+    def _rises(self) -> bool:
+        """Whether a⁻¹ is shown to increase for all τ ≥ t₀."""
+        return self._inverse_is_smooth and is_positive(self._from_start_on(self.rate_back))
+
+    @cached_property
+    def _undoes_map(self) -> bool:
+        """Whether a⁻¹(a(t)) = t by exact algebra."""
         back = self.to_t.subs(self.tau, self.to_tau) - self.t
-        rates = self.rate * self.rate_back.subs(self.tau, self.to_tau) - 1
         views: tuple[Callable[[sp.Expr], sp.Expr], ...] = (lambda entry: entry, self._by_nu, self.on_interval)
-        if any(vanishes(view(back)) and vanishes(view(rates)) for view in views):
+        return any(vanishes(view(back)) for view in views)
+
+    @cached_property
+    def _is_undone(self) -> bool:
+        """Whether a(a⁻¹(τ)) = τ for τ > t₀ by exact algebra."""
+        return vanishes(self._later(self.to_tau.subs(self.t, self.to_t) - self.tau))
+
+    def _is_increasing_inverse(self) -> bool:
+        """One of the four ways, the cheapest first."""
+        if self._grows and self._undoes_map and self._is_smooth_where_a_leads():
             return True
-        forth = self.to_tau.subs(self.t, self.to_t) - self.tau
-        rates = self.rate.subs(self.t, self.to_t) * self.rate_back - 1
-        if not (vanishes(self._later(forth)) and vanishes(self._later(rates))):
+        if self._is_undone and self._grows and self._inverse_is_smooth and self._stays_inside():
+            return True
+        if not self._rises:
             return False
-        # Injective: then a(a⁻¹(a(t))) = a(t) gives a⁻¹(a(t)) = t, if a⁻¹ stays in the interval.
+        if self._is_undone and self._inverse_tends_to_the_end():
+            return True
+        return self._undoes_map and is_nonnegative(self.on_interval(self.to_tau - self.start))
+
+    def _is_smooth_where_a_leads(self) -> bool:
+        return self._inverse_is_smooth or self.is_smooth_on_interval(self.to_t.subs(self.tau, self.to_tau))
+
+    def _stays_inside(self) -> bool:
         elapsed = self._later(self.to_t - self.start)
         left = () if self.horizon is sp.oo else (self.horizon - elapsed,)
-        if self._grows() and all(is_positive(length) for length in (elapsed, *left)):
-            return True
-        # Onto: then every t is a⁻¹(τ) for some τ, and a⁻¹(a(a⁻¹(τ))) = a⁻¹(τ).
-        return self._rises_to_the_end()
+        return all(is_positive(length) for length in (elapsed, *left))
 
-    def _rises_to_the_end(self) -> bool:
-        """Whether a⁻¹ is shown to increase, and to tend to the end of the interval as τ → ∞."""
-        return is_positive(self._later(self.rate_back)) and self.tends_to_the_end()
-
-    def tends_to_the_end(self) -> bool:
-        """Whether a⁻¹ is shown to tend to the end of the interval as τ → ∞."""
+    def _inverse_tends_to_the_end(self) -> bool:
         end = limit_at_infinity(self.to_t, self.tau)
         if end is None or sp.oo in (end, self.horizon):
             return end is self.horizon
         return vanishes(end - self.start - self.horizon)
+
+    def tends_to_the_end(self) -> bool:
+        """Whether τ is shown to tend to ∞ at the end of the interval: by a⁻¹, where it rises to the end, or by a."""
+        if self._rises and self._inverse_tends_to_the_end():
+            return True
+        end = sp.oo if self.horizon is sp.oo else self.start + self.horizon
+        return limit_of(self.to_tau, self.t, end, "-") is sp.oo
 
     def _repr_latex_(self) -> str:
         return displayed(self.t, self.tau, self.pieces[0])

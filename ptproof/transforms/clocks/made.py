@@ -5,6 +5,7 @@ from __future__ import annotations
 import sympy as sp
 
 from ptproof.errors import InputError
+from ptproof.proof.signs import vanishes
 from ptproof.reading.limits import OutOfTime, within
 from ptproof.transforms.clocks.algebra import is_positive
 from ptproof.transforms.clocks.clock import Clock
@@ -64,9 +65,12 @@ def clock_from_rate(
     if prescribed_time and horizon is not sp.oo and not _refuse_finite(rate, t, start, horizon, name):
         raise InputError(_unknown(rate, start, horizon, name))
     formula = start + _integral_from_start(rate, t, start, horizon, name)
-    return clock_from_formula(
+    clock = clock_from_formula(
         t, tau, formula, start=start, horizon=horizon, inverse=inverse, prescribed_time=False, name=name
     )
+    if not vanishes(clock.on_interval(clock.rate - rate)):
+        raise InputError(f"{name}: it cannot be shown that {clock.to_tau} has the rate {rate}")
+    return clock
 
 
 def _refuse_finite(rate: sp.Expr, t: sp.Symbol, start: sp.Expr, horizon: sp.Expr, name: str) -> bool:

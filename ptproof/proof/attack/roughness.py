@@ -1,0 +1,126 @@
+"""Attacking smoothness: derivatives beside an exact point, on all sides and closer and closer to it.
+
+Beside the point the derivatives are exact (Taylor series); at the point only their limits are looked at. Derivatives
+that grow without bound, or tend to different values from different sides, are no continuous ones.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from fractions import Fraction
+from itertools import pairwise
+from typing import Any
+
+import sympy as sp
+
+from ptproof.proof.attack.evaluator import Evaluator, Inadmissible
+from ptproof.proof.attack.kinds import fits_kind, holds
+from ptproof.proof.attack.numbers import NotReal, Number, Undefined, Unsure
+from ptproof.proof.attack.preparation import Prepared
+from ptproof.proof.attack.sampling import Point
+from ptproof.proof.attack.series import ONE, ZERO, Series, base
+from ptproof.proof.statement import Smooth
+
+_STEPS = tuple(Fraction(1, 10**k) for k in (6, 10, 14, 18))
+_BOUNDED, _APART = 1e3, 200.0
+
+
+def rough(statement: Smooth, ready: Prepared, point: Point, digits: int) -> str:
+    """Why the statement fails at the point; empty if no reason was found."""
+    variables = [variable for variable in statement.variables if variable in point.values]
+    directions = _directions(variables)
+    evaluator = point.evaluator(digits)
+    for expression in statement.expressions:
+        try:
+            evaluator.number(expression, evaluator.point)
+        except (Undefined, NotReal) as error:
+            return f"{error} at the point itself"
+        except Unsure:
+            pass
+        for along, order in itertools.product(directions, range(int(statement.order) + 1)):
+            limits: list[tuple[float, float]] = []
+            for towards, side in itertools.product(directions, (1, -1)):
+                values = _approached(expression, along, order, towards, side, ready, point, digits)
+                if values is None:
+                    continue
+                if _grows(values):
+                    return f"derivative {order} is not bounded"
+                limits.append((values[-1], 2 * abs(values[-1] - values[-2])))
+            for (a, e), (b, f) in itertools.combinations(limits, 2):
+                if abs(a - b) > _APART * (e + f) + 1e-9 * (abs(a) + abs(b)):
+                    return f"derivative {order} jumps"
+    return ""
+
+
+def _directions(variables: Sequence[Any]) -> list[dict[Any, Fraction]]:
+    axes = [{variable: ONE} for variable in variables]
+    if len(variables) < 2:
+        return axes
+    slopes = (Fraction(1), Fraction(-3, 2), Fraction(2, 3), Fraction(-5, 4))
+    return [*axes, dict(zip(variables, itertools.cycle(slopes), strict=False))]
+
+
+def _approached(
+    expression: sp.Expr,
+    along: Mapping[Any, Fraction],
+    order: int,
+    towards: Mapping[Any, Fraction],
+    side: int,
+    ready: Prepared,
+    point: Point,
+    digits: int,
+) -> list[float] | None:
+    """The derivative along a line at places that approach the point; None where the claim does not speak of them."""
+    found = []
+    for step in _STEPS:
+        values = {atom: value + side * step * towards.get(atom, ZERO) for atom, value in point.values.items()}
+        if not all(fits_kind(atom, values[atom]) for atom in towards):
+            return None
+        try:
+            # A function with a kink at the point must not move along with the place.
+            evaluator = replace(point, values=values, functions=_fixed(point)).evaluator(digits)
+            if not all(holds(bound.relation, evaluator) for bound in ready.bounds):
+                return None
+            found.append(_derivative(expression, along, order, evaluator))
+        except (Unsure, Inadmissible):
+            return None
+    return found
+
+
+def _fixed(point: Point) -> Mapping[Any, Any]:
+    known = {atom: sp.Rational(value.numerator, value.denominator) for atom, value in point.values.items()}
+    return {
+        function: replace(concrete, body=concrete.body.xreplace(known))
+        for function, concrete in point.functions.items()
+    }
+
+
+def _derivative(expression: sp.Expr, along: Mapping[Any, Fraction], order: int, evaluator: Evaluator) -> float:
+    scope = evaluator.point
+    if order:
+        rest = (ZERO,) * (order - 1)
+        moving = {atom: Series(0, (base(scope.symbols[atom]), slope, *rest)) for atom, slope in along.items()}
+        scope = scope.with_values(moving)
+    value = evaluator.value(expression, scope)
+    if isinstance(value, Series):
+        value = value.terms[order]
+    elif order:
+        value = ZERO
+    number: Number = base(value)
+    found = float(number if isinstance(number, Fraction) else number.middle)
+    if not isinstance(number, Fraction) and number.error > max(-60.0, evaluator.calculus.numbers.negligible / 4):
+        raise Unsure("a derivative is not known well enough")
+    for factor in range(2, order + 1):
+        found *= factor
+    return found
+
+
+def _grows(values: Sequence[float]) -> bool:
+    """Whether values grow by a factor, or by the same amount, each time the point is approached further."""
+    sizes = [abs(value) for value in values]
+    if all(later > 5 * earlier for earlier, later in pairwise(sizes)) and sizes[-1] > _BOUNDED:
+        return True
+    gains = [later - earlier for earlier, later in pairwise(sizes)]
+    return min(gains) > 1e-3 and all(abs(b - a) < 0.02 * abs(a) for a, b in pairwise(gains))

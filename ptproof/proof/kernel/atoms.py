@@ -1,0 +1,119 @@
+"""What is not rational arithmetic, as fresh real numbers with what is known of them: the lines for Coq that do so."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+
+import sympy as sp
+
+from ptproof.proof.kernel.names import Names
+from ptproof.proof.kernel.terms import term
+
+
+@dataclass
+class Atoms:
+    """Turns expressions into rational ones in symbols that stand for everything else; collects how Coq follows.
+
+    Attributes
+    ----------
+    names
+        The identifiers of the claim's symbols, and those of the atoms made so far.
+    lines
+        Tactics, in order: equations between powers of one base, then one line an atom.
+    """
+
+    names: dict[sp.Basic, str]
+    made: dict[sp.Basic, sp.Symbol] = field(default_factory=dict)
+    powers: dict[sp.Basic, list[sp.Basic]] = field(default_factory=dict)
+    lines: list[str] = field(default_factory=list)
+
+    @classmethod
+    def over(cls, names: Names) -> Atoms:
+        return cls(dict(names))
+
+    def __call__(self, expression: sp.Basic) -> sp.Basic:
+        if isinstance(expression, sp.Rational) or expression.is_Symbol:
+            return expression
+        if isinstance(expression, sp.Add | sp.Mul):
+            return expression.func(*map(self, expression.args))
+        if isinstance(expression, sp.Pow):
+            base, exponent = expression.args
+            if exponent.is_Integer:
+                return self(base) ** exponent
+            if exponent.is_Rational and exponent.q == 2:
+                return self._atom(sp.sqrt(base)) ** exponent.p
+            if base.is_positive and exponent.could_extract_minus_sign():
+                return 1 / self(base ** (-exponent))
+            if base.is_positive:
+                return self._power(base, exponent)
+        return self._atom(expression)
+
+    def fresh(self, name: str) -> str:
+        """An identifier that nothing else has."""
+        taken = set(self.names.values())
+        while name in taken:
+            name += "_"
+        return name
+
+    def _power(self, base: sp.Basic, exponent: sp.Basic) -> sp.Basic:
+        """The power by the one chosen for its base, where the exponents differ by whole numbers."""
+        for chosen in self.powers.setdefault(base, []):
+            if exponent != chosen and (found := _whole(exponent, chosen)) is not None:
+                times, rest = found
+                old, new = (term(base**e, self.names) for e in (exponent, chosen))
+                text = term(base, self.names)
+                factors = [f"({new} ^ {times})" if times > 1 else new]
+                if rest:
+                    factors.append(f"({text} ^ {rest})" if rest > 0 else f"(/ ({text} ^ {-rest}))")
+                line = f"try (power_as {old} ({' * '.join(factors)}))"
+                if line not in self.lines:
+                    self.lines.insert(0, line)
+                return self._atom(base**chosen) ** times * self(base) ** rest
+        if exponent not in self.powers[base]:
+            self.powers[base].append(exponent)
+        return self._atom(base**exponent)
+
+    def choose(self, expressions: Iterable[sp.Basic]) -> None:
+        """Choose, for every base, the powers by which the others are written with the fewest denominators."""
+        found: dict[sp.Basic, set[sp.Basic]] = {}
+        for expression in expressions:
+            for power in expression.atoms(sp.Pow):
+                base, exponent = power.args
+                if base.is_positive and not (2 * exponent).is_Integer:
+                    found.setdefault(base, set()).add(-exponent if exponent.could_extract_minus_sign() else exponent)
+        for base, exponents in found.items():
+            left = set(exponents)
+            while left:
+                best = min(left, key=lambda e: (_cost(e, left), str(e)))
+                self.powers.setdefault(base, []).append(best)
+                left = {e for e in left if e != best and _whole(e, best) is None}
+
+    def _atom(self, expression: sp.Basic) -> sp.Symbol:
+        if expression not in self.made:
+            text = term(expression, self.names)
+            name = self.fresh(f"a{len(self.made)}")
+            sign = {"positive": True} if expression.is_positive else {}
+            sign = sign or ({"nonnegative": True} if expression.is_nonnegative else {})
+            symbol = sp.Symbol(name, real=True, **sign)
+            self.made[expression] = symbol
+            self.names[symbol] = name
+            self.lines.append(f"try (atom {name} {text})")
+        return self.made[expression]
+
+
+def _whole(exponent: sp.Basic, chosen: sp.Basic) -> tuple[int, int] | None:
+    """Whole numbers with exponent = times chosen + rest."""
+    for times in (1, 2, 3):
+        rest = sp.simplify(exponent - times * chosen)
+        if rest.is_Integer and abs(rest) <= 4:
+            return times, int(rest)
+    return None
+
+
+def _cost(chosen: sp.Basic, exponents: set[sp.Basic]) -> int:
+    cost = 0
+    for exponent in exponents:
+        found = _whole(exponent, chosen)
+        cost += 10 if found is None else found[0] + (abs(found[1]) if found[1] >= 0 else 5)
+    return cost

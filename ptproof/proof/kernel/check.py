@@ -1,0 +1,131 @@
+"""Asking Coq's kernel about claims: restated, in files of several, in parallel, each with a time limit."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+import threading
+import time
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+
+from ptproof.proof.claim import Claim
+from ptproof.proof.kernel import coq
+from ptproof.proof.kernel.portfolio import script
+from ptproof.proof.kernel.terms import NoTranslation
+from ptproof.proof.kernel.theorem import Proposition, proposition
+
+SECONDS_PER_CLAIM = 40.0
+_IN_A_FILE = 6
+_TO_START = 30.0
+
+
+@dataclass(frozen=True)
+class Confirmation:
+    """What Coq's kernel says of one claim.
+
+    Attributes
+    ----------
+    confirmed
+        Whether the kernel has checked a proof of the claim as restated.
+    reason
+        Why not.
+    proposition
+        The claim in Coq's words, where it has a translation.
+    seconds
+        How long the file took that the claim stood in, shared among its claims. [s]
+    """
+
+    confirmed: bool
+    reason: str = ""
+    proposition: str = ""
+    seconds: float = 0.0
+
+
+Progress = Callable[[Claim, Confirmation], None]
+Stated = tuple[Claim, Proposition, coq.Theorem]
+
+
+def check(
+    claims: Iterable[Claim], *, workers: int | None = None, timeout: float = SECONDS_PER_CLAIM,
+    progress: Progress | None = None, keep: Path | None = None,
+) -> dict[str, Confirmation]:  # fmt: skip
+    """Have Coq's kernel check each claim.
+
+    Parameters
+    ----------
+    claims
+        Those that were proved; whether they were is not looked at here.
+    workers
+        How many processes of Coq at a time (the number of processors where left out).
+    timeout
+        The time limit of one claim. [s]
+    progress
+        Called with each claim and what became of it, as it comes in.
+    keep
+        A folder in which the files for Coq are left.
+
+    Returns
+    -------
+    dict
+        By the claims' ids. A claim of which Coq has found no proof may be true all the same.
+    """
+    wanted = list(claims)
+    answers: dict[str, Confirmation] = {}
+    lock = threading.Lock()
+
+    def answer(claim: Claim, confirmation: Confirmation) -> None:
+        with lock:
+            answers[claim.id] = confirmation
+            if progress is not None:
+                progress(claim, confirmation)
+
+    if lacking := coq.missing():
+        for claim in wanted:
+            answer(claim, Confirmation(False, lacking))
+        return answers
+    with tempfile.TemporaryDirectory() as temporary:
+        folder = Path(temporary) if keep is None else keep
+        folder.mkdir(parents=True, exist_ok=True)
+        coq.prepare(folder)
+
+        def work(number: int) -> None:
+            part = wanted[number * _IN_A_FILE : (number + 1) * _IN_A_FILE]
+            for claim, confirmation in _answers(folder, number, part, timeout):
+                answer(claim, confirmation)
+
+        with ThreadPoolExecutor(workers or os.cpu_count() or 1) as pool:
+            for _ in pool.map(work, range(-(-len(wanted) // _IN_A_FILE))):
+                pass
+    return {claim.id: answers[claim.id] for claim in wanted}
+
+
+def _answers(
+    folder: Path, number: int, claims: Sequence[Claim], timeout: float
+) -> Iterator[tuple[Claim, Confirmation]]:
+    """What Coq says of these claims. Where it stops at one, the rest is asked again without that one."""
+    left: list[Stated] = []
+    for claim in claims:
+        try:
+            said = proposition(claim)
+            left.append((claim, said, coq.Theorem(f"{said.name}_{number}", said.text, script(said))))
+        except NoTranslation as error:
+            yield claim, Confirmation(False, str(error))
+    run = 0
+    while left:
+        theorems = [theorem for *_, theorem in left]
+        file = folder / f"claims_{number:03d}{f'_{run}' if run else ''}.v"
+        file.write_text(coq.source(theorems, timeout), encoding="utf-8")
+        start = time.perf_counter()
+        printed = coq.run(folder, file.name, _TO_START + 2 * timeout * len(left))
+        heard = list(coq.heard(printed.output, theorems))
+        seconds = (time.perf_counter() - start) / max(1, min(len(left), len(heard) + 1))
+        for (claim, said, _), reason in zip(left, heard, strict=False):
+            yield claim, Confirmation(not reason, reason, said.text, seconds)
+        left = left[len(heard) :]
+        if left:
+            claim, said, _ = left.pop(0)
+            yield claim, Confirmation(False, printed.stopped(), said.text, seconds)
+        run += 1

@@ -1,0 +1,142 @@
+"""Coq as a process: the library that ships here compiled once a run, files of theorems checked, what was printed read."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import re
+import shutil
+import signal
+import subprocess
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+# What a theorem may rest on, and what needs it. Nothing else may be assumed.
+AXIOMS: Mapping[str, str] = {
+    "ClassicalDedekindReals.sig_forall_dec": "Coq's real numbers",
+    "ClassicalDedekindReals.sig_not_dec": "Coq's real numbers",
+    "FunctionalExtensionality.functional_extensionality_dep": "Coq's real numbers and Coquelicot",
+    "functional_extensionality_dep": "the same by its short name",
+    "Classical_Prop.classic": "Coquelicot's limits and integrals, and Flocq below Interval",
+    "Eqdep.Eq_rect_eq.eq_rect_eq": "Flocq below Interval",
+    "ClassicalEpsilon.constructive_indefinite_description": "Coquelicot's integrals",
+}
+# The kernel's own machine integers and floats, with which Interval computes: computed by the kernel, not assumed of reals.
+_MACHINE = re.compile(r"(PrimInt63|Uint63|Uint63Axioms|PrimFloat|FloatAxioms|FloatOps|Sint63)\.\w+|(int|float)")
+_PACKAGES = "coq, libcoq-coquelicot and libcoq-interval (on Debian and Ubuntu: apt install them)"
+
+
+@dataclass(frozen=True)
+class Theorem:
+    """A proposition by name, and the tactics that are to prove it."""
+
+    name: str
+    text: str
+    script: str
+
+    @property
+    def proof(self) -> str:
+        return f"proof_of_{self.name}"
+
+
+@dataclass(frozen=True)
+class Printed:
+    """What a run of Coq has printed, and whether it was ended at its time limit."""
+
+    output: str
+    error: str
+    late: bool
+
+    def stopped(self) -> str:
+        """Why Coq stopped at a theorem."""
+        if self.late or "Timeout!" in self.error:
+            return "time limit"
+        if found := re.search(r"Tactic failure: at (.*)", self.error, re.DOTALL):
+            return f"no tactic proved {' '.join(found[1].split())[:300].removesuffix('.')}"
+        if "Error" in self.error and "Tactic" not in self.error and "tactic" not in self.error:
+            return f"Coq does not take it: {' '.join(self.error.partition('Error:')[2].split())[:300]}"
+        return "no tactic proved it"
+
+
+def missing() -> str:
+    """What has to be installed before Coq can be asked; empty if nothing."""
+    coqc = shutil.which("coqc")
+    if coqc is None:
+        return f"coq is not installed; it takes {_PACKAGES}"
+    where = subprocess.run([coqc, "-where"], capture_output=True, text=True, check=False).stdout.strip()
+    for library in ("Coquelicot", "Interval"):
+        if not (Path(where) / "user-contrib" / library).is_dir():
+            return f"Coq's library {library} is not installed; it takes {_PACKAGES}"
+    return ""
+
+
+def prepare(folder: Path) -> None:
+    """Write the library of definitions, lemmas and tactics into ``folder`` and compile it.
+
+    Raises
+    ------
+    RuntimeError
+        If Coq refuses it: it is another version than the one that this was written for.
+    """
+    text = Path(__file__).with_name("theory.v").read_text(encoding="utf-8")
+    (folder / "Theory.v").write_text(text, encoding="utf-8")
+    done = run(folder, "Theory.v", 300)
+    if done.error or done.late:
+        raise RuntimeError(f"Coq refuses the library of tactics: {done.error.strip() or 'time limit'}")
+
+
+def run(folder: Path, file: str, seconds: float) -> Printed:
+    """Have the file checked, in the folder of the library, and every process of it ended at the time limit."""
+    command = ["coqc", "-q", "-w", "none", "-Q", ".", "Ptproof", file]
+    with subprocess.Popen(
+        command, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+        encoding="utf-8", errors="replace", start_new_session=True,
+    ) as process:  # fmt: skip
+        try:
+            output, error = process.communicate(timeout=seconds)
+            late = False
+        except BaseException as stop:
+            with contextlib.suppress(ProcessLookupError):
+                os.killpg(process.pid, signal.SIGKILL)
+            output, error = process.communicate()
+            late = True
+            if not isinstance(stop, subprocess.TimeoutExpired):
+                raise
+    return Printed(output, error if process.returncode or late else "", late)
+
+
+def source(theorems: Sequence[Theorem], seconds: float) -> str:
+    """A file in which each theorem states its proposition, proves it and prints what it says and what it rests on."""
+    lines = ["From Coq Require Import Reals Lra Psatz Nsatz.", "From Coquelicot Require Import Coquelicot.",
+             "From Ptproof Require Import Theory.", "Open Scope R_scope.", ""]  # fmt: skip
+    for theorem in theorems:
+        lines += [
+            f"Definition {theorem.name} : Prop :=\n  {theorem.text}.\n",
+            f"Theorem {theorem.proof} : {theorem.name}.",
+            f"Proof. unfold {theorem.name}. Timeout {max(1, round(seconds))} ({theorem.script}). Qed.",
+            f"Check {theorem.proof}.",
+            f"Print Assumptions {theorem.proof}.\n",
+        ]
+    return "\n".join(lines)
+
+
+def heard(output: str, theorems: Sequence[Theorem]) -> Iterator[str]:
+    """For each theorem that the kernel has accepted, in their order: nothing, or what speaks against it.
+
+    The kernel has printed the name, the proposition and the axioms of each; all three are looked at.
+    """
+    places = [match.start() for match in re.finditer(r"^proof_of_\w+\s+:", output, re.MULTILINE)]
+    for theorem, start, end in zip(theorems, places, [*places[1:], len(output)], strict=False):
+        stated, _, rest = output[start:end].partition("\n     : ")
+        said, _, assumed = rest.partition("\n")
+        if stated != theorem.proof or said != theorem.name:
+            yield "what Coq proved is not what was asked"
+        elif assumed.startswith("Closed under the global context"):
+            yield ""
+        elif assumed.startswith("Axioms:"):
+            names = re.findall(r"^([A-Za-z_][\w.']*)\s*:", assumed[len("Axioms:") :], re.MULTILINE)
+            foreign = [name for name in names if name not in AXIOMS and not _MACHINE.fullmatch(name)]
+            yield f"it rests on {', '.join(foreign)}" if foreign else "" if names else "its axioms cannot be read"
+        else:
+            return

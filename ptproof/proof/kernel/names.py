@@ -1,0 +1,139 @@
+"""Names for Coq: every symbol and every undefined function of a claim gets an identifier of its own."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+# What a translated statement may say besides its own names: a symbol of such a name would hide it.
+WORDS = frozenset(
+    [
+        "Prop",
+        "Set",
+        "Type",
+        "R",
+        "Rbar",
+        "nat",
+        "Z",
+        "IZR",
+        "INR",
+        "PI",
+        "exp",
+        "ln",
+        "sin",
+        "cos",
+        "tan",
+        "sinh",
+        "cosh",
+        "tanh",
+        "atan",
+        "sqrt",
+        "Rabs",
+        "Rmax",
+        "Rmin",
+        "Rpower",
+        "rpow",
+        "pow",
+        "is_integer",
+        "Rle_dec",
+        "Rlt_dec",
+        "Rge_dec",
+        "Rgt_dec",
+        "Req_EM_T",
+        "Derive",
+        "ex_derive",
+        "is_derive",
+        "RInt",
+        "ex_RInt",
+        "is_RInt_gen",
+        "at_point",
+        "at_left",
+        "at_right",
+        "locally",
+        "filterlim",
+        "Rbar_locally",
+        "p_infty",
+        "m_infty",
+        "Finite",
+        "True",
+        "False",
+        "fun",
+        "forall",
+        "exists",
+    ]
+)
+# The words of Coq's own grammar.
+_GRAMMAR = frozenset(
+    [
+        "_",
+        "as",
+        "at",
+        "cofix",
+        "else",
+        "end",
+        "exists",
+        "exists2",
+        "fix",
+        "for",
+        "forall",
+        "fun",
+        "if",
+        "in",
+        "let",
+        "match",
+        "mod",
+        "return",
+        "SProp",
+        "struct",
+        "then",
+        "using",
+        "where",
+        "with",
+        "by",
+        "IF",
+        "Axiom",
+        "Definition",
+        "Theorem",
+        "Lemma",
+        "Parameter",
+        "Variable",
+        "Hypothesis",
+        "Qed",
+        "Proof",
+        "Fixpoint",
+        "Ltac",
+        "Notation",
+    ]
+)
+
+
+def identifiers(items: Iterable[Any], taken: Iterable[str] = ()) -> dict[Any, str]:
+    """An identifier for each symbol or function, in a fixed order; no two are the same, and none means anything to Coq.
+
+    Symbols that differ only in their assumptions, or a symbol and a function of one name, get different identifiers.
+    """
+    used = {*WORDS, *_GRAMMAR, *taken}
+    names: dict[Any, str] = {}
+    for item in items:
+        base = plain(getattr(item, "name", None) or item.__name__)
+        name, count = base, 1
+        while name in used:
+            count += 1
+            name = f"{base}_{count}"
+        used.add(name)
+        names[item] = name
+    return names
+
+
+def plain(text: str) -> str:
+    """``text`` in letters, digits and underscores of ASCII, as an identifier that begins with a letter.
+
+    >>> plain("x'"), plain("1/nu"), plain("")
+    ('x_', 'v_1_nu', 'v_')
+    """
+    name = re.sub(r"[^A-Za-z0-9_]", "_", text)
+    return name if re.match(r"[A-Za-z]", name) else f"v_{name}"
+
+
+Names = Mapping[Any, str]

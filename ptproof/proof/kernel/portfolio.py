@@ -1,0 +1,169 @@
+"""The tactics that are tried on a proposition, with hints that SymPy finds: Coq checks each of them or fails.
+
+A hint is a rearrangement (a difference as a product, a variable as a bound and what is above it) or a product of what is
+not negative. None of them is believed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import sympy as sp
+
+from ptproof.proof.kernel.atoms import Atoms
+from ptproof.proof.kernel.products import products
+from ptproof.proof.kernel.terms import NoTranslation, term
+from ptproof.proof.kernel.theorem import Part, Proposition
+from ptproof.proof.statement import Relation
+
+
+def script(said: Proposition) -> str:
+    """The tactics for the whole proposition, as one sentence for Coq."""
+    known = list(dict.fromkeys(part.relation for part in said.premises if part.relation is not None
+                               and part.relation.sign != "!=" and not _trivial(part.relation)))  # fmt: skip
+    leaves = [_leaf(part, known, said) for part in said.conclusions]
+    return f"intros; facts; pieces; [> {' | '.join(leaves)} ]"
+
+
+def _trivial(relation: Relation) -> bool:
+    """Whether the relation is what the symbol is declared to be."""
+    return bool(relation.right == 0 and relation.left.is_Symbol and relation.left.is_positive)
+
+
+def _leaf(part: Part, known: list[Relation], said: Proposition) -> str:
+    if part.relation is None or part.relation.sign == "=" or _trivial(part.relation):
+        return "leaf_or_say"
+    tries: list[str] = []
+    for way in (_directly, _by_logarithms):
+        try:
+            tries += way(part.relation, known, said)
+        except (NoTranslation, sp.PolynomialError):
+            continue
+    quick = "quickly"
+    return "; ".join([quick, *(f"try ({hint})" for hint in tries), "leaf_or_say"])
+
+
+def _directly(relation: Relation, known: list[Relation], said: Proposition) -> Iterator[str]:
+    if relation.sign == "!=" and relation.left.is_nonzero and relation.left.is_Symbol:
+        return
+    atoms = Atoms.over(said.names)
+    atoms.choose(side for item in (relation, *known) for side in (item.left, item.right))
+    goal = relation.standard().map(atoms)
+    facts = []
+    for item in known:
+        try:
+            facts.append(item.standard().map(atoms))
+        except NoTranslation:
+            continue
+    moved, lines = slack(facts, atoms)
+    gap = sp.factor(sp.together((goal.right - goal.left).xreplace(moved)))
+    start = "; ".join([*atoms.lines, *lines])
+    start = f"{start}; " if start else ""
+    if relation.sign == "!=":
+        yield f"solve [ {start}timeout 10 (nonzero_as {_text(-gap, atoms)}) ]"
+        return
+    yield f"solve [ {start}timeout 10 (difference_as {_text(gap, atoms)}) ]"
+    if gap.is_positive or (gap.is_nonnegative and relation.sign in ("<=", ">=")):
+        return
+    # Here the variables stay as they are: their bounds are facts like any other.
+    gap = sp.factor(sp.together(goal.right - goal.left))
+    if hint := _by_products(gap, facts, atoms):
+        yield f"solve [ {'; '.join([*atoms.lines, hint])} ]"
+
+
+def _by_products(gap: sp.Expr, facts: list[Relation], atoms: Atoms) -> str:
+    top, bottom = sp.fraction(gap)
+    found = products(top, facts)
+    if found is None:
+        return ""
+    steps = [f"top_of {_text(top, atoms)} {_text(bottom, atoms)}"]
+    if found.factor != 1:
+        steps.append(f"multiply_by {_text(found.factor, atoms)}")
+    steps += [f"fact_from {_text(fact.bottom, atoms)} {_text(fact.top, atoms)}" for fact in found.facts]
+    steps += [f"product ({' * '.join(_text(factor, atoms) for factor in factors)})" for factors in found.products]
+    return "; ".join([*steps, "linear"])
+
+
+def _by_logarithms(relation: Relation, known: list[Relation], said: Proposition) -> Iterator[str]:
+    """Both sides, and those of what is known, as sums of logarithms, where they are products of powers."""
+    goal = relation.standard()
+    if relation.sign == "!=" or not (_monomial(goal.left) and _monomial(goal.right)):
+        return
+    atoms = Atoms.over(said.names)
+    steps = ["by_logarithms"]
+    facts = []
+    for item in (given.standard() for given in known):
+        if _monomial(item.left) and _monomial(item.right):
+            steps.append(
+                f"try (logarithms_of {_brackets(term(item.left, said.names))} {_brackets(term(item.right, said.names))})"
+            )
+            facts.append(item.map(_logarithm).map(atoms))
+        elif item.left.is_number or item.right.is_number:
+            facts.append(item.map(atoms))
+    facts += [Relation(sp.Integer(1), "<=", symbol) for symbol in said.names if getattr(symbol, "is_Symbol", False)
+              and symbol.is_integer and symbol.is_positive]  # fmt: skip
+    goal = goal.map(_logarithm).map(atoms)
+    gap = sp.factor(sp.together(goal.right - goal.left))
+    if hint := _by_products(gap, facts, atoms):
+        yield f"solve [ {'; '.join([*steps, 'logarithms', *atoms.lines, hint])} ]"
+
+
+def _monomial(expression: sp.Basic) -> bool:
+    if expression.is_Mul:
+        return all(map(_monomial, expression.args))
+    if expression.is_Pow:
+        return _monomial(expression.base)
+    return bool(expression.is_positive and (expression.is_Symbol or expression.is_Rational))
+
+
+def _logarithm(expression: sp.Basic) -> sp.Expr:
+    if expression.is_Mul:
+        return sp.Add(*map(_logarithm, expression.args))
+    if expression.is_Pow:
+        return expression.exp * _logarithm(expression.base)
+    if expression.is_Rational and expression.q != 1:
+        return _logarithm(sp.Integer(expression.p)) - _logarithm(sp.Integer(expression.q))
+    return sp.log(expression)
+
+
+def slack(facts: list[Relation], atoms: Atoms) -> tuple[dict[sp.Symbol, sp.Expr], list[str]]:
+    """Variables replaced by what they are equal to, or by a lower bound and what is above it, with the lines for Coq."""
+    moved: dict[sp.Symbol, sp.Expr] = {}
+    lines: list[str] = []
+    for relation in facts:
+        gap = sp.expand((relation.right - relation.left).xreplace(moved))
+        symbol = _solvable(gap, relation.sign)
+        if symbol is None:
+            continue
+        rest = symbol - gap if gap.coeff(symbol) == 1 else symbol + gap
+        text = atoms.names[symbol]
+        if relation.sign == "=":
+            value = rest
+            lines.append(f"replace_by {text} {_text(value, atoms)}")
+        else:
+            name = atoms.fresh(f"gap{len(lines)}")
+            above = sp.Symbol(name, **{"positive" if relation.sign == "<" else "nonnegative": True})
+            atoms.names[above] = name
+            value = rest + above
+            lines.append(f"{'above' if relation.sign == '<' else 'at_least'} {text} {_text(rest, atoms)} {name}")
+        moved = {old: new.xreplace({symbol: value}) for old, new in moved.items()} | {symbol: value}
+    return moved, lines
+
+
+def _solvable(gap: sp.Expr, sign: str) -> sp.Symbol | None:
+    """A symbol that the gap holds once and with the factor 1 (or -1, for an equation); those without a sign first."""
+
+    def fits(symbol: sp.Symbol) -> bool:
+        factor = gap.coeff(symbol)
+        return (factor == 1 or (sign == "=" and factor == -1)) and not (gap - factor * symbol).has(symbol)
+
+    found = [symbol for symbol in gap.free_symbols if fits(symbol)]
+    return min(found, key=lambda s: (s.name.startswith("gap"), s.is_nonnegative is True, s.name), default=None)
+
+
+def _text(expression: sp.Basic, atoms: Atoms) -> str:
+    return _brackets(term(expression, atoms.names))
+
+
+def _brackets(text: str) -> str:
+    return text if text.startswith("(") or text.isidentifier() or text.isdigit() else f"({text})"

@@ -1,0 +1,232 @@
+"""A claim as a proposition of Coq: what is declared and assumed, what has to be defined, and the relation."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from ptproof.proof.claim import Claim
+from ptproof.proof.kernel import declared
+from ptproof.proof.kernel.names import Names, identifiers, plain
+from ptproof.proof.kernel.obligations import Part, obligations
+from ptproof.proof.kernel.terms import SIGNS, NoTranslation, term
+from ptproof.proof.statement import (
+    All,
+    Assumption,
+    Exists,
+    ForAll,
+    Relation,
+    Statement,
+    expressions_of,
+    free_symbols,
+    undefined_functions,
+)
+
+
+@dataclass(frozen=True)
+class Proposition:
+    """A claim in Coq's words.
+
+    Attributes
+    ----------
+    id
+        The claim's.
+    name
+        Its identifier in Coq.
+    text
+        The proposition.
+    names
+        Which symbol or function became which identifier.
+    premises, conclusions
+        Its parts.
+    """
+
+    id: str
+    name: str
+    text: str
+    names: Names
+    premises: tuple[Part, ...]
+    conclusions: tuple[Part, ...]
+
+
+def proposition(claim: Claim) -> Proposition:
+    """The claim, restated from its statement, its assumptions and its declarations; nothing else is looked at.
+
+    Raises
+    ------
+    NoTranslation
+        With what of it has no translation.
+    """
+    statements: list[Statement | Assumption] = [claim.statement, *claim.assumptions]
+    free = _free(claim)
+    applied = undefined_functions(statements)
+    functions = {call.func for call in applied}
+    bound = {s for expression in expressions_of(statements) for s in expression.atoms(sp.Symbol)} | _bound(statements)
+    names = identifiers([*_sorted(functions), *_sorted(free), *_sorted(bound - free)])
+    premises = [Part(text) for symbol in _sorted(free) for text in declared.of_symbol(symbol, names[symbol])]
+    premises += map(Part, declared.of_functions(applied, free, names))
+    derivatives = {part for expression in expressions_of(statements) for part in expression.atoms(sp.Derivative)}
+    premises += map(Part, declared.of_derivatives(derivatives, names))
+    for item in claim.assumptions:
+        premises += _given(item, names)
+    conclusions, domain = _said(claim.statement, names)
+    if getattr(claim, "where_defined", False):
+        premises += domain
+    else:
+        conclusions = [*domain, *conclusions]
+    return Proposition(claim.id, f"claim_{plain(claim.id)}",
+                       _text(names, _sorted(functions), applied, _sorted(free), premises, conclusions), names,
+                       tuple(premises), tuple(conclusions))  # fmt: skip
+
+
+def _text(
+    names: Names, functions: Sequence[Any], applied: set[AppliedUndef], free: Sequence[sp.Symbol],
+    premises: Sequence[Part], conclusions: Sequence[Part],
+) -> str:  # fmt: skip
+    lines = [f"forall {names[function]} : {_type(function, applied)},\n  " for function in functions]
+    if free:
+        lines.append(f"forall {' '.join(names[symbol] for symbol in free)} : R,\n  ")
+    said = "\n  /\\ ".join(part.text for part in conclusions) or "True"
+    return "".join(lines) + "\n  -> ".join([*(part.text for part in premises), said])
+
+
+def _free(claim: Claim) -> set[sp.Symbol]:
+    free: set[sp.Symbol] = set()
+    for item in (claim.statement, *claim.assumptions):
+        match item:
+            case ForAll(variables=variables):
+                free |= free_symbols([item]) - set(variables)
+            case Exists(variables=variables, over=over):
+                free |= free_symbols([item]) - {*variables, *over}
+            case Relation() | All():
+                free |= free_symbols([item])
+            case _:
+                raise NoTranslation(f"no translation for a statement of the kind {type(item).__name__.lower()}")
+    return free
+
+
+def _bound(statements: Iterable[Statement | Assumption]) -> set[sp.Symbol]:
+    return {symbol for item in statements if isinstance(item, ForAll | Exists) for symbol in item.variables} | {
+        symbol for item in statements if isinstance(item, Exists) for symbol in item.over
+    }
+
+
+def _sorted(items: Iterable[sp.Basic]) -> list[sp.Basic]:
+    def key(item: sp.Basic) -> tuple[str, str]:
+        own = item._assumptions_orig if isinstance(item, sp.Symbol) else item._kwargs
+        return (
+            getattr(item, "name", None) or item.__name__,
+            str(sorted(own.items())) + str(getattr(item, "dummy_index", "")),
+        )
+
+    return sorted(items, key=key)
+
+
+def _type(function: sp.Basic, applied: set[AppliedUndef]) -> str:
+    lengths = {len(call.args) for call in applied if call.func == function}
+    if len(lengths) != 1:
+        raise NoTranslation(f"no translation for {function}, which has different numbers of arguments")
+    return " -> ".join(["R"] * (lengths.pop() + 1))
+
+
+def _given(item: Assumption, names: Names) -> list[Part]:
+    """The assumption, and that its sides are defined: it allows only such values."""
+    if isinstance(item, Relation):
+        return [part for relation in item.components() for part in _relation(relation, names)]
+    premises: list[str] = []
+    for symbol in item.variables:
+        premises += declared.of_symbol(symbol, names[symbol])
+    for given in (component for part in item.domain for component in part.components()):
+        premises += [part.text for part in _relation(given, names)]
+    said = _conjunction(part for component in item.relation.components() for part in _relation(component, names))
+    return [Part(f"(forall {_variables(item.variables, names)} : R, {' -> '.join([*premises, f'({said})'])})")]
+
+
+def _variables(symbols: Sequence[sp.Symbol], names: Names) -> str:
+    return " ".join(names[symbol] for symbol in symbols)
+
+
+def _conjunction(parts: Iterable[Part]) -> str:
+    return " /\\ ".join(dict.fromkeys(part.text for part in parts)) or "True"
+
+
+def _relation(relation: Relation, names: Names) -> list[Part]:
+    """What has to be defined for the relation, and then the relation itself."""
+    domain, said = _sides(relation, names)
+    return [*domain, said]
+
+
+def _sides(relation: Relation, names: Names) -> tuple[tuple[Part, ...], Part]:
+    if relation.sign == "=":
+        for side, other in ((relation.left, relation.right), (relation.right, relation.left)):
+            if isinstance(side, sp.Limit):
+                return _limit(side, other, names)
+            if isinstance(side, sp.Integral) and any(end.is_infinite for end in side.limits[0][1:]):
+                return _improper(side, other, names)
+    domain = tuple(dict.fromkeys([*obligations(relation.left, names), *obligations(relation.right, names)]))
+    text = f"{term(relation.left, names)} {SIGNS[relation.sign]} {term(relation.right, names)}"
+    return domain, Part(text, relation)
+
+
+def _limit(limit: sp.Limit, value: sp.Basic, names: Names) -> tuple[tuple[Part, ...], Part]:
+    """A limit exists and is the value; near the place, what is followed is defined."""
+    expression, variable, place, side = limit.args
+    infinite = {sp.oo: "(Rbar_locally p_infty)", -sp.oo: "(Rbar_locally m_infty)"}
+    if place in infinite:
+        where = infinite[place]
+    else:
+        words = {"-": "at_left", "+": "at_right", "+-": "locally'"}
+        where = f"({words[str(side)]} {term(place, names)})"
+    name = term(variable, names)
+    target = infinite.get(value) or f"(locally {term(value, names)})"
+    domain = [] if place in infinite else list(obligations(place, names))
+    domain += [] if value in infinite else list(obligations(value, names))
+    domain += [Part(f"{where} (fun {name} => {part.text})") for part in obligations(expression, names)]
+    return tuple(domain), Part(f"filterlim (fun {name} => {term(expression, names)}) {where} {target}")
+
+
+def _improper(integral: sp.Integral, value: sp.Basic, names: Names) -> tuple[tuple[Part, ...], Part]:
+    """An integral to infinity exists and is the value."""
+    ((variable, lower, upper),) = integral.limits
+    if upper is not sp.oo or lower.is_infinite:
+        raise NoTranslation(f"no translation for an integral from {lower} to {upper}")
+    name, start = term(variable, names), term(lower, names)
+    inside = [Part(f"(forall {name} : R, {start} <= {name} -> {part.text})")
+              for part in obligations(integral.function, names)]  # fmt: skip
+    domain = (*obligations(lower, names), *obligations(value, names), *inside)
+    function = f"(fun {name} => {term(integral.function, names)})"
+    said = f"is_RInt_gen {function} (at_point {start}) (Rbar_locally p_infty) {term(value, names)}"
+    return domain, Part(said)
+
+
+def _said(statement: Statement, names: Names) -> tuple[list[Part], list[Part]]:
+    """The conclusions, and what has to be defined for them."""
+    match statement:
+        case Relation():
+            parts: Sequence[Relation] = statement.components()
+        case All(every):
+            parts = [component for part in every for component in part.components()]
+        case Exists():
+            return [Part(_exists(statement, names))], []
+        case _:
+            raise NoTranslation(f"no translation for a statement of the kind {type(statement).__name__.lower()}")
+    said = [_sides(part, names) for part in parts]
+    domain = list(dict.fromkeys(part for parts_of, _ in said for part in parts_of))
+    return [text for _, text in said], domain
+
+
+def _exists(statement: Exists, names: Names) -> str:
+    text = _conjunction(
+        part for item in statement.body for given in item.components() for part in _relation(given, names)
+    )
+    if statement.over:
+        kinds = [kind for symbol in statement.over for kind in declared.of_symbol(symbol, names[symbol])]
+        text = f"(forall {_variables(statement.over, names)} : R, {' -> '.join([*kinds, f'({text})'])})"
+    for symbol in reversed(statement.variables):
+        text = " /\\ ".join([*declared.of_symbol(symbol, names[symbol]), text])
+        text = f"(exists {names[symbol]} : R, {text})"
+    return text

@@ -1,0 +1,444 @@
+(* What the restated claims are said with, and the tactics that are tried on them. Everything here is proved. *)
+From Coq Require Import Reals Lra Psatz Nsatz FunctionalExtensionality.
+From Coquelicot Require Import Coquelicot.
+From Interval Require Import Tactic.
+Open Scope R_scope.
+
+(* The declarations of symbols. *)
+Lemma Rlt_Rminus_rev : forall a b, 0 < b - a -> a < b.
+Proof. intros. lra. Qed.
+
+Definition is_integer (x : R) : Prop := exists z : Z, x = IZR z.
+
+(* x^y for x >= 0: Coq's Rpower is 1 where x = 0. *)
+Definition rpow (x y : R) : R :=
+  if Req_EM_T x 0 then (if Req_EM_T y 0 then 1 else 0) else Rpower x y.
+
+Lemma rpow_Rpower : forall x y, 0 < x -> rpow x y = Rpower x y.
+Proof. intros x y H. unfold rpow. destruct (Req_EM_T x 0); [lra | reflexivity]. Qed.
+
+Lemma rpow_zero : forall x y, x = 0 -> 0 < y -> rpow x y = 0.
+Proof.
+  intros x y H K. unfold rpow. destruct (Req_EM_T x 0); [|contradiction].
+  destruct (Req_EM_T y 0); [lra | reflexivity].
+Qed.
+
+Lemma rpow_nonneg : forall x y, 0 <= rpow x y.
+Proof.
+  intros x y. unfold rpow. destruct (Req_EM_T x 0); [destruct (Req_EM_T y 0); lra|].
+  left. apply exp_pos.
+Qed.
+
+Lemma rpow_defined : forall x y, 0 <= x -> 0 < y -> 0 < x \/ (x = 0 /\ 0 < y).
+Proof. intros x y [H | H] K; [left | right]; auto. Qed.
+
+Lemma Rpower_positive : forall x y, 0 < Rpower x y.
+Proof. intros. apply exp_pos. Qed.
+
+Lemma integer_at_least_1 : forall x, is_integer x -> 0 < x -> 1 <= x.
+Proof. intros x [z E] H. subst. apply lt_IZR in H. apply IZR_le. lia. Qed.
+
+Lemma ln_eq : forall x y, 0 < x -> 0 < y -> ln x = ln y -> x = y.
+Proof. intros. apply ln_inv; assumption. Qed.
+
+Lemma ln_le_inv : forall x y, 0 < x -> 0 < y -> ln x <= ln y -> x <= y.
+Proof.
+  intros x y H K [L | L]; [left; apply ln_lt_inv; assumption | right; apply ln_inv; assumption].
+Qed.
+
+Lemma ln_pow : forall x n, 0 < x -> ln (x ^ n) = INR n * ln x.
+Proof. intros. rewrite <- Rpower_pow by assumption. unfold Rpower. apply ln_exp. Qed.
+
+Lemma ln_sqrt : forall x, 0 < x -> ln (sqrt x) = ln x / 2.
+Proof.
+  intros x H. assert (E : ln x = ln (sqrt x) + ln (sqrt x)).
+  { rewrite <- ln_mult by (apply sqrt_lt_R0; assumption). rewrite sqrt_sqrt by lra. reflexivity. }
+  lra.
+Qed.
+
+Lemma ln_div : forall x y, 0 < x -> 0 < y -> ln (x / y) = ln x - ln y.
+Proof. intros. unfold Rdiv. rewrite ln_mult, ln_Rinv; auto using Rinv_0_lt_compat. Qed.
+
+Lemma ln_Rpower : forall x y, ln (Rpower x y) = y * ln x.
+Proof. intros. unfold Rpower. apply ln_exp. Qed.
+
+Lemma near_nonzero : forall (f : R -> R) x, ex_derive f x -> f x <> 0 -> locally x (fun y => f y <> 0).
+Proof.
+  intros f x D N. apply (ex_derive_continuous f) in D.
+  exact (D (fun z => z <> 0) (open_neq 0 (f x) N)).
+Qed.
+
+Lemma near_positive : forall (f : R -> R) x, ex_derive f x -> 0 < f x -> locally x (fun y => 0 < f y).
+Proof.
+  intros f x D N. apply (ex_derive_continuous f) in D.
+  exact (D (fun z => 0 < z) (open_gt 0 (f x) N)).
+Qed.
+
+Lemma near_nonneg : forall (f : R -> R) x, ex_derive f x -> 0 < f x -> locally x (fun y => 0 <= f y).
+Proof.
+  intros f x D N. apply (filter_imp (fun y => 0 < f y)); [intros; lra | apply near_positive; assumption].
+Qed.
+
+(* Hypotheses taken apart, and what is known of integers. *)
+Ltac facts :=
+  repeat match goal with
+  | H : _ /\ _ |- _ => destruct H
+  | H : is_integer ?n, P : 0 < ?n |- _ =>
+      lazymatch goal with _ : 1 <= n |- _ => fail | _ => pose proof (integer_at_least_1 n H P) end
+  end.
+
+Ltac pieces := repeat match goal with |- _ /\ _ => split | |- _ <-> _ => fail end.
+
+(* Signs, by the structure of the expression. *)
+Ltac sign :=
+  lazymatch goal with
+  | |- ?a > ?b => change (b < a); sign
+  | |- ?a >= ?b => apply Rle_ge; sign
+  | |- _ <> 0 => first [ assumption | solve [apply Rgt_not_eq; red; sign_pos] | sign_nonzero ]
+  | |- 0 < _ => first [ assumption | sign_pos ]
+  | |- 0 <= _ => first [ assumption | sign_nonneg ]
+  end
+with sign_pos :=
+  first
+  [ assumption
+  | lazymatch goal with
+    | |- 0 < _ * _ => apply Rmult_lt_0_compat; sign_pos
+    | |- 0 < _ / _ => apply Rdiv_lt_0_compat; sign_pos
+    | |- 0 < / _ => apply Rinv_0_lt_compat; sign_pos
+    | |- 0 < _ ^ _ => first [ apply pow_lt; sign_pos | apply pow2_gt_0; sign ]
+    | |- 0 < sqrt _ => apply sqrt_lt_R0; sign_pos
+    | |- 0 < exp _ => apply exp_pos
+    | |- 0 < Rpower _ _ => apply exp_pos
+    | |- 0 < rpow _ _ => rewrite rpow_Rpower by sign_pos; apply exp_pos
+    | |- 0 < PI => exact PI_RGT_0
+    | |- 0 < _ + _ => first [ apply Rplus_lt_0_compat; sign_pos | apply Rplus_le_lt_0_compat; [sign_nonneg | sign_pos]
+                            | apply Rplus_lt_le_0_compat; [sign_pos | sign_nonneg] ]
+    end
+  | match goal with H : forall _, _ |- _ => solve [apply H; first [assumption | lra]] end
+  | lra | timeout 2 nra ]
+with sign_nonneg :=
+  first
+  [ assumption
+  | lazymatch goal with
+    | |- 0 <= _ * _ => apply Rmult_le_pos; sign_nonneg
+    | |- 0 <= _ / _ => apply Rdiv_le_0_compat; [sign_nonneg | sign_pos]
+    | |- 0 <= / _ => left; apply Rinv_0_lt_compat; sign_pos
+    | |- 0 <= _ ^ 2 => apply pow2_ge_0
+    | |- 0 <= _ ^ _ => apply pow_le; sign_nonneg
+    | |- 0 <= sqrt _ => apply sqrt_pos
+    | |- 0 <= rpow _ _ => apply rpow_nonneg
+    | |- 0 <= Rabs _ => apply Rabs_pos
+    | |- 0 <= exp _ => left; apply exp_pos
+    | |- 0 <= Rpower _ _ => left; apply exp_pos
+    | |- 0 <= _ + _ => apply Rplus_le_le_0_compat; sign_nonneg
+    end
+  | match goal with H : forall _, _ |- _ => solve [apply H; first [assumption | lra]] end
+  | lra | timeout 2 nra | left; sign_pos ]
+with sign_nonzero :=
+  first
+  [ assumption
+  | lazymatch goal with
+    | |- _ * _ <> 0 => apply Rmult_integral_contrapositive_currified; sign_nonzero
+    | |- _ / _ <> 0 => apply Rmult_integral_contrapositive_currified; [sign_nonzero | apply Rinv_neq_0_compat; sign_nonzero]
+    | |- / _ <> 0 => apply Rinv_neq_0_compat; sign_nonzero
+    | |- _ ^ _ <> 0 => apply pow_nonzero; sign_nonzero
+    | |- - _ <> 0 => apply Ropp_neq_0_compat; sign_nonzero
+    end
+  | solve [apply Rgt_not_eq; red; sign_pos]
+  | lra
+  | match goal with
+    | H : ?h <> 0 |- ?g <> 0 =>
+        let E := fresh in intro E; apply H; first [ lra | field_simplify_eq; [ first [lra | timeout 2 nra] | repeat split; sign_pos ] ]
+    end
+  | match goal with |- ?g <> 0 => let E := fresh in intro E; timeout 2 nra end
+  | match goal with
+    | |- ?g <> 0 => let E := fresh in intro E;
+        field_simplify_eq in E; [ first [lra | timeout 2 nra] | repeat split; sign_pos ]
+    end ].
+
+Ltac sides := repeat split; first [ sign | assumption ].
+
+(* Equal arguments of one unknown function are made the same. *)
+Ltac same_arguments :=
+  repeat match goal with
+  | |- context [?f ?a] =>
+      is_var f;
+      match goal with
+      | |- context [f ?b] =>
+          lazymatch type of a with R => idtac end;
+          assert_fails (constr_eq a b);
+          let E := fresh in assert (E : a = b) by (field; sides); rewrite E; clear E
+      end
+  end.
+
+(* The same for the functions of the library, whose values at 0 are known. *)
+Ltac same_values :=
+  repeat match goal with
+  | |- context [exp ?a] => let E := fresh in assert (E : a = 0) by (field; sides); rewrite E, exp_0; clear E
+  | |- context [sin ?a] => let E := fresh in assert (E : a = 0) by (field; sides); rewrite E, sin_0; clear E
+  | |- context [cos ?a] => let E := fresh in assert (E : a = 0) by (field; sides); rewrite E, cos_0; clear E
+  | |- context [?f ?a] =>
+      first [ constr_eq f exp | constr_eq f sin | constr_eq f cos | constr_eq f ln | constr_eq f sqrt ];
+      match goal with
+      | |- context [f ?b] =>
+          assert_fails (constr_eq a b);
+          let E := fresh in assert (E : a = b) by (field; sides); rewrite E; clear E
+      end
+  end.
+
+Ltac rational := first [ reflexivity | ring | field; sides ].
+
+(* sin and cos become s and c with s^2 + c^2 = 1. *)
+Ltac expand_angles := repeat first [ rewrite cos_minus | rewrite sin_minus | rewrite cos_plus | rewrite sin_plus
+  | rewrite cos_neg | rewrite sin_neg ].
+Ltac circle x :=
+  let S := fresh "s" in let C := fresh "c" in let P := fresh in
+  pose proof (sin2_cos2 x) as P; unfold Rsqr in P; revert P;
+  generalize (sin x) as S; generalize (cos x) as C; intros C S P.
+Ltac circles := repeat match goal with |- context [sin ?x] => circle x | |- context [cos ?x] => circle x end.
+Ltac opaque := repeat match goal with
+  | |- context [sqrt ?x] => generalize (sqrt x); intro
+  | |- context [?f ?x] => is_var f; lazymatch type of (f x) with R => generalize (f x); intro end
+  | |- context [?f ?x ?y] => is_var f; lazymatch type of (f x y) with R => generalize (f x y); intro end
+  | |- context [?f ?x ?y ?z] => is_var f; lazymatch type of (f x y z) with R => generalize (f x y z); intro end
+  | |- context [Derive ?f ?x] => generalize (Derive f x); intro
+  end.
+Ltac trigonometric := expand_angles; opaque; circles; opaque; first [ rational | nsatz ].
+
+(* Derivatives of what is written out; those of unknown functions stay as they are. *)
+Ltac unknown f := idtac;
+  lazymatch f with
+  | fun y => ?g y => is_var g
+  | fun y => ?g y _ => is_var g
+  | fun y => ?g _ y => is_var g
+  | fun y => ?g y _ _ => is_var g
+  | fun y => ?g _ y _ => is_var g
+  | fun y => ?g _ _ y => is_var g
+  | ?g => is_var g
+  end.
+Ltac derivative_sides := repeat match goal with
+  | |- _ /\ _ => split
+  | |- True => exact I
+  | H : forall _, ex_derive _ _ |- ex_derive _ _ => apply H
+  | |- ex_derive _ _ => eassumption
+  end; try first [ sign | assumption ].
+Ltac inner_derivatives :=
+  repeat match goal with
+  | |- context [Derive ?f] =>
+      assert_fails (idtac; unknown f);
+      let g := fresh "g" in let E := fresh in
+      evar (g : R -> R);
+      assert (E : Derive f = g)
+        by (apply FunctionalExtensionality.functional_extensionality; intro; apply is_derive_unique;
+            auto_derive; [ solve [derivative_sides] | unfold g; reflexivity ]);
+      rewrite E; unfold g; clear E g; cbv beta
+  end.
+Ltac derivatives :=
+  inner_derivatives;
+  repeat match goal with
+  | |- context [Derive ?f ?x] =>
+      assert_fails (unknown f);
+      let l := fresh "l" in let E := fresh in
+      evar (l : R);
+      assert (E : is_derive f x l) by (auto_derive; [ solve [derivative_sides] | unfold l; reflexivity ]);
+      rewrite (is_derive_unique f x l E); unfold l; clear E l
+  end.
+Ltac differentiable := first [ solve [ auto_derive; derivative_sides ] | inner_derivatives; solve [ auto_derive; derivative_sides ] ].
+
+Ltac near :=
+  lazymatch goal with
+  | |- locally ?x (fun y => @?f y <> 0) => apply (near_nonzero f); [ differentiable | cbv beta; sign ]
+  | |- locally ?x (fun y => 0 < @?f y) => first [ apply filter_forall; intro; sign | apply (near_positive f); [ differentiable | cbv beta; sign ] ]
+  | |- locally ?x (fun y => 0 <= @?f y) => first [ apply filter_forall; intro; sign | apply (near_nonneg f); [ differentiable | cbv beta; sign ] ]
+  | |- locally ?x _ => apply filter_forall; intro; first [ differentiable | sign ]
+  end.
+
+(* Minima, maxima and absolute values, case by case. *)
+Ltac cases :=
+  unfold Rmin, Rmax, Rabs in *;
+  repeat match goal with
+  | |- context [if ?c then _ else _] => destruct c
+  | H : context [if ?c then _ else _] |- _ => destruct c
+  end.
+
+(* Facts about what nra does not know. *)
+Ltac note p proof := lazymatch goal with _ : p |- _ => fail | _ => assert p by proof end.
+Ltac about_sqrt :=
+  repeat match goal with
+  | |- context [sqrt ?x] => note (0 <= sqrt x) ltac:(apply sqrt_pos);
+      try (assert (0 < sqrt x) by (apply sqrt_lt_R0; sign));
+      try (assert (sqrt x * sqrt x = x) by (apply sqrt_sqrt; sign))
+  | H : context [sqrt ?x] |- _ => note (0 <= sqrt x) ltac:(apply sqrt_pos);
+      try (assert (0 < sqrt x) by (apply sqrt_lt_R0; sign));
+      try (assert (sqrt x * sqrt x = x) by (apply sqrt_sqrt; sign))
+  end.
+Ltac about_angles :=
+  repeat match goal with
+  | |- context [sin ?x] => note (-1 <= sin x <= 1) ltac:(apply SIN_bound); pose proof (sin2_cos2 x)
+  | |- context [cos ?x] => note (-1 <= cos x <= 1) ltac:(apply COS_bound); pose proof (sin2_cos2 x)
+  end; unfold Rsqr in *.
+Ltac about_powers :=
+  repeat match goal with
+  | |- context [Rpower ?x ?y] => note (0 < Rpower x y) ltac:(apply exp_pos)
+  | |- context [exp ?y] => note (0 < exp y) ltac:(apply exp_pos)
+  | H : context [Rpower ?x ?y] |- _ => note (0 < Rpower x y) ltac:(apply exp_pos)
+  | H : context [exp ?y] |- _ => note (0 < exp y) ltac:(apply exp_pos)
+  end.
+(* Every 1/d becomes a value i with d i = 1. *)
+Ltac reciprocal d :=
+  let v := fresh "i" in let E := fresh in let P := fresh in
+  assert (E : d * / d = 1) by (apply Rinv_r; sign);
+  try (assert (P : 0 < / d) by (apply Rinv_0_lt_compat; sign));
+  set (v := / d) in *; clearbody v.
+Ltac reciprocals :=
+  unfold Rdiv in *;
+  repeat match goal with
+  | |- context [/ ?d] => reciprocal d
+  | H : context [/ ?d] |- _ => reciprocal d
+  end.
+
+Ltac inequality :=
+  first
+  [ assumption | lra | solve [sign] | timeout 4 nra
+  | solve [interval]
+  | solve [about_sqrt; about_angles; about_powers; first [lra | timeout 4 nra]]
+  | solve [about_sqrt; about_powers; reciprocals; first [lra | timeout 8 nra]]
+  | solve [cases; first [lra | timeout 4 nra | reciprocals; timeout 4 nra]] ].
+
+Ltac use_equations := repeat match goal with H : ?a = _ |- context [?a] => rewrite H; clear H end.
+Ltac equality :=
+  first
+  [ solve [rational]
+  | solve [subst; rational]
+  | solve [use_equations; rational]
+  | solve [derivatives; rational]
+  | solve [same_arguments; rational]
+  | solve [same_arguments; trigonometric]
+  | solve [derivatives; same_arguments; same_values; rational]
+  | solve [subst; same_arguments; same_values; rational]
+  | lra
+  | solve [about_sqrt; timeout 10 nsatz]
+  | solve [about_sqrt; reciprocals; timeout 10 nsatz]
+  | solve [cases; first [rational | lra | timeout 4 nra]] ].
+
+Ltac leaf :=
+  cbv beta;
+  lazymatch goal with
+  | |- True => exact I
+  | |- ex_derive _ _ => first [ solve [derivative_sides] | differentiable ]
+  | |- locally _ _ => near
+  | |- _ \/ (_ = 0 /\ _) => first [ left; solve [sign] | apply rpow_defined; sign ]
+  | |- forall _, _ => intros; facts; pieces; leaf
+  | |- _ -> _ => intros; facts; pieces; leaf
+  | |- _ <> 0 => sign
+  | |- _ = _ => equality
+  | |- _ => first [ inequality | solve [derivatives; inequality] ]
+  end.
+
+Ltac leaf_or_say := first [ leaf | lazymatch goal with |- ?g => fail 1 "at" g end ].
+
+(* A variable replaced: by what it is equal to, or by a bound and what is above the bound. *)
+Ltac replace_by v e :=
+  let E := fresh in assert (E : v = e) by (first [ lra | field_simplify_eq; [ lra | sides ] ]); subst v.
+Ltac at_least v e s :=
+  let P := fresh in let E := fresh in
+  pose (s := v - e); assert (P : 0 <= s) by (unfold s; lra); assert (E : v = e + s) by (unfold s; ring);
+  clearbody s; subst v.
+Ltac above v e s :=
+  let P := fresh in let E := fresh in
+  pose (s := v - e); assert (P : 0 < s) by (unfold s; lra); assert (E : v = e + s) by (unfold s; ring);
+  clearbody s; subst v.
+
+(* The difference of the two sides is e, whose sign is seen by its structure. *)
+Ltac to_difference :=
+  lazymatch goal with
+  | |- ?a < ?b => apply Rlt_Rminus_rev
+  | |- ?a <= ?b => apply Rminus_le_0
+  | |- ?a > ?b => change (b < a); apply Rlt_Rminus_rev
+  | |- ?a >= ?b => apply Rle_ge; apply Rminus_le_0
+  end.
+Ltac difference_as e :=
+  to_difference;
+  lazymatch goal with
+  | |- 0 < ?d => replace d with e by rational
+  | |- 0 <= ?d => replace d with e by rational
+  end; sign.
+Ltac nonzero_as e := lazymatch goal with |- ?d <> 0 => replace d with e by rational end; sign.
+
+(* The difference is top / bottom with bottom > 0: what is left is the sign of the polynomial top. *)
+Ltac top_of top bottom :=
+  to_difference;
+  lazymatch goal with
+  | |- 0 < ?d => replace d with (top / bottom) by rational; apply Rdiv_lt_0_compat; [ | sign ]
+  | |- 0 <= ?d => replace d with (top / bottom) by rational; apply Rdiv_le_0_compat; [ | sign ]
+  end.
+Lemma top_nonneg : forall a b top bottom, a <= b -> 0 < bottom -> b - a = top / bottom -> 0 <= top.
+Proof.
+  intros a b top bottom L P E. replace top with ((b - a) * bottom) by (rewrite E; field; lra).
+  apply Rmult_le_pos; lra.
+Qed.
+Lemma top_positive : forall a b top bottom, a < b -> 0 < bottom -> b - a = top / bottom -> 0 < top.
+Proof.
+  intros a b top bottom L P E. replace top with ((b - a) * bottom) by (rewrite E; field; lra).
+  apply Rmult_lt_0_compat; lra.
+Qed.
+Ltac fact_from bottom top :=
+  match goal with
+  | H : ?a < ?b |- _ => assert (0 < top) by (apply (top_positive a b top bottom H); [ sign | rational ])
+  | H : ?a > ?b |- _ => assert (0 < top) by (apply (top_positive b a top bottom H); [ sign | rational ])
+  | H : ?a <= ?b |- _ => assert (0 <= top) by (apply (top_nonneg a b top bottom H); [ sign | rational ])
+  | H : ?a >= ?b |- _ => assert (0 <= top) by (apply (top_nonneg b a top bottom (Rge_le _ _ H)); [ sign | rational ])
+  | H : ?a = ?b |- _ => assert (0 <= top) by (apply (top_nonneg a b top bottom (Req_le _ _ H)); [ sign | rational ])
+  | H : ?a = ?b |- _ => assert (0 <= top) by (apply (top_nonneg b a top bottom (Req_le_sym _ _ H)); [ sign | rational ])
+  end.
+Lemma divide_nonneg : forall a b, 0 < a -> 0 <= a * b -> 0 <= b.
+Proof. intros a b P Q. apply Rmult_le_reg_l with a; lra. Qed.
+Lemma divide_positive : forall a b, 0 < a -> 0 < a * b -> 0 < b.
+Proof. intros a b P Q. apply Rmult_lt_reg_l with a; lra. Qed.
+Ltac multiply_by a := first [ apply (divide_nonneg a); [ sign | ] | apply (divide_positive a); [ sign | ] ].
+Ltac product p := first [ assert (0 < p) by sign | assert (0 <= p) by sign ].
+Ltac linear := first [ lra | timeout 5 nra ].
+
+(* Whatever is not rational arithmetic becomes a number of which only these facts are kept. *)
+Ltac atom a e :=
+  let P := fresh in
+  lazymatch e with
+  | sqrt ?x =>
+      assert (P : 0 <= e) by apply sqrt_pos;
+      try (let Q := fresh in assert (Q : 0 < e) by (apply sqrt_lt_R0; sign));
+      try (let Q := fresh in assert (Q : e * e = x) by (apply sqrt_sqrt; sign))
+  | sin ?x => pose proof (SIN_bound x); try pose proof (sin2_cos2 x)
+  | cos ?x => pose proof (COS_bound x); try pose proof (sin2_cos2 x)
+  | exp _ => assert (P : 0 < e) by apply exp_pos
+  | Rpower _ _ => assert (P : 0 < e) by apply exp_pos
+  | rpow _ _ => assert (P : 0 <= e) by apply rpow_nonneg
+  | PI => pose proof PI_RGT_0
+  | Rabs _ => assert (P : 0 <= e) by apply Rabs_pos
+  | _ => first
+      [ assert (P : 0 < e) by (match goal with H : forall _, _ |- _ => solve [apply H; first [assumption | lra]] end)
+      | assert (P : 0 <= e) by (match goal with H : forall _, _ |- _ => solve [apply H; first [assumption | lra]] end)
+      | idtac ]
+  end;
+  set (a := e) in *; clearbody a.
+
+(* One power of a base by another one. *)
+Ltac logarithms :=
+  repeat first
+  [ rewrite ln_mult in * by sign | rewrite ln_div in * by sign | rewrite ln_Rinv in * by sign
+  | rewrite ln_Rpower in * | rewrite ln_pow in * by sign | rewrite ln_sqrt in * by sign
+  | rewrite ln_exp in * | rewrite ln_1 in * ];
+  rewrite ?INR_IZR_INZ in *; simpl Z.of_nat in *.
+Ltac by_powers := apply ln_eq; [ sign | sign | logarithms; field; sides ].
+Ltac power_as old new := let E := fresh in assert (E : old = new) by by_powers; rewrite ?E in *; clear E.
+Ltac by_logarithms :=
+  lazymatch goal with
+  | |- _ <= _ => apply ln_le_inv; [ sign | sign | ]
+  | |- _ < _ => apply ln_lt_inv; [ sign | sign | ]
+  | |- _ >= _ => apply Rle_ge; apply ln_le_inv; [ sign | sign | ]
+  | |- _ > _ => apply ln_lt_inv; [ sign | sign | ]
+  end.
+Ltac logarithms_of a b :=
+  first
+  [ let H := fresh in assert (H : a <= b) by lra; apply (ln_le a b) in H; [ | sign ]
+  | let H := fresh in assert (H : a < b) by lra; apply (ln_increasing a b) in H; [ | sign ] ].
+Ltac quickly := try solve [ assumption | lra | timeout 3 sign ].

@@ -1,0 +1,130 @@
+"""Work in copies of one process: what it does to its process costs itself only, and how it ended is known.
+
+::
+
+    this process ── host ──┬── keeper ── worker        a host has read what the work needs, once; it only makes copies
+                           └── keeper ── worker        a keeper waits for its worker, and ends what that leaves behind
+
+A worker whose state the work has changed (:mod:`ptproof.reading.state`) is replaced, and so is one that died or was
+killed for its time or memory. Keepers and workers have process groups of their own, so that what kills its parent or
+its group does not reach the others.
+"""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+import pickle
+import sys
+import threading
+from collections.abc import Callable, Iterator, Mapping
+from multiprocessing.connection import Connection
+from pathlib import Path
+from typing import Any, TypeVar
+
+from ptproof.reading.outcomes import Answered, Unanswered, Why, check_seconds, end_in_words, in_words
+
+Key = TypeVar("Key")
+LOADING = 600.0
+
+
+def possible() -> bool:
+    """Whether the system can copy a process."""
+    return hasattr(os, "fork") and sys.platform != "darwin"
+
+
+def _alone() -> bool:
+    """Whether this process has one thread, the only kind of which a copy is known to work."""
+    try:
+        threads = len(list(Path("/proc/self/task").iterdir()))
+    except OSError:
+        threads = 2
+    return threads == 1 and threading.active_count() == 1
+
+
+class Copies:
+    """Processes for work as :class:`ptproof.reading.limits.Workers` describes them, on systems that can copy a process.
+
+    The host is a copy of this process if this has a single thread, and otherwise a fresh one.
+    """
+
+    def __init__(self, count: int, start: Callable[..., None] | None, arguments: tuple[Any, ...], memory: int) -> None:
+        self._given = (count, start, arguments, memory)
+        self._host: Any = None
+        self._to_host: Connection | None = None
+        self._ready = False
+
+    def stop(self) -> None:
+        """End the processes, and what still runs in them."""
+        if self._to_host is not None:
+            self._to_host.close()
+            self._to_host = None
+        if self._host is not None:
+            self._host.join(1)
+            if self._host.is_alive():
+                self._host.kill()
+                self._host.join()
+            self._host = None
+
+    def each(
+        self, seconds: float, work: Callable[..., Any], tasks: Mapping[Key, tuple[Any, ...]]
+    ) -> Iterator[tuple[Key, Answered[Any] | Unanswered]]:
+        """The key of each task with what came of it, as they end."""
+        check_seconds(seconds)
+        keys = dict(enumerate(tasks))
+        try:
+            connection = self._connected()
+            connection.send((seconds, [(n, pickle.dumps((work, tasks[key]))) for n, key in keys.items()]))
+            while keys:
+                if not connection.poll(None if self._ready else LOADING):
+                    raise TimeoutError
+                n, outcome = pickle.loads(connection.recv_bytes())
+                self._ready = True
+                if n is not None:
+                    yield keys.pop(n), _read(outcome)
+        except (EOFError, OSError) as error:
+            late = isinstance(error, TimeoutError)
+            outcome = self._lost("ran out of time while it read what the work needs" if late else "")
+            for key in keys.values():
+                yield key, outcome
+        finally:
+            if keys:
+                self.stop()
+
+    def _connected(self) -> Connection:
+        from ptproof.reading.host import serve
+
+        if self._to_host is None:
+            copied = _alone()
+            context: Any = multiprocessing.get_context("fork" if copied else "spawn")
+            ours, theirs = context.Pipe()
+            held = os.getpid() if threading.current_thread() is threading.main_thread() else 0
+            arguments = (theirs, ours if copied else None, held, *self._given)
+            self._host = context.Process(target=serve, args=arguments, daemon=True)
+            self._host.start()
+            theirs.close()
+            self._to_host, self._ready = ours, False
+        return self._to_host
+
+    def _lost(self, reason: str) -> Unanswered:
+        """The host is gone: how it ended is why there are no answers."""
+        host = self._host
+        if host is not None and not reason:
+            host.join(1)
+            reason = "died" if host.exitcode is None else end_in_words(host.exitcode)
+        self.stop()
+        doing = "that decides" if self._ready else "that reads what is to be decided"
+        return Unanswered(Why.DIED, f"the process {doing} {reason}")
+
+
+def _read(outcome: Any) -> Answered[Any] | Unanswered:
+    """What a worker has sent, which anything may stand in."""
+    if isinstance(outcome, Unanswered):
+        return outcome
+    try:
+        kind, value, error = pickle.loads(outcome)
+    except BaseException as unreadable:
+        return Unanswered(Why.FAILED, f"the answer cannot be read: {in_words(unreadable)}")
+    if kind == "answer":
+        return Answered(value)
+    return Unanswered(Why(kind), str(value), error)
