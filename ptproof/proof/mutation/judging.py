@@ -31,44 +31,45 @@ class Patience:
         An attack, a proof, or the comparison with the original.
     question
         z3, for one question of a proof.
-    refuted
-        z3, for one question where the mutant is known to be false.
     attack
-        The attacker; three times that where nothing else says whether the mutant is true.
+        The attacker; three times that before it counts as proved and not known to be false.
     """
 
     step: float = 8.0
-    question: float = 1.0
-    refuted: float = 0.4
-    attack: float = 0.5
+    question: float = 0.8
+    attack: float = 0.3
 
 
 def judge(mutant: Mutant, patience: Patience) -> Outcome:
     """What comes of the mutant: its proof is run whether it is refuted or not, since no false one may be proved."""
     start = time.perf_counter()
-    outcome = _judged(mutant, patience, _Steps(patience.step))
+    with in_haste(patience.question):
+        outcome = _judged(mutant, patience, _Steps(patience.step))
     return replace(outcome, seconds=time.perf_counter() - start)
 
 
 def _judged(mutant: Mutant, patience: Patience, steps: _Steps) -> Outcome:
-    false = how = why = None
-    if mutant.claim.statement != mutant.original.statement or mutant.claim.assumptions != mutant.original.assumptions:
+    false, how, why = None, "", ""
+    restates = mutant.claim.statement == mutant.original.statement
+    if restates:  # an assumption that says more, or another dependency, makes nothing false
+        why = steps.take("comparison", lambda: implied(mutant), "")
+    if not why:
         false = steps.take("attack", lambda: falsity(mutant, patience.attack), None)
-    with in_haste(patience.refuted if false else patience.question):
-        evidence = steps.take("proof", lambda: run_one(mutant.claim), _NO_ANSWER)
+    evidence = steps.take("proof", lambda: run_one(mutant.claim), _NO_ANSWER)
+    proved = evidence.verdict is Verdict.PROVED
     if false is None and evidence.verdict is Verdict.REFUTED:
         false = Falsity(evidence.witness, evidence.detail)
     if false is None:
         how = steps.take("comparison", lambda: equivalent(mutant), "")
-        why = None if how else steps.take("comparison", lambda: implied(mutant), "")
-    if false is None and not how and not why:  # what follows from the original cannot be refuted
-        with in_haste(patience.refuted):
-            false = steps.take("attack", lambda: falsity(mutant, 3 * patience.attack, seed=1), None)
+        if not how and not restates:
+            why = steps.take("comparison", lambda: implied(mutant), "")
+    if false is None and proved and not how and not why:
+        false = steps.take("attack", lambda: falsity(mutant, 3 * patience.attack, seed=1), None)
     if false is not None:
         return _false(mutant, false, evidence, steps.troubles)
     if how:
         return _outcome(mutant, Word.EQUIVALENT, how)
-    if evidence.verdict is Verdict.PROVED:
+    if proved:
         return _outcome(mutant, Word.PROVED, why or evidence.detail)
     return _outcome(mutant, Word.UNDECIDED, "; ".join(filter(None, [why, evidence.detail, *steps.troubles])))
 
