@@ -10,6 +10,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 import sympy as sp
@@ -98,16 +99,14 @@ def certify_field(
     if isinstance(rtol, bool) or not (1e-9 <= rtol <= 1):
         raise InputError(f"the relative width must be between 1e-9 and 1, but is {rtol}")
     check_seconds(seconds)
+    open_ = partial(FieldCertificate, field, domain, Verdict.UNDECIDED, rtol=rtol)
     with precision(BITS):
         if (reason := not_differentiable(field, domain)) is not None:
-            return FieldCertificate(
-                field, domain, Verdict.UNDECIDED, detail=f"the field has no gradient: {reason}", rtol=rtol
-            )
+            return open_(detail=f"the field has no gradient: {reason}")
         try:
             quotients = Quotients(*_drop(field), field.kappa)
         except Undefined as error:
-            detail = f"the field cannot be enclosed: {error}"
-            return FieldCertificate(field, domain, Verdict.UNDECIDED, detail=detail, rtol=rtol)
+            return open_(detail=f"the field cannot be enclosed: {error}")
         prosecutor = Prosecutor(field, quotients, domain)
         tell = progress or (lambda text: None)
         return unshaken(_Search(field, domain, quotients, prosecutor, rtol, began, seconds, tell).run(), rays=1)
