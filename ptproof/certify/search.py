@@ -70,10 +70,8 @@ def certify_field(
         n ≥ 1 symbols or their names, the n exact coordinates of x*, and κ, a positive integer; numbers or text.
     radius, annulus
         The ball ‖x − x*‖ ≤ radius, or the annulus (r, R), exact; the whole space if both are left out.
-    rtol
-        The wanted relative width of each enclosure, between 1e-9 and 1.
-    seconds
-        The time after which what is not decided is left undecided.
+    rtol, seconds
+        The wanted relative width, between 1e-9 and 1; the time after which what is not decided is left undecided.
     progress
         Called with a sentence now and then.
 
