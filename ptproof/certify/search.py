@@ -96,18 +96,21 @@ def certify_field(
         raise InputError(f"the relative width must be between 1e-9 and 1, but is {rtol}")
     check_seconds(seconds)
     with precision(BITS):
-        if (reason := not_differentiable(field, domain)) is not None:
-            return FieldCertificate(
-                field, domain, Verdict.UNDECIDED, detail=f"the field has no gradient: {reason}", rtol=rtol
-            )
-        try:
-            quotients = Quotients(*_drop(field), field.kappa)
-        except Undefined as error:
-            detail = f"the field cannot be enclosed: {error}"
-            return FieldCertificate(field, domain, Verdict.UNDECIDED, detail=detail, rtol=rtol)
-        prosecutor = Prosecutor(field, quotients, domain)
-        tell = progress or (lambda text: None)
-        return _Search(field, domain, quotients, prosecutor, rtol, began, seconds, tell).run()
+        return _begun(field, domain, rtol, began, seconds, progress or (lambda text: None))
+
+
+def _begun(field: Field, domain: Domain, rtol: float, began: float, seconds: float, tell: Progress) -> FieldCertificate:
+    """The search's answer, or why there can be none: a field without a gradient, or without enclosures."""
+    detail = not_differentiable(field, domain)
+    if detail is not None:
+        detail = f"the field has no gradient: {detail}"
+        return FieldCertificate(field, domain, Verdict.UNDECIDED, detail=detail, rtol=rtol)
+    try:
+        quotients = Quotients(*_drop(field), field.kappa)
+    except Undefined as error:
+        detail = f"the field cannot be enclosed: {error}"
+        return FieldCertificate(field, domain, Verdict.UNDECIDED, detail=detail, rtol=rtol)
+    return _Search(field, domain, quotients, Prosecutor(field, quotients, domain), rtol, began, seconds, tell).run()
 
 
 def not_differentiable(field: Field, domain: Domain) -> str | None:
