@@ -116,7 +116,7 @@ def identifiers(items: Iterable[Any], taken: Iterable[str] = ()) -> dict[Any, st
     used = {*WORDS, *_GRAMMAR, *taken}
     names: dict[Any, str] = {}
     for item in items:
-        base = plain(getattr(item, "name", None) or item.__name__)
+        base = plain(called(item))
         name, count = base, 1
         while name in used:
             count += 1
@@ -124,6 +124,11 @@ def identifiers(items: Iterable[Any], taken: Iterable[str] = ()) -> dict[Any, st
         used.add(name)
         names[item] = name
     return names
+
+
+def called(item: Any) -> str:
+    """The name of a symbol or of an undefined function."""
+    return str(item.name if hasattr(item, "name") else item.__name__)
 
 
 def plain(text: str) -> str:

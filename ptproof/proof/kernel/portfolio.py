@@ -28,7 +28,7 @@ def script(said: Proposition) -> str:
 
 def _near(part: Part, said: Proposition) -> str:
     try:
-        return f"first [ {near(part, list(said.conclusions), said.names)} | leaf_or_say ]"
+        return f"try (solve [ {near(part, list(said.conclusions), said.names)} ]); leaf_or_say"
     except (NoTranslation, sp.PolynomialError):
         return "leaf_or_say"
 

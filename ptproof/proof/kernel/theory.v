@@ -185,7 +185,8 @@ Ltac same_values :=
       end
   end.
 
-Ltac rational := first [ reflexivity | ring | field; sides ].
+Ltac as_reals := lazymatch goal with |- ?x = ?y => change (@eq R x y) end.
+Ltac rational := as_reals; first [ reflexivity | ring | field; sides ].
 
 (* sin and cos become s and c with s^2 + c^2 = 1. *)
 Ltac expand_angles := repeat first [ rewrite cos_minus | rewrite sin_minus | rewrite cos_plus | rewrite sin_plus
