@@ -49,7 +49,7 @@ def boundary_layer_stability(
 
 
 def _is_affine(matrix: sp.Matrix, fast: FastStates) -> bool:
-    """Whether the rates are their Jacobian times z and a rest: where they jump, the derivative alone does not say so."""
+    """Whether the rates are their Jacobian times z and a rest; of a jump the derivative alone does not say that."""
     linear = matrix * sp.Matrix(list(fast.state))
     rests = [sp.expand(rate - part) for rate, part in zip(fast.rate, linear, strict=True)]
     return not any(rest.free_symbols & set(fast.state) for rest in rests)

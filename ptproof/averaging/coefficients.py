@@ -13,6 +13,9 @@ from ptproof.averaging.quasipolynomial import exact_sign
 from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided, NotAPeriod
 from ptproof.averaging.signal import Signal, common_pieces, period_of, rates_of, read_signal
 from ptproof.balls.ball import separated
+from ptproof.proof.declarations import SIGNS, declared
+from ptproof.proof.definedness import obligations
+from ptproof.proof.engines.reals import follows
 from ptproof.proof.signs import vanishes
 from ptproof.system import DitherSystem
 
@@ -27,7 +30,7 @@ def signals(system: DitherSystem) -> tuple[Signal, ...]:
     AveragingRefused
         If the period is not one, or a dither does not have zero mean.
     AveragingUndecided
-        If a dither is outside the class that is integrated exactly.
+        If a dither is outside the class that is integrated exactly, or not shown to be real for all its symbols.
     """
     if not system.period.is_number or exact_sign(system.period) <= 0:
         raise AveragingRefused("D", "period", f"the period must be a positive number, not {system.period}")
@@ -38,9 +41,24 @@ def signals(system: DitherSystem) -> tuple[Signal, ...]:
             signal = read_signal(dither, system.phase, system.period, where)
         except NotAPeriod as refusal:
             raise AveragingRefused("D", where, refusal.reason + _period_hint(system)) from None
+        for value in sorted(signal.coefficients, key=sp.default_sort_key):
+            if not _is_real(value, system.time):
+                raise AveragingUndecided(f"{where}: {value} is not shown to be a real number for all its symbols")
         mean_is_zero(signal.mean, where, system)
         result.append(signal)
     return tuple(result)
+
+
+def _is_real(value: sp.Expr, time: sp.Symbol) -> bool:
+    """Whether it is shown to be defined and real; at which slow times it is, another hypothesis asks."""
+    return all(
+        need.settled
+        or (
+            need.relation is not None
+            and (time in need.relation.free_symbols or follows(need.relation, need.given, seconds=1.0).shown)
+        )
+        for need in obligations(value)
+    )
 
 
 def _period_hint(system: DitherSystem) -> str:
@@ -59,7 +77,9 @@ def mean_is_zero(mean: sp.Expr, where: str, system: DitherSystem) -> None:
     mean = sp.expand(mean)
     if vanishes(mean):
         return
-    if separated(mean, sp.S.Zero, sample(mean.free_symbols)) is None:
+    # At which slow times it would have to vanish is not known here, nor does a sample know of even or prime numbers.
+    plain = all(set(declared(symbol)) <= {"real", "integer", *SIGNS} for symbol in mean.free_symbols - {system.time})
+    if system.time in mean.free_symbols or not plain or separated(mean, sp.S.Zero, sample(mean.free_symbols)) is None:
         raise AveragingUndecided(f"{where}: whether its mean {mean} vanishes is not known")
     raise AveragingRefused(
         "D",

@@ -78,19 +78,23 @@ class Correction:
         return tuple(2 * symbol - entry for symbol, entry in zip(self.system.state, self.expressions, strict=True))
 
     def hypotheses(self, domain: Sequence[Relation] = ()) -> Evidence:
-        """Whether the fields are C³ and the drift is C² (undefined functions taken as smooth), on ``domain``.
+        """Whether the fields are C³, drift and slow amplitudes C², on ``domain``; functions are taken as smooth.
 
         This is one order more than the average itself needs; where it is not proved, neither is the order 1/ω.
         """
         system = self.system
-        for place, entries in parts(system):
-            order = 2 if place == "drift" else 3
+        variables = (system.time, *system.state)
+        asked = [(place, entries, 2 if place == "drift" else 3, variables) for place, entries in parts(system)]
+        for i, dither in enumerate(system.dithers, start=1):
+            if system.time in dither.free_symbols:
+                asked.append((f"dither {i}", (dither,), 2, (system.time,)))
+        for place, entries, order, moving in asked:
             for entry in entries:
-                assumed = dict.fromkeys(entry.atoms(AppliedUndef), sp.oo)
-                evidence = smoothness(entry, (system.time, *system.state), order, assumed, domain)
+                assumed = {applied.func: sp.oo for applied in entry.atoms(AppliedUndef)}
+                evidence = smoothness(entry, moving, order, assumed, domain)
                 if evidence.verdict is not Verdict.PROVED:
                     return replace(evidence, detail=f"{place}: {evidence.detail}")
-        return Evidence("smoothness", Verdict.PROVED, "the fields are C^3 and the drift is C^2")
+        return Evidence("smoothness", Verdict.PROVED, "the fields are C^3, the drift and the slow amplitudes are C^2")
 
     def _repr_latex_(self) -> str:
         rows = [

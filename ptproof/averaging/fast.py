@@ -47,9 +47,10 @@ def quasi_steady_state(fast: FastStates, domain: Sequence[Relation] = ()) -> tup
         for rest in (rate.subs(there, simultaneous=True) for rate in fast.rate):
             if not vanishes(rest):
                 witness = _nonzero(rest, domain)
-                verdict, shown = (Verdict.UNDECIDED, "is not shown to") if witness is None else (
-                    Verdict.REFUTED, "does not")  # fmt: skip
-                return result(None, verdict, f"{list(values)} {shown} make the fast rates vanish", witness)
+                detail = (
+                    f"{list(values)} {'is not shown to' if witness is None else 'does not'} make the fast rates vanish"
+                )
+                return result(None, Verdict.UNDECIDED if witness is None else Verdict.REFUTED, detail, witness)
     if all(sp.expand(sp.diff(rate, a, b)) == 0 for rate in fast.rate for a in fast.state for b in fast.state):
         with contextlib.suppress(InputError):
             affine, shown = reduction.solve_quasi_steady_state(fast.rate, fast.state)
@@ -198,7 +199,7 @@ def _is_continuous(fast: FastStates, domain: Sequence[Relation]) -> bool:
 
 
 def _monotone(fast: FastStates, domain: Sequence[Relation]) -> bool:
-    """Whether the symmetric part of −∂g/∂z is positive definite everywhere, by its leading minors, for a continuous g."""
+    """Whether g is continuous, and the symmetric part of −∂g/∂z is positive definite by its leading minors."""
     if not _is_continuous(fast, domain):
         return False
     matrix = -sp.Matrix(list(fast.rate)).jacobian(list(fast.state))

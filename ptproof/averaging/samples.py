@@ -1,4 +1,4 @@
-"""Exact values at which a hypothesis may fail: allowed by the declarations, inside the region, one function at a time."""
+"""Exact values at which a hypothesis may fail: allowed by the declarations, inside the region, possible at once."""
 
 from __future__ import annotations
 
@@ -77,7 +77,7 @@ def _pool(symbol: sp.Symbol, domain: Sequence[Relation]) -> list[sp.Expr]:
 
 
 def _is_possible(point: Mapping[sp.Symbol, sp.Expr], meaning: Mapping[sp.Symbol, sp.Expr]) -> bool:
-    """Whether there are smooth functions with these values: one value at one place, and flat where a sign makes it so."""
+    """Whether smooth functions have these values: one value at a place, and flat where a sign makes it so."""
     seen: dict[tuple[sp.Basic, ...], sp.Expr] = {}
     for symbol, value in point.items():
         node = meaning.get(symbol)
@@ -97,7 +97,7 @@ def _is_possible(point: Mapping[sp.Symbol, sp.Expr], meaning: Mapping[sp.Symbol,
 def _jet(
     node: sp.Expr, point: Mapping[sp.Symbol, sp.Expr], meaning: Mapping[sp.Symbol, sp.Expr]
 ) -> tuple[sp.Basic, ...] | None:
-    """The function, the place in numbers, and the arguments by which it is differentiated; None where that is not clear."""
+    """The function, the place in numbers, and the arguments it is differentiated by; None if that is not clear."""
     applied, moved = (node.expr, node.variables) if isinstance(node, sp.Derivative) else (node, ())
     if not isinstance(applied, AppliedUndef) or any(applied.args.count(symbol) != 1 for symbol in moved):
         return None

@@ -11,6 +11,7 @@ from ptproof.averaging.quasipolynomial import QuasiPolynomial, exact_sign, read
 from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided, NotAPeriod
 from ptproof.averaging.switching import pieces
 from ptproof.proof.kinks import innermost
+from ptproof.proof.signs import vanishes
 
 
 @dataclass(frozen=True)
@@ -25,6 +26,11 @@ class Signal:
     def is_trigonometric(self) -> bool:
         """Whether the signal is one trigonometric polynomial."""
         return len(self.pieces) == 1 and self.pieces[0].is_trigonometric_polynomial
+
+    @property
+    def coefficients(self) -> set[sp.Expr]:
+        """What the powers, sines and cosines of the phase are multiplied by."""
+        return {value for piece in self.pieces for pair in piece.terms.values() for value in pair}
 
     @functools.cached_property
     def antiderivatives(self) -> tuple[QuasiPolynomial, ...]:
@@ -88,12 +94,7 @@ def read_signal(dither: sp.Expr, phase: sp.Symbol, period: sp.Expr, where: str) 
         _check_period(terms, dither, phase, period, where)
         return Signal(period, (sp.S.Zero, period), (terms,))
     _check_period_of_switches(dither, phase, period, where)
-    points: list[sp.Expr] = [sp.S.Zero]
-    parts: list[QuasiPolynomial] = []
-    for _, end, expression in pieces(dither, phase, sp.S.Zero, period, where):
-        points.append(end)
-        parts.append(read(expression, phase, where))
-    return Signal(period, tuple(points), tuple(parts))
+    return _pieces_of(dither, phase, period, where)
 
 
 def common_pieces(first: Signal, second: Signal) -> list[tuple[sp.Expr, sp.Expr, int, int]]:
@@ -153,17 +154,21 @@ def _check_period_of_switches(dither: sp.Expr, phase: sp.Symbol, period: sp.Expr
     # The same pieces, one period later, must be the same functions.
     constants = {symbol: sp.Symbol(f"c{i}") for i, symbol in enumerate(masked.atoms(sp.Dummy))}
     masked = masked.xreplace(constants)
-    first = list(pieces(masked, phase, sp.S.Zero, period, where))
-    later = list(pieces(masked.subs(phase, phase + period), phase, sp.S.Zero, period, where))
-    same = len(first) == len(later) and all(
-        exact_sign(left[0] - right[0]) == 0
-        and all(
-            sp.simplify(a) == 0 and sp.simplify(b) == 0
-            for a, b in (
-                read(left[2], phase, where) + read(right[2], phase, where).scale(sp.S.NegativeOne)
-            ).terms.values()
-        )
-        for left, right in zip(first, later, strict=True)
-    )
-    if not same:
-        raise NotAPeriod(where, f"{period} is not a period of {dither}")
+    first, later = (_pieces_of(entry, phase, period, where) for entry in (masked, masked.subs(phase, phase + period)))
+    for _, _, p, q in common_pieces(first, later):
+        difference = first.pieces[p] + later.pieces[q].scale(sp.S.NegativeOne)
+        for value in (value for pair in difference.terms.values() for value in pair):
+            if vanishes(value):
+                continue
+            if not value.is_number or exact_sign(value) == 0:
+                raise AveragingUndecided(f"{where}: whether {period} is a period of {dither} is not known")
+            raise NotAPeriod(where, f"{period} is not a period of {dither}")
+
+
+def _pieces_of(dither: sp.Expr, phase: sp.Symbol, period: sp.Expr, where: str) -> Signal:
+    points: list[sp.Expr] = [sp.S.Zero]
+    parts: list[QuasiPolynomial] = []
+    for _, end, expression in pieces(dither, phase, sp.S.Zero, period, where):
+        points.append(end)
+        parts.append(read(expression, phase, where))
+    return Signal(period, tuple(points), tuple(parts))

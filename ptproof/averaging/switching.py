@@ -35,6 +35,8 @@ def pieces(
     points = _switching_points(node, variable, start, end, where)
     if len(points) > _MOST_PIECES:
         raise AveragingUndecided(f"{where}: more than {_MOST_PIECES} switching points in a period")
+    for point in (start, *points):
+        _value_at(node, variable, point, where)
     for left, right in itertools.pairwise([start, *points, end]):
         middle = _between(left, right)
 
@@ -47,10 +49,22 @@ def pieces(
         replacement = branch(node, sign_of, floor_of)
         assert replacement is not None  # both callbacks always answer
         if replacement.has(sp.nan):
-            raise AveragingUndecided(
-                f"{node} has no value where none of its conditions holds; end it with (value, True)"
-            )
+            raise _no_value(node, where)
         yield from pieces(expression.xreplace({node: replacement}), variable, left, right, where)
+
+
+def _no_value(node: sp.Basic, where: str) -> AveragingUndecided:
+    return AveragingUndecided(
+        f"{where}: {node} has no value where none of its conditions holds; end it with (value, True)"
+    )
+
+
+def _value_at(node: sp.Basic, variable: sp.Symbol, point: sp.Expr, where: str) -> None:
+    """Refuse a ``Piecewise`` that has no value at a point where it switches."""
+    if isinstance(node, sp.Piecewise):
+        there = branch(node, lambda side: exact_sign(side.subs(variable, point)))
+        if there is None or there.has(sp.nan):
+            raise _no_value(node, where)
 
 
 def _between(left: sp.Expr, right: sp.Expr) -> sp.Rational:
@@ -79,6 +93,16 @@ def _switching_points(node: sp.Basic, variable: sp.Symbol, start: sp.Expr, end: 
         if not distinct or exact_sign(point - distinct[-1]) > 0:
             distinct.append(point)
     return distinct
+
+
+def _real_roots(polynomial: sp.Poly, where: str) -> list[sp.Expr]:
+    """The real roots of a polynomial of degree 1 or 2, by the sign of its discriminant."""
+    if polynomial.degree() == 2 and exact_sign(polynomial.discriminant()) < 0:
+        return []
+    roots = list(sp.roots(polynomial))
+    if any(root.is_real is False for root in roots):
+        raise AveragingUndecided(f"{where}: the zeros of {polynomial.as_expr()} are not known exactly")
+    return roots
 
 
 def _order(a: sp.Expr, b: sp.Expr) -> int:
@@ -110,7 +134,7 @@ def zeros(side: sp.Expr, variable: sp.Symbol, start: sp.Expr, end: sp.Expr, wher
         polynomial = sp.Poly(side, variable)
         if polynomial.degree() > 2:
             raise AveragingUndecided(f"{where}: the switching points of {side} are not known exactly")
-        return [root for root in sp.roots(polynomial) if root.is_real]
+        return _real_roots(polynomial, where)
     if len(rates) > 1 or any(n for n, _ in terms):
         raise AveragingUndecided(f"{where}: the switching points of {side} are not known exactly")
     (rate,) = rates

@@ -39,7 +39,7 @@ _NUMBERS = {
     "t0": "Start.",
     "omega": "Frequency of the seeker.",
     "mu": "Filter constant of the seeker.",
-    "residual": "A distance wanted at t0 + T: status 1 unless the average is certainly within it, and 1/sqrt(omega) is.",
+    "residual": "A distance wanted at t0 + T: status 1 unless the average and 1/sqrt(omega) are certainly within it.",
     "radius": "Of the ball on which a problem's constants are certified.",
 }
 
@@ -223,9 +223,7 @@ def _summary(result: Study, simulated: Simulated) -> None:
     click.echo(f"\nField constants: {status}, valid {result.condition}.")
     if result.answer is None and certificate is not None:
         click.echo(f"  {certificate.summary}")
-    click.echo(
-        f"Distance of the averaged system at t₀ + T from a start at {float(curve.initial):.6g}, drift and clip included:"
-    )
+    click.echo(f"Distance of the averaged system at t₀ + T, from {float(curve.initial):.6g}, with drift and clip:")
     names = {
         "printed": ("the paper's chain", "clip.residual_bound_printed"),
         "closed_form": ("closed form, sharper", "clip.residual_bound"),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,6 +16,7 @@ from ptproof.errors import InputError
 
 if TYPE_CHECKING:
     from ptproof.proof.load import Derivation
+    from ptproof.proof.memory import Memory
     from ptproof.proof.run import Interrupted
 
 Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]
@@ -29,12 +30,12 @@ jobs = click.option(
 )
 
 
-def timeout(of: str = "") -> Decorator:
+def timeout(of: str = "", default: float = 60.0) -> Decorator:
     """``--timeout``, the limit of the whole command or ``of`` one thing that it does."""
     limit = click.FloatRange(min=0, min_open=True, max=1e6)
     limit.name = "number of seconds"
     help = f"Time limit{of and f' of {of}'}, in seconds."
-    return click.option("--timeout", type=limit, default=60.0, show_default=True, metavar="SECONDS", help=help)
+    return click.option("--timeout", type=limit, default=default, show_default=True, metavar="SECONDS", help=help)
 
 
 def plot(what: str) -> Decorator:
@@ -77,7 +78,7 @@ def connected(address: str | None) -> Iterator[Any]:
 
 
 @contextmanager
-def loaded(paths: tuple[str, ...]) -> Iterator[Derivation]:
+def loaded(paths: tuple[str, ...], memory: Memory | None = None) -> Iterator[Derivation]:
     """The derivation below the paths; what its code prints, now and while it is used, goes to standard error."""
     from ptproof.proof.load import load
 
@@ -86,7 +87,8 @@ def loaded(paths: tuple[str, ...]) -> Iterator[Derivation]:
         folder = os.getcwd()
         guard.limit()
         try:
-            derivation = load(paths)
+            with nullcontext() if memory is None else memory.loading():
+                derivation = load(paths)
         except KeyboardInterrupt:
             if guard.own_interrupt():
                 raise InputError("the derivation raised KeyboardInterrupt while it was loaded") from None
@@ -94,6 +96,19 @@ def loaded(paths: tuple[str, ...]) -> Iterator[Derivation]:
         os.chdir(folder)
         guard.doing("before the command had come to its end")
         yield derivation
+
+
+fresh = click.option("--fresh", is_flag=True, help="Decide every claim anew; ignore what is remembered.")
+
+
+def memory_of(paths: tuple[str, ...], fresh: bool) -> Memory:
+    """What earlier runs have decided about the derivations below the paths (the shipped ones where left out)."""
+    from ptproof.proof.memory import Memory
+    from ptproof.proof.shipped import shipped
+
+    return Memory(
+        paths or (shipped(),), fresh=fresh, say=lambda text: click.echo(f"ptproof: warning: {text}", err=True)
+    )
 
 
 def interrupted(run: Interrupted) -> int:

@@ -25,9 +25,16 @@ if TYPE_CHECKING:
 @options.jobs
 @options.cluster
 @options.timeout("one claim")
+@options.fresh
 @click.option("--no-figures", is_flag=True, help="Leave out the simulations and their figures.")
 def report(
-    paths: tuple[str, ...], out: str, jobs: int | None, cluster: str | None, timeout: float, no_figures: bool
+    paths: tuple[str, ...],
+    out: str,
+    jobs: int | None,
+    cluster: str | None,
+    timeout: float,
+    fresh: bool,
+    no_figures: bool,
 ) -> int:
     """Verify the claims below each PATH (the shipped derivation of the paper where left out) and write the report.
 
@@ -40,10 +47,13 @@ def report(
     from ptproof.report.writing import check_place
 
     place = check_place(out)
-    with options.loaded(paths) as derivation:
+    memory = options.memory_of(paths, fresh)
+    with options.loaded(paths, memory) as derivation:
         try:
             with options.connected(cluster) as client, claim_progress(len(derivation.claims)) as progress:
-                verification = run(derivation, workers=jobs, client=client, timeout=timeout, progress=progress)
+                verification = run(
+                    derivation, workers=jobs, client=client, timeout=timeout, progress=progress, memory=memory
+                )
         except Interrupted as interrupted:
             status = options.interrupted(interrupted)
             _summarize(interrupted.verification)

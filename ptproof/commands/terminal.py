@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from rich.console import Console
 from rich.padding import Padding
@@ -13,12 +13,14 @@ from rich.table import Table
 from rich.text import Text
 
 from ptproof.commands import streams
+from ptproof.commands.shown import Shown
 
 if TYPE_CHECKING:
-    from ptproof.proof.claim import Claim, Result
+    from ptproof.proof.claim import Claim as DecidedClaim
     from ptproof.proof.run import Verification
     from ptproof.proof.verdict import Evidence
 
+Claim: TypeAlias = Mapping[str, Any]  # as it stands in the JSON
 COLOURS = {"proved": "green", "refuted": "red", "undecided": "yellow", "cited": "blue", "observed": "magenta"}
 
 
@@ -51,12 +53,12 @@ def progress(what: str, total: int) -> Iterator[Callable[..., None]]:
 
 
 @contextmanager
-def claim_progress(total: int) -> Iterator[Callable[[Claim, Evidence], None]]:
+def claim_progress(total: int) -> Iterator[Callable[[DecidedClaim, Evidence], None]]:
     """A bar with the verdicts so far; gives the function to call with each claim that is done."""
     counts = dict.fromkeys(COLOURS, 0)
     with progress("verifying", total) as advance:
 
-        def done(claim: Claim, evidence: Evidence) -> None:
+        def done(claim: DecidedClaim, evidence: Evidence) -> None:
             counts[str(evidence.verdict)] += 1
             shown = "  ".join(f"[{COLOURS[word]}]{number} {word}[/]" for word, number in counts.items() if number)
             advance(1, shown)
@@ -64,57 +66,63 @@ def claim_progress(total: int) -> Iterator[Callable[[Claim, Evidence], None]]:
         yield done
 
 
-def verification_table(verification: Verification) -> None:
+def verification_table(verification: Verification | Shown) -> None:
     """The claims with their verdicts, grouped by section, then the witnesses of what is false."""
+    shown = verification if isinstance(verification, Shown) else Shown.of(verification)
     console = output(highlight=False)
-    sections: dict[str, list[Result]] = {}
-    for result in verification.results:
-        sections.setdefault(result.claim.section, []).append(result)
+    for claim in shown.claims:
+        for item in claim["evidence"]:
+            if (item["engine"], item["verdict"]) == ("attack", "refuted"):
+                console.print(Text(f"{claim['id']}: {item['detail']}", style="bold white on red"))
+                console.print()
+    sections: dict[str, list[Claim]] = {}
+    for claim in shown.claims:
+        sections.setdefault(shown.sections[claim["id"]], []).append(claim)
     # One width for the ids of all tables, so that the columns stand under each other.
-    longest = max((len(result.claim.id) for result in verification.results), default=0)
-    for section, results in sections.items():
-        console.print(_section_table(section or "Claims", results, min(longest, console.width * 2 // 5)))
+    longest = max((len(claim["id"]) for claim in shown.claims), default=0)
+    for section, claims in sections.items():
+        console.print(_section_table(section or "Claims", claims, min(longest, console.width * 2 // 5)))
         console.print()
-    for result in verification.results:
-        _print_witness(console, result)
-    _print_summary(console, verification)
+    for claim in shown.claims:
+        _print_witness(console, claim)
+    _print_summary(console, shown)
 
 
-def _section_table(title: str, results: Sequence[Result], id_width: int) -> Table:
+def _section_table(title: str, claims: Sequence[Claim], id_width: int) -> Table:
     table = Table(
         title=title, title_justify="left", title_style="bold", box=None, pad_edge=False, show_header=False, expand=True,
     )  # fmt: skip
     table.add_column(width=len("undecided"), no_wrap=True)
     table.add_column(ratio=1)
     table.add_column(width=id_width, style="dim", overflow="fold")
-    for result in results:
-        word = str(result.verdict)
-        shown = Text(word, style=COLOURS[word])
-        if word == "proved" and not result.fully_proved:
-            shown.append("*")
-        claim = Text(result.claim.title)
-        if not result.as_expected:
-            claim.append(f"  (expected {result.claim.expected})", style="bold red")
-        table.add_row(shown, claim, result.claim.id)
+    for claim in claims:
+        word = claim["verdict"]
+        verdict = Text(word, style=COLOURS[word])
+        if word == "proved" and not claim["fully_proved"]:
+            verdict.append("*")
+        title_ = Text(claim["title"])
+        if word != claim["expected"]:
+            title_.append(f"  (expected {claim['expected']})", style="bold red")
+        table.add_row(verdict, title_, claim["id"])
     return table
 
 
-def _print_witness(console: Console, result: Result) -> None:
+def _print_witness(console: Console, claim: Claim) -> None:
     """Why a claim is false: where, and what the two sides are there; or why it is open though it should not be."""
-    for item in result.evidence:
-        if item.witness is not None:
-            heading = Text("✗ ", style="red").append(result.claim.title, style="red")
-            console.print(heading.append(f" ({result.claim.id})", style="dim"))
-            console.print(Padding(Text(_where(item.witness.values)), (0, 0, 0, 4)))
-            console.print(Padding(Text(f"left side   {item.witness.left}"), (0, 0, 0, 4)))
-            console.print(Padding(Text(f"right side  {item.witness.right}"), (0, 0, 0, 4)))
-            console.print()
-        elif str(result.verdict) == "undecided" and not result.as_expected:
-            console.print(Text("? ", style="yellow").append(f"{result.claim.id}: {item.detail}", style="yellow"))
+    if (witness := claim["witness"]) is not None:
+        heading = Text("✗ ", style="red").append(claim["title"], style="red")
+        console.print(heading.append(f" ({claim['id']})", style="dim"))
+        console.print(Padding(Text(where(witness["values"])), (0, 0, 0, 4)))
+        console.print(Padding(Text(f"left side   {witness['left']}"), (0, 0, 0, 4)))
+        console.print(Padding(Text(f"right side  {witness['right']}"), (0, 0, 0, 4)))
+        console.print()
+    elif claim["verdict"] == "undecided" != claim["expected"]:
+        for item in claim["evidence"]:
+            console.print(Text("? ", style="yellow").append(f"{claim['id']}: {item['detail']}", style="yellow"))
             console.print()
 
 
-def _where(values: Mapping[str, str]) -> str:
+def where(values: Mapping[str, str]) -> str:
     """The values of a witness in words: symbols that may be anything come first."""
     free = [name for name, value in values.items() if value == "any"]
     fixed = [f"{name} = {value}" for name, value in values.items() if value != "any"]
@@ -122,12 +130,13 @@ def _where(values: Mapping[str, str]) -> str:
     return words + ", ".join(fixed) if fixed else "at all values" if not free else words.rstrip(": ")
 
 
-def _print_summary(console: Console, verification: Verification) -> None:
-    summary = verification.summary()
+def _print_summary(console: Console, shown: Shown) -> None:
+    summary = shown.json["summary"]
     words = Text(", ").join(Text(f"{summary[word]} {word}", style=COLOURS[word]) for word in COLOURS if summary[word])
-    if any(str(item.verdict) == "proved" and not item.fully_proved for item in verification.results):
+    if any(claim["verdict"] == "proved" and not claim["fully_proved"] for claim in shown.claims):
         console.print("* proved from citations or open claims that it uses", style="dim")
-    line = Text(f"{summary['total']} claims in {verification.seconds:.1f} s: ").append_text(words)
+    known = f", {shown.remembered} remembered" if shown.remembered else ""
+    line = Text(f"{summary['total']} claims in {shown.seconds:.1f} s{known}: ").append_text(words)
     line.append(f"; {summary['fully_proved']} fully proved, ")
     line.append(f"{summary['unexpected']} not as expected", style="bold red" if summary["unexpected"] else "")
     console.print(line)

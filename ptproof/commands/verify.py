@@ -2,11 +2,20 @@
 
 from __future__ import annotations
 
+import time
+from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from ptproof.commands import opinion, options
+from ptproof.commands.shown import Shown
+
+if TYPE_CHECKING:
+    from ptproof.proof.load import Derivation
+    from ptproof.proof.memory import Memory
+    from ptproof.proof.run import Verification
 
 
 @click.command()
@@ -16,34 +25,56 @@ from ptproof.commands import opinion, options
 @options.cluster
 @options.timeout("one claim")
 @click.option("-k", "select", default="", metavar="TEXT", help="Only claims that contain TEXT, and what they use.")
+@options.fresh
 @opinion.kernel
 @opinion.keep
 def verify(
-    paths: tuple[str, ...], as_json: bool, jobs: int | None, cluster: str | None, timeout: float, select: str,
-    kernel: bool, keep: Path | None,
-) -> int:  # fmt: skip
+    paths: tuple[str, ...], as_json: bool, select: str, fresh: bool, kernel: bool, keep: Path | None, **how: Any
+) -> int:
     """Verify the claims below each PATH (the shipped derivation of the paper where left out).
 
-    Exit status 1 if a claim did not come out as its author recorded.
+    What an earlier run has decided is not decided again while every file that it depends on is the same. Exit status 1
+    if a claim did not come out as its author recorded.
     """
-    from ptproof.commands.terminal import claim_progress, verification_table
+    start = time.perf_counter()
+    opinion.available(kernel, keep)
+    memory = options.memory_of(paths, fresh)
+    kept = None if kernel or how["cluster"] is not None else memory.run(select)
+    if (shown := Shown.again(kept)) is not None:
+        _print(replace(shown, seconds=time.perf_counter() - start), as_json)
+        return 0 if shown.as_expected else 1
+    with options.loaded(paths, memory) as derivation:
+        verification, status = _decided(derivation, memory, select, **how)
+        if kernel and status in (0, 1):
+            verification = opinion.confirmed(verification, how["jobs"], keep)
+        _print(Shown.of(verification), as_json)
+    return status
+
+
+def _decided(
+    derivation: Derivation, memory: Memory, select: str, jobs: int | None, cluster: str | None, timeout: float
+) -> tuple[Verification, int]:
+    """What came out, and the exit status."""
+    from ptproof.commands.terminal import claim_progress
     from ptproof.proof.run import Interrupted
     from ptproof.proof.run import verify as run
 
-    opinion.available(kernel, keep)
-    status = None
-    with options.loaded(paths) as derivation:
-        try:
-            with options.connected(cluster) as client, claim_progress(len(derivation.select(select))) as progress:
-                verification = run(
-                    derivation, workers=jobs, client=client, timeout=timeout, select=select, progress=progress
-                )
-        except Interrupted as interrupted:
-            verification, status = interrupted.verification, options.interrupted(interrupted)
-        if kernel and status is None:
-            verification = opinion.confirmed(verification, jobs, keep)
-        if as_json:
-            options.print_json(verification.to_json())
-        else:
-            verification_table(verification)
-    return status if status is not None else 0 if verification.as_expected else 1
+    try:
+        with options.connected(cluster) as client, claim_progress(len(derivation.select(select))) as progress:
+            verification = run(
+                derivation, workers=jobs, client=client, timeout=timeout, select=select, progress=progress,
+                memory=memory,
+            )  # fmt: skip
+    except Interrupted as interrupted:
+        return interrupted.verification, options.interrupted(interrupted)
+    memory.keep_run(select, Shown.of(verification).data, verification)
+    return verification, 0 if verification.as_expected else 1
+
+
+def _print(shown: Shown, as_json: bool) -> None:
+    if as_json:
+        options.print_json(shown.json)
+    else:
+        from ptproof.commands.terminal import verification_table
+
+        verification_table(shown)

@@ -229,7 +229,8 @@ _TABLE: Mapping[str, Entry] = {
     "prescribed_time.overshoot": Entry("overshoot up to t₀ + T, as printed", _overshoot, check=_quadratic),
     "prescribed_time.rate": Entry(
         "decay rate in τ", lambda data, k: vanishing.decay_rate(data.bounds, k), ("k",), _quadratic),
-    "prescribed_time.overshoot_split": Entry("overshoot up to t₀ + T, sharper", _overshoot_split, check=_along_gradient),
+    "prescribed_time.overshoot_split": Entry(
+        "overshoot up to t₀ + T, sharper", _overshoot_split, check=_along_gradient),
     "critical.V0_at_tau_star": Entry("V₀ that escapes at τ*", _at_tau_star),
     "critical.V0_threshold_printed": Entry("safe V₀ below, as printed", partial(_V0_threshold, chain="printed")),
     "critical.V0_threshold": Entry("safe V₀ below, up to t₀ + T", partial(_V0_threshold, chain="split")),

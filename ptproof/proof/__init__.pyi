@@ -35,6 +35,8 @@ from .lemmas import sine_square as sine_square
 from .lemmas import superadditive as superadditive
 from .load import Derivation as Derivation
 from .load import load as load
+from .mutation.outcomes import Mutation as Mutation
+from .mutation.running import mutate as mutate
 from .run import Verification as Verification
 from .run import decide as decide
 from .run import verify as verify

@@ -4,19 +4,44 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Generator, Sequence
-from dataclasses import replace
-from typing import Any
+from dataclasses import dataclass
+from typing import Any, TypeAlias
 
 from ptproof.proof.claim import Claim
 from ptproof.proof.deciding import run_one
 from ptproof.proof.load import claims_in
 from ptproof.proof.statement import Prose
 from ptproof.proof.verdict import Evidence, Verdict
+from ptproof.reading.hashes import foreign, opened
 from ptproof.reading.limits import Answered, OutOfTime, Stop, Unanswered, Why, Workers, within
 from ptproof.reading.outcomes import in_words
 from ptproof.reading.state import State
 
+INTERRUPTED = "interrupted"
 CRASH, TIME = "crash", "time limit"
+
+
+@dataclass(frozen=True)
+class Decided:
+    """What a worker says of a claim.
+
+    Attributes
+    ----------
+    content
+        What the claim says there, as a hash.
+    evidence
+        What its proof says.
+    files
+        What the proof has read besides the files of Python, the libraries and ptproof.
+    """
+
+    content: str
+    evidence: Evidence
+    files: tuple[str, ...] = ()
+
+
+Outcome: TypeAlias = Answered[Decided] | Unanswered
+Found: TypeAlias = tuple[Claim, Decided]
 
 
 def run_here(claim: Claim, timeout: float) -> Evidence:
@@ -45,42 +70,43 @@ def _contained(claim: Claim) -> Evidence:
 
 def in_workers(
     claims: Sequence[Claim], files: tuple[str, ...], workers: int, timeout: float
-) -> Generator[tuple[Claim, Evidence], None, None]:
+) -> Generator[Found, None, None]:
     """Each claim with its evidence, as they finish; a worker over its time is killed, and only its claim is lost."""
     # What may take longest comes first: the runs behind an observation.
     ordered = sorted(claims, key=lambda claim: not isinstance(claim.statement, Prose))
     by_id = {claim.id: claim for claim in ordered}
+    if not by_id:
+        return
     with Workers(min(workers, len(by_id)), start=read, arguments=(files,)) as processes:
         for id, outcome in processes.each(timeout, run_by_id, {id: (id,) for id in by_id}):
-            yield by_id[id], evidence_for(by_id[id], outcome, timeout)
+            yield by_id[id], decided(by_id[id], outcome, timeout)
 
 
 def on_cluster(
     claims: Sequence[Claim], files: tuple[str, ...], client: Any, timeout: float
-) -> Generator[tuple[Claim, Evidence], None, None]:
+) -> Generator[Found, None, None]:
     """Each claim with its evidence, as the workers of a ``distributed.Client`` finish."""
     from distributed import as_completed
 
     running = {client.submit(_on_worker, files, claim.id, timeout, pure=False): claim for claim in claims}
     for future in as_completed(running):
         error, claim = future.exception(), running[future]
-        outcome: Answered[tuple[str, Evidence]] | Unanswered = (
-            Answered(future.result()) if error is None
-            else Unanswered(Why.DIED, f"the worker was lost: {type(error).__name__}: {error}")
-        )  # fmt: skip
-        yield claim, evidence_for(claim, outcome, timeout)
+        lost = Unanswered(Why.DIED, f"the worker was lost: {type(error).__name__}: {error}")
+        yield claim, decided(claim, Answered(future.result()) if error is None else lost, timeout)
 
 
-def evidence_for(claim: Claim, outcome: Answered[tuple[str, Evidence]] | Unanswered, timeout: float) -> Evidence:
-    """The evidence of a claim that ran elsewhere, if what was decided there is this claim."""
+def decided(claim: Claim, outcome: Outcome, timeout: float) -> Decided:
+    """What was decided elsewhere, if it is this claim that was decided there."""
     match outcome:
-        case Answered((str(decided), Evidence() as evidence)):
-            if decided == claim.content:
-                return evidence
-            return Evidence("mismatch", Verdict.UNDECIDED, "the worker decided another claim of this name")
+        case Answered(Decided() as found) if found.content == claim.content:
+            return found
+        case Answered(Decided()):
+            evidence = Evidence("mismatch", Verdict.UNDECIDED, "the worker decided another claim of this name")
         case Unanswered():
-            return evidence_of(outcome, timeout)
-    return Evidence(CRASH, Verdict.UNDECIDED, "the worker's answer is no evidence")
+            evidence = evidence_of(outcome, timeout)
+        case _:
+            evidence = Evidence(CRASH, Verdict.UNDECIDED, "the worker's answer is no evidence")
+    return Decided(claim.content, evidence)
 
 
 def evidence_of(outcome: Unanswered, timeout: float) -> Evidence:
@@ -99,18 +125,21 @@ def read(files: Sequence[str]) -> None:
     _read.update(claims_in(files))
 
 
-def run_by_id(id: str) -> tuple[str, Evidence]:
-    """In a worker: what a claim that was read says, as a hash, and what its proof says."""
+def run_by_id(id: str) -> Decided:
+    """In a worker: what a claim that was read says, and what its proof says."""
     claim = _read[id]
-    decided = claim.content
-    evidence = _contained(claim)
+    says = claim.content
+    with opened() as files:
+        evidence = _contained(claim)
     if evidence.engine == CRASH and evidence.detail.startswith("MemoryError"):
         raise MemoryError
-    return decided, replace(evidence, certifies=None)
+    return Decided(says, evidence, foreign(files))
 
 
-def _on_worker(files: Sequence[str], id: str, timeout: float) -> tuple[str, Evidence]:
+def _on_worker(files: Sequence[str], id: str, timeout: float) -> Decided:
     with _one_at_a_time:  # a worker of a cluster may have threads, and z3 works with one
         if id not in _read:
             read(files)
-        return _read[id].content, run_here(_read[id], timeout)
+        with opened() as found:
+            evidence = run_here(_read[id], timeout)
+        return Decided(_read[id].content, evidence, foreign(found))

@@ -283,8 +283,17 @@ class Result:
     rests_on: tuple[str, ...] = field(default=())
 
     @property
+    def hit(self) -> Evidence | None:
+        """The attack that met an exact point at which something false was shown, by nothing but what is fully proved:
+        an error of ptproof."""
+        return next(
+            (item for item in self.evidence if (item.engine, item.verdict) == ("attack", Verdict.REFUTED)), None
+        )
+
+    @property
     def as_expected(self) -> bool:
-        return self.verdict is self.claim.expected
+        """Whether it came out as its author recorded, and nothing contradicts it."""
+        return self.verdict is self.claim.expected and self.hit is None
 
     def to_json(self) -> dict[str, Any]:
         witness = next((item.witness for item in self.evidence if item.witness is not None), None)

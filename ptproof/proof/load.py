@@ -13,6 +13,7 @@ from types import ModuleType
 
 from ptproof.errors import InputError
 from ptproof.proof.claim import Claim, Definition
+from ptproof.proof.shipped import shipped as shipped
 from ptproof.reading.outcomes import in_words
 
 
@@ -77,15 +78,6 @@ def with_ancestors(claims: Iterable[Claim]) -> tuple[Claim, ...]:
     for item in claims:
         take(item)
     return tuple(found.values())
-
-
-def shipped() -> Path:
-    """The folder of the derivations that ship with the package, or that stand beside it in a checkout."""
-    here = Path(__file__).resolve().parents[1]  # the package
-    for folder in (here / "_derivations", here.parent / "derivations"):
-        if folder.is_dir():
-            return folder
-    raise InputError("the derivations that ship with ptproof are missing; name a folder of derivations")
 
 
 def load(paths: Sequence[str | Path] = ()) -> Derivation:

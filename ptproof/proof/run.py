@@ -9,9 +9,11 @@ from dataclasses import dataclass, replace
 from typing import Any, TypeAlias
 
 from ptproof.errors import InputError
-from ptproof.proof.answering import in_workers, on_cluster, run_here
+from ptproof.proof.answering import INTERRUPTED, Decided, in_workers, on_cluster, run_here
 from ptproof.proof.claim import Claim, Result
 from ptproof.proof.load import Derivation, homes_of, with_ancestors
+from ptproof.proof.memory import Memory
+from ptproof.proof.settling import ATTACK
 from ptproof.proof.verdict import Evidence, Verdict
 
 SECONDS_PER_CLAIM = 60.0
@@ -20,10 +22,11 @@ Progress: TypeAlias = Callable[[Claim, Evidence], None]
 
 @dataclass(frozen=True)
 class Verification:
-    """The outcome of every claim, in the order of the derivation."""
+    """The outcome of every claim, in the order of the derivation; ``remembered`` are those of an earlier run."""
 
     results: tuple[Result, ...]
     seconds: float
+    remembered: frozenset[str] = frozenset()
 
     @property
     def as_expected(self) -> bool:
@@ -31,17 +34,22 @@ class Verification:
         return all(result.as_expected for result in self.results)
 
     def summary(self) -> dict[str, int]:
-        """How many claims ended in each verdict, and how many are fully proved or not as expected."""
+        """How many claims ended in each verdict, are fully proved, not as expected, or proved and yet hit."""
         counts = {str(verdict): 0 for verdict in Verdict}
         for result in self.results:
             counts[str(result.verdict)] += 1
         counts["total"] = len(self.results)
         counts["fully_proved"] = sum(result.fully_proved for result in self.results)
         counts["unexpected"] = sum(not result.as_expected for result in self.results)
+        counts["hit"] = sum(result.hit is not None for result in self.results)
         return counts
 
     def to_json(self) -> dict[str, Any]:
-        return {"claims": [result.to_json() for result in self.results], "summary": self.summary()}
+        claims = [result.to_json() for result in self.results]
+        for item in claims:
+            if item["id"] in self.remembered:
+                item["evidence"][0]["remembered"] = True
+        return {"claims": claims, "summary": self.summary()}
 
 
 class Interrupted(KeyboardInterrupt):
@@ -75,7 +83,8 @@ def conclude(claims: Sequence[Claim], evidence: Mapping[str, Evidence]) -> tuple
 
 def _concluded(claim: Claim, own: Evidence, used: Sequence[Result], others: Sequence[str]) -> Result:
     """One claim's result from its own evidence, from what it uses, and from the ids that it uses but nobody decided."""
-    verdict, items = own.verdict, [replace(own, besides=()), *own.besides]
+    sound = not others and all(item.fully_proved for item in used)
+    verdict, items = own.verdict, [replace(own, besides=()), *(_blamed(item, sound) for item in own.besides)]
     false = [item.claim.id for item in used if item.verdict is Verdict.REFUTED]
     for engine, reason in (
         ("content", "what was decided is not what this claim says" if own.content != claim.content else ""),
@@ -96,9 +105,20 @@ def _concluded(claim: Claim, own: Evidence, used: Sequence[Result], others: Sequ
     return Result(claim, verdict, tuple(items), fully, () if fully else rests)
 
 
+def _blamed(item: Evidence, sound: bool) -> Evidence:
+    """A hit of the attacker with what is to blame: ptproof itself, or something unproved that the claim uses."""
+    if (item.engine, item.verdict) != (ATTACK, Verdict.REFUTED):
+        return item
+    if sound:
+        return replace(item, detail=f"ptproof contradicts itself; please report this: {item.detail}")
+    return replace(
+        item, verdict=Verdict.OBSERVED, detail=f"what it uses is not all proved, and is false: {item.detail}"
+    )
+
+
 def verify(
     derivation: Derivation, *, workers: int | None = None, client: Any = None, timeout: float = SECONDS_PER_CLAIM,
-    select: str = "", progress: Progress | None = None,
+    select: str = "", progress: Progress | None = None, memory: Memory | None = None,
 ) -> Verification:  # fmt: skip
     """Run every proof in worker processes, or on a cluster, and draw the conclusions.
 
@@ -116,6 +136,8 @@ def verify(
         Only claims that contain this text, and what they use.
     progress
         Called with each claim and its own evidence as it comes in.
+    memory
+        Of earlier runs, and for later ones (:class:`ptproof.proof.memory.Memory`, which was told of the loading).
 
     Raises
     ------
@@ -137,7 +159,13 @@ def verify(
     if not claims:
         raise InputError(f"no claim contains {select!r} in its id, title, section or labels")
     return _decided(
-        claims, derivation.homes, (os.cpu_count() or 1) if workers is None else workers, client, timeout, progress
+        claims,
+        derivation.homes,
+        (os.cpu_count() or 1) if workers is None else workers,
+        client,
+        timeout,
+        progress,
+        memory,
     )
 
 
@@ -177,7 +205,7 @@ def decide(
 
 def _decided(
     claims: Sequence[Claim], homes: Mapping[str, str], workers: int | None, client: Any, timeout: float,
-    progress: Progress | None,
+    progress: Progress | None, memory: Memory | None = None,
 ) -> Verification:  # fmt: skip
     if workers is not None and workers < 1:
         raise InputError(f"workers takes a number of at least 1, got {workers}")
@@ -186,21 +214,30 @@ def _decided(
     start = time.perf_counter()
     # Only the files in which the claims stand are read again elsewhere.
     files = tuple(sorted({homes[claim.id] for claim in claims if claim.id in homes}))
-    if client is not None:
-        answers = on_cluster(claims, files, client, timeout)
-    elif workers is not None:
-        answers = in_workers(claims, files, workers, timeout)
-    else:
-        answers = ((claim, run_here(claim, timeout)) for claim in claims)
     evidence: dict[str, Evidence] = {}
+    if memory is not None:
+        evidence = {claim.id: kept for claim in claims if (kept := memory.recall(claim)) is not None}
+    remembered = frozenset(evidence)
+    left = [claim for claim in claims if claim.id not in remembered]
+    if client is not None:
+        answers = on_cluster(left, files, client, timeout)
+    elif workers is not None:
+        answers = in_workers(left, files, workers, timeout)
+    else:
+        answers = ((claim, Decided("", run_here(claim, timeout))) for claim in left)
     try:
+        for claim in claims:
+            if progress is not None and claim.id in remembered:
+                progress(claim, evidence[claim.id])
         for claim, found in answers:
-            evidence[claim.id] = found
+            evidence[claim.id] = found.evidence
+            if memory is not None:
+                memory.keep(claim, found.evidence, found.files)
             if progress is not None:
-                progress(claim, found)
+                progress(claim, found.evidence)
     except KeyboardInterrupt:
         answers.close()
-        open_ = Evidence("interrupted", Verdict.UNDECIDED, "interrupted before it was decided")
+        open_ = Evidence(INTERRUPTED, Verdict.UNDECIDED, "interrupted before it was decided")
         known = {claim.id: evidence.get(claim.id, open_) for claim in claims}
-        raise Interrupted(Verification(conclude(claims, known), time.perf_counter() - start)) from None
-    return Verification(conclude(claims, evidence), time.perf_counter() - start)
+        raise Interrupted(Verification(conclude(claims, known), time.perf_counter() - start, remembered)) from None
+    return Verification(conclude(claims, evidence), time.perf_counter() - start, remembered)

@@ -1,7 +1,7 @@
 """Settling a goal: what a proof says of it, whether that says anything, and the witness against what it leaves open.
 
-A proof counts only if the goal says something under assumptions that can hold, and if all that it speaks of is shown
-to be defined. That is asked here, whatever the engine.
+A proof counts only if the goal says something under assumptions that can hold, if all that it speaks of is shown to be
+defined, and if the attacker finds no exact point that contradicts it. That is asked here, whatever the engine.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ import time
 from collections.abc import Callable
 from dataclasses import replace
 
+from ptproof.proof.attack import attack, points_of
 from ptproof.proof.claim import Goal
 from ptproof.proof.definedness import domain_of
 from ptproof.proof.engines.reals import Answer, are_met, contradictory
@@ -19,7 +20,8 @@ from ptproof.proof.statement import All, Exists, Relation, relations_of
 from ptproof.proof.verdict import Evidence, Verdict
 
 SEARCH_SECONDS = 4.0
-DEFINEDNESS = "definedness"
+DEFINEDNESS, ATTACK = "definedness", "attack"
+SEED = 0
 
 
 def settle(goal: Goal, proof: Callable[[Goal], Evidence], *, seconds: float | None = None) -> Evidence:
@@ -46,7 +48,8 @@ def settled(goal: Goal, evidence: Evidence, *, seconds: float | None = None) -> 
         return evidence
     if reason := says_nothing(goal):
         return replace(evidence, verdict=Verdict.UNDECIDED, detail=f"{reason}; {evidence.engine}: {evidence.detail}")
-    return _defined(goal, evidence)
+    evidence = _defined(goal, evidence)
+    return _attacked(goal, evidence) if evidence.verdict is Verdict.PROVED else evidence
 
 
 def says_nothing(goal: Goal) -> str:
@@ -81,6 +84,24 @@ def _defined(goal: Goal, evidence: Evidence) -> Evidence:
         return replace(evidence, besides=(*evidence.besides, item, *notes))
     detail = f"not shown to be defined for all values allowed: {answer.how}; {evidence.engine}: {evidence.detail}"
     return replace(evidence, verdict=Verdict.UNDECIDED, detail=detail, besides=(*evidence.besides, item))
+
+
+def _attacked(goal: Goal, evidence: Evidence) -> Evidence:
+    """The evidence, beside it what the attack met: where the goal fails at an exact point, nothing has proved it."""
+    start = time.perf_counter()
+    met = attack(goal, seed=SEED)
+
+    def beside(verdict: Verdict, detail: str) -> tuple[Evidence, ...]:
+        return (*evidence.besides, Evidence(ATTACK, verdict, detail, time.perf_counter() - start))
+
+    if met.hit is not None:
+        detail = f"{evidence.engine} shows what is false: {met.hit}"
+        return replace(evidence, verdict=Verdict.UNDECIDED, detail=detail, besides=beside(Verdict.REFUTED, detail))
+    if met.points == 0 and goal.assumptions and next(points_of(goal, seed=SEED, points=1), None) is None:
+        detail = f"no values are found that satisfy the assumptions, so that nothing may be claimed; {evidence.detail}"
+        return replace(evidence, verdict=Verdict.UNDECIDED, detail=detail)
+    said = f"{met.detail} (seed {SEED}), none is hit" if met.points else met.detail
+    return replace(evidence, besides=beside(Verdict.OBSERVED, said))
 
 
 def where_defined(goal: Goal, evidence: Evidence) -> Answer:

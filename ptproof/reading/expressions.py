@@ -8,17 +8,21 @@ from __future__ import annotations
 
 import ast
 import operator
+import warnings
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import sympy as sp
+from sympy.core.function import AppliedUndef
+from sympy.logic.boolalg import Boolean
 
 from ptproof.errors import InputError
+from ptproof.reading.guards import INFINITE, arguments_refused, divisor_refused, is_deep, power_refused, value_refused
 
 FUNCTIONS: Mapping[str, Callable[..., Any]] = {
     "sin": sp.sin, "cos": sp.cos, "tan": sp.tan, "asin": sp.asin, "acos": sp.acos, "atan": sp.atan,
     "sinh": sp.sinh, "cosh": sp.cosh, "tanh": sp.tanh, "exp": sp.exp, "log": sp.log, "ln": sp.log,
-    "sqrt": sp.sqrt, "Abs": sp.Abs, "abs": sp.Abs, "sign": sp.sign, "Max": sp.Max, "Min": sp.Min,
+    "sqrt": lambda value: sp.sqrt(value), "Abs": sp.Abs, "abs": sp.Abs, "sign": sp.sign, "Max": sp.Max, "Min": sp.Min,
     "atan2": sp.atan2, "floor": sp.floor, "Mod": sp.Mod,
 }  # fmt: skip
 CONSTANTS: Mapping[str, sp.Expr] = {"pi": sp.pi, "E": sp.E}
@@ -31,9 +35,8 @@ _COMPARISONS: Mapping[type[ast.cmpop], Callable[[Any, Any], Any]] = {
     ast.Lt: sp.Lt, ast.LtE: sp.Le, ast.Gt: sp.Gt, ast.GtE: sp.Ge,
 }  # fmt: skip
 _LONGEST = 10_000
-_LARGEST_EXPONENT = 10_000
 _LARGEST_DECIMAL_EXPONENT = 400
-_LARGEST_BITS = 100_000
+_MOST_DERIVATIVES = 8
 
 
 def parse(
@@ -57,7 +60,8 @@ def parse(
     Raises
     ------
     InputError
-        For anything that is not arithmetic over the allowed names, or whose value is infinite or undefined.
+        For anything that is not arithmetic over the allowed names, for numbers that are too large to be written
+        down, and where a part has no finite real value.
 
     Examples
     --------
@@ -69,7 +73,9 @@ def parse(
     """
     table = dict(names) if isinstance(names, Mapping) else {symbol.name: symbol for symbol in names}
     if isinstance(text, bool) or not isinstance(text, str | int | float):
-        raise InputError(f"{where}: expected a number or an expression as text, got {text!r}")
+        raise InputError(f"{where}: expected a number or an expression as text, got {quoted(text)}")
+    if isinstance(text, int) and (reason := value_refused(text)):
+        raise InputError(f"{where}: {reason}")
     source = str(text).strip()
     if not source:
         raise InputError(f"{where}: the expression is empty")
@@ -78,22 +84,34 @@ def parse(
     # Before anything is parsed, since Python's own ^ binds looser than +; it has no other place in arithmetic.
     source = source.replace("^", "**")
     try:
-        tree = ast.parse(source, mode="eval")
-    except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
-        raise InputError(f"{where}: cannot read {source!r} ({getattr(error, 'msg', error)})") from None
-    try:
-        value = _Reader(source, table, where).read(tree.body)
+        value = _Reader(source, table, where).number(_tree(source, where))
+        if value.has(*INFINITE, sp.I, sp.AccumBounds):
+            raise InputError(f"{where}: {quoted(source)} is not a finite real number")
+        if is_deep(value):
+            raise RecursionError
     except RecursionError:
-        raise InputError(f"{where}: {_short(source)} is nested too deeply") from None
-    if not isinstance(value, sp.Expr):
-        raise InputError(f"{where}: {_short(source)} is a condition, not an expression")
-    if value.has(sp.zoo, sp.nan, sp.oo, -sp.oo):
-        raise InputError(f"{where}: {_short(source)} is not a finite value")
+        raise InputError(f"{where}: {quoted(source)} is nested too deeply") from None
     return value
 
 
-def _short(text: str) -> str:
-    return repr(text if len(text) <= 60 else text[:57] + "...")
+def _tree(source: str, where: str) -> ast.expr:
+    # Python warns of texts such as "1if" before it refuses them, and of names that it will refuse one day.
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        try:
+            return ast.parse(source, mode="eval").body
+        except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
+            reason = getattr(error, "msg", error)
+            raise InputError(f"{where}: cannot read {quoted(source)} ({reason})") from None
+
+
+def quoted(value: Any) -> str:
+    """What was given, as an error quotes it: in Python's notation, and not much of it."""
+    try:
+        text = repr(value)
+    except ValueError:
+        text = "a number of thousands of digits"  # which Python does not write
+    return text if len(text) <= 62 else f"{text[:58]}...{text[-1]}"
 
 
 class _Reader:
@@ -101,9 +119,32 @@ class _Reader:
         self.source, self.names, self.where = source, names, where
 
     def fail(self, reason: str) -> InputError:
-        return InputError(f"{self.where}: {reason} in {_short(self.source)}")
+        return InputError(f"{self.where}: {reason} in {quoted(self.source)}")
+
+    def number(self, node: ast.expr) -> sp.Expr:
+        """What ``node`` says, if it is a number and no condition."""
+        value = self.read(node)
+        if not isinstance(value, sp.Expr):
+            raise self.fail(f"the condition {self.text(node)} stands where a number should")
+        return value
+
+    def condition(self, node: ast.expr) -> Any:
+        """What ``node`` says, if it is a condition and no number."""
+        value = self.read(node)
+        if not isinstance(value, Boolean) or isinstance(value, sp.Expr):
+            raise self.fail(f"{self.text(node)} stands where a condition should")
+        return value
+
+    def text(self, node: ast.expr) -> str:
+        return quoted(ast.get_source_segment(self.source, node) or type(node).__name__)
 
     def read(self, node: ast.expr) -> Any:
+        """What ``node`` says; a number is finite and small enough to be written down."""
+        value = self.value(node)
+        self.unless(value_refused(value))
+        return value
+
+    def value(self, node: ast.expr) -> Any:
         match node:
             case ast.Constant(value=bool()):
                 return sp.true if node.value else sp.false
@@ -114,24 +155,23 @@ class _Reader:
             case ast.Name(id=name):
                 return self.name(name)
             case ast.UnaryOp(op=ast.USub(), operand=operand):
-                return -self.read(operand)
+                return -self.number(operand)
             case ast.UnaryOp(op=ast.UAdd(), operand=operand):
-                return self.read(operand)
+                return self.number(operand)
             case ast.BinOp(left=left, op=op, right=right) if type(op) in _ARITHMETIC:
-                return self.arithmetic(op, self.read(left), self.read(right))
+                return self.arithmetic(op, self.number(left), self.number(right))
             case ast.Compare(left=left, ops=ops, comparators=right):
-                return self.compare(self.read(left), ops, [self.read(item) for item in right])
+                return self.compare(self.number(left), ops, list(map(self.number, right)))
             case ast.BoolOp(op=op, values=values):
-                return (sp.And if isinstance(op, ast.And) else sp.Or)(*map(self.read, values))
+                return (sp.And if isinstance(op, ast.And) else sp.Or)(*map(self.condition, values))
             case ast.Call(func=ast.Name(id=name), args=args, keywords=[]):
                 return self.call(name, args)
-        segment = ast.get_source_segment(self.source, node) or type(node).__name__
-        raise self.fail(f"{_short(segment)} is not arithmetic")
+        raise self.fail(f"{self.text(node)} is not arithmetic")
 
     def decimal(self, literal: str) -> sp.Rational:
         _, _, exponent = literal.lower().partition("e")
         if exponent and abs(int(exponent)) > _LARGEST_DECIMAL_EXPONENT:
-            raise self.fail(f"{_short(literal)} is out of range")
+            raise self.fail(f"{quoted(literal)} is out of range")
         return sp.Rational(literal)
 
     def name(self, name: str) -> Any:
@@ -143,27 +183,20 @@ class _Reader:
         if name in CONSTANTS:
             return CONSTANTS[name]
         known = ", ".join([*map(str, self.names), *CONSTANTS]) or "none"
-        raise self.fail(f"unknown name {name!r} (known: {known})")
+        raise self.fail(f"unknown name {quoted(name)} (known: {known})")
 
-    def arithmetic(self, op: ast.operator, left: Any, right: Any) -> Any:
-        if not (isinstance(left, sp.Expr) and isinstance(right, sp.Expr)):
-            raise self.fail("a condition stands where a number should")
-        if isinstance(op, ast.Pow) and right.is_number:
-            self.check_power(left, right)
-        if isinstance(op, ast.Div) and right.is_zero:
-            raise self.fail("a division by zero")
+    def unless(self, reason: str) -> None:
+        if reason:
+            raise self.fail(reason)
+
+    def arithmetic(self, op: ast.operator, left: sp.Expr, right: sp.Expr) -> sp.Expr:
+        if isinstance(op, ast.Pow):
+            self.unless(power_refused(left, right))
+        if isinstance(op, ast.Div | ast.Mod):
+            self.unless(divisor_refused(right))
         return _ARITHMETIC[type(op)](left, right)
 
-    def check_power(self, base: sp.Expr, exponent: sp.Expr) -> None:
-        """Refuse powers that would fill the memory before anybody could look at them."""
-        if exponent.is_comparable and abs(exponent) > _LARGEST_EXPONENT:
-            raise self.fail(f"an exponent over {_LARGEST_EXPONENT}")
-        if base.is_Rational and exponent.is_Integer:
-            bits = max(abs(int(base.p)), int(base.q)).bit_length()
-            if bits * abs(int(exponent)) > _LARGEST_BITS:
-                raise self.fail("a number that is too large")
-
-    def compare(self, left: Any, ops: list[ast.cmpop], right: list[Any]) -> Any:
+    def compare(self, left: sp.Expr, ops: list[ast.cmpop], right: list[sp.Expr]) -> Any:
         parts = []
         for op, value in zip(ops, right, strict=True):
             if type(op) not in _COMPARISONS:
@@ -175,13 +208,14 @@ class _Reader:
     def call(self, name: str, args: list[ast.expr]) -> Any:
         if name == "Piecewise":
             return self.piecewise(args)
-        values = [self.read(arg) for arg in args]
         if name == "Derivative":
-            return self.derivative(values)
+            return self.derivative(args)
+        values = list(map(self.number, args))
         target = self.names.get(name, FUNCTIONS.get(name))
         if target is None or isinstance(target, sp.Basic):
             known = ", ".join(sorted({*FUNCTIONS, "Piecewise", "Derivative"}))
-            raise self.fail(f"unknown function {name!r} (known: {known})")
+            raise self.fail(f"unknown function {quoted(name)} (known: {known})")
+        self.unless(arguments_refused(name, values))
         try:
             return target(*values)
         except TypeError:
@@ -191,9 +225,21 @@ class _Reader:
         pairs = [arg.elts for arg in args if isinstance(arg, ast.Tuple) and len(arg.elts) == 2]
         if not pairs or len(pairs) < len(args):
             raise self.fail("Piecewise takes pairs (value, condition)")
-        return sp.Piecewise(*(tuple(map(self.read, pair)) for pair in pairs))
+        return sp.Piecewise(*((self.number(value), self.condition(condition)) for value, condition in pairs))
 
-    def derivative(self, values: list[Any]) -> sp.Expr:
+    def derivative(self, args: list[ast.expr]) -> sp.Expr:
+        values = list(map(self.number, args))
         if len(values) < 2 or not all(isinstance(value, sp.Symbol) for value in values[1:]):
             raise self.fail("Derivative takes an expression and names of variables")
-        return sp.diff(*values)
+        inside = [node for node in ast.walk(args[0]) if isinstance(node, ast.Call)]
+        if len(values) - 1 + sum(_is_derivative(node) for node in inside) > _MOST_DERIVATIVES:
+            raise self.fail(f"more than {_MOST_DERIVATIVES} derivatives of one expression")
+        value = sp.diff(*values)
+        if value.has(sp.DiracDelta) or any(not node.expr.has(AppliedUndef) for node in value.atoms(sp.Derivative)):
+            raise self.fail(f"no derivative of {self.text(args[0])}, which jumps")
+        return value
+
+
+def _is_derivative(node: ast.Call) -> int:
+    named = isinstance(node.func, ast.Name) and node.func.id == "Derivative"
+    return len(node.args) - 1 if named else 0

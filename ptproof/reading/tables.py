@@ -18,7 +18,7 @@ from typing import Any, TypeVar, get_args, get_origin, get_type_hints
 import sympy as sp
 
 from ptproof.errors import InputError
-from ptproof.reading.expressions import CONSTANTS, FUNCTIONS, parse
+from ptproof.reading.expressions import CONSTANTS, FUNCTIONS, parse, quoted
 
 RESERVED = frozenset({"Piecewise", "Derivative", *FUNCTIONS, *CONSTANTS})
 _LARGEST_FILE = 1_000_000
@@ -46,7 +46,7 @@ def build_from(text: str, where: str, shape: type, build: Callable[[dict[str, An
     try:
         # Decimals stay text, so that 1.8 is 9/5.
         data = tomllib.loads(text, parse_float=str)
-    except (tomllib.TOMLDecodeError, RecursionError) as error:
+    except (ValueError, RecursionError) as error:  # a ValueError of another kind for an integer of 5000 digits
         raise InputError(f"{where}: not TOML ({error})") from None
     try:
         check_shape(data, shape)
@@ -89,7 +89,7 @@ def _table_in(kind: Any) -> tuple[Any, bool]:
 def listed(value: Any, where: str, length: int | None = None, of: str = "") -> list[Any]:
     """``value``, if it is a list of not too many entries, ``length`` (``of`` what) where that is given."""
     if not isinstance(value, list):
-        raise InputError(f"{where}: expected a list, got {value!r}")
+        raise InputError(f"{where}: expected a list, got {quoted(value)}")
     if len(value) > _MOST:
         raise InputError(f"{where}: more than {_MOST} entries")
     if length is not None and len(value) != length:
@@ -112,13 +112,13 @@ def check_known(found: Mapping[str, Any], known: Sequence[str], what: str) -> No
     """Refuse a key that is not known, with the nearest one that is."""
     for key in found:
         if key not in known:
-            raise InputError(f"unknown {what}: {key!r}{hint(key, known)}; known: {', '.join(known)}")
+            raise InputError(f"unknown {what}: {quoted(key)}{hint(key, known)}; known: {', '.join(known)}")
 
 
 def check_choice(value: Any, known: Sequence[str], where: str) -> str:
     """``value``, if it is one of the known words."""
     if not isinstance(value, str) or value not in known:
-        raise InputError(f"{where}: {value!r} is not one of {', '.join(known)}{hint(str(value), known)}")
+        raise InputError(f"{where}: {quoted(value)} is not one of {', '.join(known)}{hint(str(value), known)}")
     return value
 
 
@@ -127,7 +127,9 @@ def declared(names: Any, where: str, reserved: Container[str], taken: Container[
     found: list[str] = []
     for name in names:
         if not isinstance(name, str) or not name.isidentifier() or not name.isascii():
-            raise InputError(f"{where}: {name!r} is not a name (letters, digits and _, not starting with a digit)")
+            raise InputError(
+                f"{where}: {quoted(name)} is not a name (letters, digits and _, not starting with a digit)"
+            )
         if name in reserved:
             raise InputError(f"{where}: {name!r} has a meaning of its own here; choose another name")
         if name in taken or name in found:

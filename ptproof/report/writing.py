@@ -10,8 +10,7 @@ from collections.abc import Mapping
 from pathlib import Path, PurePosixPath
 
 from ptproof.errors import InputError
-
-MANIFEST = ".ptproof-report.json"
+from ptproof.reading.hashes import REPORT as MANIFEST
 
 
 def check_place(out: str | Path) -> Path:

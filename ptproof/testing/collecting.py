@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 from ptproof.errors import InputError
-from ptproof.proof.answering import evidence_for, read, run_by_id
+from ptproof.proof.answering import decided, read, run_by_id
 from ptproof.proof.claim import Claim, Result
 from ptproof.proof.load import NoClaims, load, twice, with_ancestors
 from ptproof.proof.run import conclude
@@ -77,7 +77,7 @@ class Claims:
             if folder not in self._workers:  # one process for each folder
                 self._workers[folder] = Workers(start=read, arguments=(sorted(self._files[folder]),))
             outcome = self._workers[folder].run(self.seconds, run_by_id, claim.id)
-            self._evidence[folder, claim.id] = evidence_for(claim, outcome, self.seconds)
+            self._evidence[folder, claim.id] = decided(claim, outcome, self.seconds).evidence
         return self._evidence[folder, claim.id]
 
 

@@ -139,11 +139,15 @@ def _compare(certificate: Any, name: str, value: sp.Expr, seconds: float) -> Any
 
 def _directly(certificate: Any, name: str, value: sp.Expr, seconds: float) -> Any:
     """The inequality itself, squared where it speaks of the gradient's norm, on the whole domain."""
+    from ptproof.certify.search import not_differentiable
     from ptproof.proof.claim import Goal
     from ptproof.proof.statement import ge, le
+    from ptproof.proof.verdict import Verdict
     from ptproof.testing.relations import decide
 
     field, domain = certificate.field, certificate.domain
+    if name in ("b1", "b2") and not_differentiable(field, domain) is not None:
+        return Verdict.UNDECIDED
     square = sp.Add(*((x - s) ** 2 for x, s in zip(field.variables, field.source, strict=True)))
     if name in ("a1", "a2"):
         quantity, bound = field.peak - field.expression, value * square**field.kappa

@@ -62,6 +62,11 @@ def test_field_knows_its_peak_gradient_and_hessian():
     assert field.hessian_at_source == sp.Matrix([[-2, 0], [0, -6]])
 
 
+def test_a_variable_that_is_not_declared_is_taken():
+    plain = sp.Symbol("x")
+    assert Field((plain,), -(plain**2), (0,), 1).peak == 0
+
+
 def test_source_may_be_irrational():
     assert Field((x,), -((x**2 - 2) ** 2), (sp.sqrt(2),), 1).peak == 0
 
@@ -70,6 +75,16 @@ def test_source_may_be_irrational():
     ("arguments", "message"),
     [
         (((x, y), -(x**2), (0,), 1), "1 coordinates"),
+        (((x, sp.Symbol("x")), -(x**2), (0, 0), 1), "distinct"),
+        (((sp.Symbol("x"), y), -(x**2), (0, 0), 1), "the symbol x of the expression is declared otherwise"),
+        (((a,), -(a**2), (1,), 1), "declared to be more than real"),
+        (((sp.Symbol("n", integer=True),), sp.Integer(1), (0,), 1), "declared to be more than real"),
+        (((sp.Symbol("n", imaginary=True),), sp.Integer(1), (0,), 1), "declared to be more than real"),
+        (((x,), -(x**2) * sp.Function("g")(x), (0,), 1), r"undefined function g\(x\)"),
+        (((x,), -(x**2) + sp.Integral(x, (x, 0, x)), (0,), 1), "without an unevaluated Integral"),
+        (((x,), -sp.Derivative(x**3, x), (0,), 1), "without an unevaluated Derivative"),
+        (((x,), -(x**2) + sp.I * x, (0,), 1), "without the imaginary unit"),
+        (((x,), -(x**2) * sp.Symbol("omega", positive=True), (0,), 1), "contains omega"),
         (((x, x), -(x**2), (0, 0), 1), "distinct"),
         (((), sp.Integer(1), (), 1), "at least one variable"),
         (((x,), -(x**2) - y, (0,), 1), "contains y"),

@@ -154,3 +154,37 @@ def test_what_does_not_apply_is_undecided():
 def test_bad_conditions_are_refused(arguments, error, words):
     with pytest.raises(error, match=words):
         assert_gain_condition(*arguments)
+
+
+STEP = sp.Piecewise((1, x2 < 1), (2, True))
+
+
+@pytest.mark.parametrize(
+    "factor",
+    [STEP, 1 + sp.sign(x1) ** 2, 1 + sp.Heaviside(x2 - 1), 3 + sp.atan(x1) + sp.atan(1 / (x1 - 1)), 1 + sp.floor(x1)],
+)
+@pytest.mark.parametrize("constants", [{}, {"a1": 9, "a2": "1/9", "b1": "1/9", "b2": 9}, {"b1": "1/9"}])
+def test_a_field_that_jumps_has_no_bounds(factor, constants):
+    with pytest.raises(AssertionError, match=r"(?s)undecided|refuted"):
+        assert_field_bounds(-(x1**2 + x2**2) * factor, radius=2, seconds=5, **constants, **PLANE)
+
+
+def test_the_sentence_names_the_jump():
+    with pytest.raises(AssertionError, match=r"(?s)undecided.*no gradient: Piecewise.*the value jumps at"):
+        assert_field_bounds(-(x1**2 + x2**2) * STEP, **PLANE)
+
+
+def test_a_field_that_jumps_elsewhere_has_bounds_here():
+    assert_field_bounds(-(x1**2 + x2**2) * STEP, radius=half, a1="1.001", a2="0.999", b1="1.99", b2="2.01", **PLANE)
+    with pytest.raises(AssertionError, match="refuted"):
+        assert_field_bounds(-(x1**2 + x2**2) * STEP, radius=half, a1="0.99", **PLANE)
+
+
+def test_a_condition_for_all_time_needs_a_level_that_lies_where_the_constants_hold():
+    """From (1.9, 1.9) the level of V reaches beyond the saddles of cos x₁ + cos x₂, from (1, 1) it does not."""
+    hills = replace(example("saturated"), field=Field((x1, x2), sp.cos(x1) + sp.cos(x2), (0, 0), 1))
+    near, far = (replace(hills, initial=replace(hills.initial, x=(sp.Rational(r),) * 2)) for r in ("1", "1.9"))
+    assert_gain_condition(near, "k > asymptotic.k_min")
+    with pytest.raises(AssertionError, match=r"(?s)undecided.*later times are not shown to keep it there"):
+        assert_gain_condition(far, "k > asymptotic.k_min")
+    assert_gain_condition(far, "k > clip.k_min_after_clip")

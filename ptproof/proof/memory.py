@@ -1,0 +1,155 @@
+"""Remembering what is decided from one run to the next.
+
+A claim is known again by all that its verdict depends on: what it says, what the claims that it uses say, every file of
+its derivation and every other file that was read with it, every file of ptproof, and the versions of Python and the
+libraries. What was left open for want of time or by a crash is not remembered; nor is what a proof says that has read
+other files.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import time
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import fields
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ptproof.reading import hashes
+from ptproof.reading.cache import Cache, place
+
+if TYPE_CHECKING:
+    from ptproof.proof.claim import Claim
+    from ptproof.proof.run import Verification
+    from ptproof.proof.verdict import Evidence
+
+_LOOK = 2.0  # between two looks at whether the files are still the same [s]
+
+
+class Memory:
+    """What earlier runs have decided about the derivations below ``paths``.
+
+    Parameters
+    ----------
+    paths
+        Files or folders of derivations, as :func:`ptproof.proof.load.load` takes them; at least one.
+    fresh
+        Recall nothing, but keep what is decided now.
+    say
+        Told once, in words, if nothing can be kept.
+    """
+
+    def __init__(
+        self, paths: Sequence[str | Path], *, fresh: bool = False, say: Callable[[str], None] = lambda text: None
+    ) -> None:
+        self._paths = [Path(path).resolve() for path in paths]
+        self._fresh = fresh
+        folder, self._environment = place(), hashes.environment()
+        self._cache = Cache(folder and folder / self._environment[:16], say)
+        self._files: dict[str, str] = {}
+        self._looked = 0.0
+        self._open = False
+
+    @contextlib.contextmanager
+    def loading(self) -> Iterator[None]:
+        """While the derivation is loaded: what is read now belongs to it."""
+        before = hashes.of_derivation(self._paths)
+        with hashes.opened() as found:
+            yield
+        self._files = hashes.of_derivation(self._paths)
+        self._open = bool(before) and before == self._files and all(self._files.values())
+        self._files |= {file: hashes.of_file(file) for file in hashes.foreign(found)}
+        self._looked = time.monotonic()
+
+    def run(self, select: str) -> dict[str, Any] | None:
+        """What :meth:`keep_run` kept of this very run, if every file is as it was; nothing has to be loaded for it."""
+        if self._fresh:
+            return None
+        match self._cache.read(self._run_key(select)):
+            case {"files": dict(files), "data": dict(data)} if files:
+                same = all(hashes.of_file(file) == digest for file, digest in files.items())
+                if same and set(hashes.of_derivation(self._paths)) <= set(files):
+                    return data
+        return None
+
+    def keep_run(self, select: str, data: dict[str, Any], verification: Verification) -> None:
+        """Keep the whole outcome, if each part of it is one that is remembered."""
+        if self._unchanged() and all(_lasting(item.claim, *item.evidence) for item in verification.results):
+            self._cache.write(self._run_key(select), {"files": self._files, "data": data})
+        self._cache.tidy()
+
+    def recall(self, claim: Claim) -> Evidence | None:
+        """The evidence of a claim from an earlier run."""
+        if self._fresh or not self._open:
+            return None
+        evidence = read_evidence(self._cache.read(self._key(claim)))
+        return evidence if evidence is not None and _lasting(claim, evidence) else None
+
+    def keep(self, claim: Claim, evidence: Evidence, read: Sequence[str] = ()) -> None:
+        """Keep the evidence of a claim whose proof has read these files."""
+        if _lasting(claim, evidence) and set(read) <= set(self._files) and self._unchanged():
+            self._cache.write(self._key(claim), written_evidence(evidence))
+
+    def _unchanged(self) -> bool:
+        """Whether the files are as they were when they were loaded; looked at from time to time."""
+        if self._open and time.monotonic() > self._looked + _LOOK:
+            self._open = all(hashes.of_file(file) == digest for file, digest in self._files.items())
+            self._open = self._open and set(hashes.of_derivation(self._paths)) <= set(self._files)
+            self._looked = time.monotonic()
+        return self._open
+
+    def _key(self, claim: Claim) -> str:
+
+        files = (f"{Path(file).name} {digest}" for file, digest in sorted(self._files.items()))
+        return hashes.of_texts([self._environment, claim.id, claim.content, *files])
+
+    def _run_key(self, select: str) -> str:
+        return hashes.of_texts(["run", self._environment, select, *map(str, self._paths)])
+
+
+def _lasting(claim: Claim, evidence: Evidence, *others: Evidence) -> bool:
+    """Whether another run would come to the same: what was left open may be for want of time, unless it is expected."""
+    from ptproof.proof.answering import CRASH, INTERRUPTED, TIME
+    from ptproof.proof.verdict import Verdict
+
+    if any(item.engine in (CRASH, TIME, INTERRUPTED, "mismatch") for item in (evidence, *evidence.besides, *others)):
+        return False
+    return evidence.verdict is not Verdict.UNDECIDED or claim.expected is Verdict.UNDECIDED
+
+
+def written_evidence(evidence: Evidence) -> dict[str, Any]:
+    """Evidence as plain data, with nothing that only its proof needed."""
+    from ptproof.proof.verdict import Evidence, Witness
+
+    data: dict[str, Any] = {}
+    for entry in fields(Evidence):
+        value = getattr(evidence, entry.name)
+        if entry.name in ("found", "suspect", "certifies"):
+            continue
+        if isinstance(value, Witness):
+            value = value.to_json()
+        elif isinstance(value, tuple):
+            value = [written_evidence(item) for item in value]
+        data[entry.name] = str(value) if entry.name == "verdict" else value
+    return data
+
+
+def read_evidence(data: Any) -> Evidence | None:
+    """The evidence that was written, or None for anything else."""
+    from ptproof.proof.verdict import Evidence, Verdict, Witness
+
+    try:
+        values = dict(data)
+        values["verdict"] = Verdict(values["verdict"])
+        if values.get("witness") is not None:
+            witness = values["witness"]
+            values["witness"] = Witness(dict(witness["values"]), str(witness["left"]), str(witness["right"]))
+        for name, value in values.items():
+            if isinstance(value, list):
+                items = [read_evidence(item) for item in value]
+                if None in items:
+                    return None
+                values[name] = tuple(items)
+        return Evidence(**values)
+    except (TypeError, ValueError, KeyError, AttributeError):
+        return None

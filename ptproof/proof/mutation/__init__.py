@@ -1,0 +1,1 @@
+"""Corrupted claims: made by kind, held against the original, attacked and given to the original's proof."""

@@ -1,0 +1,123 @@
+"""One mutant: attacked, given to the proof of its original, and held against it."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import TypeVar
+
+from ptproof.proof.deciding import run_one
+from ptproof.proof.mutation.attacking import Falsity, falsity
+from ptproof.proof.mutation.equivalence import equivalent, implied
+from ptproof.proof.mutation.haste import in_haste
+from ptproof.proof.mutation.mutant import Mutant
+from ptproof.proof.mutation.outcomes import Outcome, Word
+from ptproof.proof.verdict import Evidence, Verdict
+from ptproof.reading.limits import OutOfTime, within
+
+Answer = TypeVar("Answer")
+STEPS = 5
+
+
+@dataclass(frozen=True)
+class Patience:
+    """How long each step may take. [s]
+
+    Attributes
+    ----------
+    step
+        An attack, a proof, or the comparison with the original.
+    question
+        z3, for one question of a proof.
+    attack
+        The attacker; three times that before it counts as proved and not known to be false.
+    """
+
+    step: float = 8.0
+    question: float = 0.8
+    attack: float = 0.3
+
+
+def judge(mutant: Mutant, patience: Patience) -> Outcome:
+    """What comes of the mutant: its proof is run whether it is refuted or not, since no false one may be proved."""
+    start = time.perf_counter()
+    with in_haste(patience.question):
+        outcome = _judged(mutant, patience, _Steps(patience.step))
+    return replace(outcome, seconds=time.perf_counter() - start)
+
+
+def _judged(mutant: Mutant, patience: Patience, steps: _Steps) -> Outcome:
+    false, how, why = None, "", ""
+    restates = mutant.claim.statement == mutant.original.statement
+    if restates:  # an assumption that says more, or another dependency, makes nothing false
+        why = steps.take("comparison", lambda: implied(mutant), "")
+    if not why:
+        false = steps.take("attack", lambda: falsity(mutant, patience.attack), None)
+    evidence = steps.take("proof", lambda: run_one(mutant.claim), _NO_ANSWER)
+    proved = evidence.verdict is Verdict.PROVED
+    if false is None and evidence.verdict is Verdict.REFUTED:
+        false = Falsity(evidence.witness, evidence.detail)
+    if false is None:
+        how = steps.take("comparison", lambda: equivalent(mutant), "")
+        if not how and not restates:
+            why = steps.take("comparison", lambda: implied(mutant), "")
+    if false is None and proved and not how and not why:
+        false = steps.take("attack", lambda: falsity(mutant, 3 * patience.attack, seed=1), None)
+    if false is not None:
+        return _false(mutant, false, evidence, steps.troubles)
+    if how:
+        return _outcome(mutant, Word.EQUIVALENT, how)
+    if proved:
+        return _outcome(mutant, Word.PROVED, why or evidence.detail)
+    return _outcome(mutant, Word.UNDECIDED, "; ".join(filter(None, [why, evidence.detail, *steps.troubles])))
+
+
+def _false(mutant: Mutant, false: Falsity, evidence: Evidence, troubles: list[str]) -> Outcome:
+    """The outcome of a mutant that is false; only exact values refute it."""
+    if evidence.verdict is Verdict.PROVED:
+        return _outcome(mutant, Word.PROVED, f"{false.how}; {evidence.engine}: {evidence.detail}", false)
+    if false.witness is None and evidence.verdict is not Verdict.REFUTED:
+        return _outcome(mutant, Word.UNDECIDED, "; ".join([false.how, evidence.detail, *troubles]), false)
+    return _outcome(mutant, Word.REFUTED, false.how, false)
+
+
+def unanswered(mutant: Mutant, reason: str) -> Outcome:
+    """The outcome of a mutant whose process came to no end, or to a bad one."""
+    return Outcome(mutant.kind, mutant.change, "", Word.UNDECIDED, reason)
+
+
+_NO_ANSWER = Evidence("time limit", Verdict.UNDECIDED, "the proof had no answer in time")
+
+
+def _outcome(mutant: Mutant, word: Word, why: str, false: Falsity | None = None) -> Outcome:
+    statement = str(mutant.claim.statement) if word is Word.PROVED else ""  # printing may take numerical integrals
+    witness = None if false is None else false.witness
+    return Outcome(mutant.kind, mutant.change, statement, word, why, witness, false is not None)
+
+
+class _Steps:
+    """Steps of which one that fails or takes too long costs its own answer only."""
+
+    def __init__(self, seconds: float) -> None:
+        self._seconds = seconds
+        self.troubles: list[str] = []
+
+    def take(self, name: str, work: Callable[[], Answer], otherwise: Answer) -> Answer:
+        """The answer of the work, or ``otherwise`` where it raises or has none in time."""
+        try:
+            return within(self._seconds, work)
+        except OutOfTime:
+            self.troubles.append(f"{name}: no answer in {self._seconds:g} s")
+            _wait_for_the_rest()
+        except Exception as error:
+            self.troubles.append(f"{name}: {type(error).__name__}: {error}")
+        return otherwise
+
+
+def _wait_for_the_rest() -> None:
+    """Work that was told to stop may still be inside z3, which nobody else may use meanwhile."""
+    for thread in threading.enumerate():
+        if thread.name == "ptproof time limit":
+            thread.join(5.0)

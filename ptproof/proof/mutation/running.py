@@ -1,0 +1,172 @@
+"""Mutating claims: in worker processes that may hang or die, or in this process."""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from ptproof.errors import InputError
+from ptproof.proof.claim import Claim
+from ptproof.proof.load import Derivation, claims_in
+from ptproof.proof.mutation.judging import STEPS, Patience, judge, unanswered
+from ptproof.proof.mutation.making import PER_CLAIM, mutants, neighbours
+from ptproof.proof.mutation.mutant import Mutant
+from ptproof.proof.mutation.outcomes import Mutation, Outcome
+from ptproof.proof.verdict import Verdict
+from ptproof.reading.limits import Answered, Workers, check_seconds
+
+_PATIENCE = 40  # steps that the mutants of one claim may take to their limit before each is tried on its own
+Progress: TypeAlias = Callable[[Claim, Outcome], None]
+
+
+@dataclass(frozen=True)
+class Setting:
+    """How many mutants a claim gets, which choice of them, and the limit of each step with one."""
+
+    count: int
+    seed: int
+    timeout: float
+
+
+def mutate(
+    claims: Iterable[Claim] | Derivation, *, workers: int | None = None, timeout: float = 8.0, select: str = "",
+    count: int = PER_CLAIM, seed: int = 0, progress: Progress | None = None,
+) -> Mutation:  # fmt: skip
+    """Corrupt every claim that is expected to be proved, and say what comes of each corrupted version.
+
+    Parameters
+    ----------
+    claims
+        Claims, whose mutants are judged in this process; or a derivation, whose are judged in worker processes.
+    workers
+        How many processes for a derivation, by default as many as there are processors.
+    timeout
+        The limit of each step with one mutant: its attack, its proof, its comparison with the original. [s]
+    select
+        Only claims of the derivation that contain this text in their id, title, section or labels.
+    count
+        How many mutants a claim shall have.
+    seed
+        Another number makes another choice of mutants.
+    progress
+        Called with the claim and the outcome of each mutant.
+
+    Raises
+    ------
+    InputError
+        If no claim is expected to be proved, or a parameter is not what it should be.
+
+    Examples
+    --------
+    >>> import sympy as sp
+    >>> from ptproof.proof import claim, eq, exact
+    >>> x = sp.Symbol("x", real=True)
+    >>> square = claim("square", "A square", eq((x + 1) ** 2, x**2 + 2 * x + 1))(exact)
+    >>> found = mutate([square], count=12)
+    >>> found.sound, found.counts("square")["refuted"] > found.counts("square")["undecided"]
+    (True, True)
+    """
+    check_seconds(timeout, "timeout")
+    if count < 1 or (workers is not None and workers < 1):
+        raise InputError(f"count and workers take numbers of at least 1, got {count} and {workers}")
+    start = time.perf_counter()
+    setting = Setting(count, seed, timeout)
+    chosen = corruptible(claims.claims if isinstance(claims, Derivation) else claims, select)
+    if isinstance(claims, Derivation):
+        answers = _in_workers(chosen, claims, workers or os.cpu_count() or 1, setting)
+    else:
+        answers = _here(chosen, setting)
+    found: dict[str, list[tuple[int, Outcome]]] = {item.id: [] for item in chosen}
+    for claim, place, outcome in answers:
+        found[claim.id].append((place, outcome))
+        if progress is not None:
+            progress(claim, outcome)
+    ordered = {
+        id: tuple(outcome for _, outcome in sorted(items, key=lambda item: item[0])) for id, items in found.items()
+    }
+    return Mutation(chosen, ordered, time.perf_counter() - start)
+
+
+def corruptible(claims: Iterable[Claim], select: str = "") -> tuple[Claim, ...]:
+    """The claims that are expected to be proved and contain the text.
+
+    Raises
+    ------
+    InputError
+        If there is none.
+    """
+
+    def speaks_of(claim: Claim) -> bool:
+        words = (claim.id, claim.title, claim.section, *claim.labels)
+        return any(select.lower() in word.lower() for word in words)
+
+    chosen = tuple(item for item in claims if item.expected is Verdict.PROVED and speaks_of(item))
+    if not chosen:
+        where = f" contains {select!r} and" if select else ""
+        raise InputError(f"no claim{where} is expected to be proved, so that there is nothing to corrupt")
+    return chosen
+
+
+def _here(claims: Sequence[Claim], setting: Setting) -> Iterator[tuple[Claim, int, Outcome]]:
+    for claim, others in neighbours(claims):
+        for place, outcome in enumerate(_judged(claim, others, setting)):
+            yield claim, place, outcome
+
+
+def _judged(claim: Claim, others: Sequence[Claim], setting: Setting, only: int | None = None) -> Iterator[Outcome]:
+    for place, mutant in enumerate(_made(claim, others, setting)):
+        if only is None or place == only:
+            yield judge(mutant, Patience(setting.timeout))
+
+
+def _made(claim: Claim, others: Sequence[Claim], setting: Setting) -> list[Mutant]:
+    return mutants(claim, others, count=setting.count, seed=setting.seed)
+
+
+def _in_workers(
+    claims: Sequence[Claim], derivation: Derivation, workers: int, setting: Setting
+) -> Iterator[tuple[Claim, int, Outcome]]:
+    """The mutants of one claim at a time in each process; where it dies or hangs, each of them again on its own."""
+    near = {claim.id: others for claim, others in neighbours(claims)}
+    by_id = {claim.id: claim for claim in claims}
+    files = tuple(sorted({derivation.homes[claim.id] for claim in claims if claim.id in derivation.homes}))
+    tasks = {id: (id, tuple(other.id for other in others), setting) for id, others in near.items()}
+    # What assumes most takes longest, and shall not be what is waited for at the end.
+    tasks = dict(sorted(tasks.items(), key=lambda item: -len(by_id[item[0]].assumptions)))
+    with Workers(min(workers, max(len(claims), 1)), start=read, arguments=(files,)) as processes:
+        lost = []
+        for id, outcome in processes.each(_PATIENCE * setting.timeout, judge_claim, tasks):
+            if isinstance(outcome, Answered):
+                for place, item in enumerate(outcome.answer):
+                    yield by_id[id], place, item
+            else:
+                lost.append(id)
+        for id in lost:
+            made = _made(by_id[id], near[id], setting)
+            single = {place: (*tasks[id], place) for place in range(len(made))}
+            for place, answer in processes.each(2 * STEPS * setting.timeout, judge_one, single):
+                if isinstance(answer, Answered):
+                    yield by_id[id], place, answer.answer
+                else:
+                    yield by_id[id], place, unanswered(made[place], answer.reason)
+
+
+_read: dict[str, Claim] = {}
+
+
+def read(files: Sequence[str]) -> None:
+    """In a worker: the claims of these files, so that they can be asked for by their ids."""
+    _read.update(claims_in(files))
+
+
+def judge_claim(id: str, others: Sequence[str], setting: Setting) -> list[Outcome]:
+    """In a worker: what comes of each mutant of a claim that was read."""
+    return list(_judged(_read[id], [_read[other] for other in others], setting))
+
+
+def judge_one(id: str, others: Sequence[str], setting: Setting, place: int) -> Outcome:
+    """In a worker: what comes of one mutant of a claim that was read."""
+    return next(_judged(_read[id], [_read[other] for other in others], setting, only=place))
