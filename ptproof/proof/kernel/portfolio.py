@@ -1,7 +1,7 @@
 """The tactics that are tried on a proposition, with hints that SymPy finds: Coq checks each of them or fails.
 
-A hint is a rearrangement (a difference as a product, a variable as a bound and what is above it) or a product of what is
-not negative. None of them is believed.
+A hint is a rearrangement (a difference as a product, a variable as a bound and what is above it) or a product of what
+is not negative. None of them is believed.
 """
 
 from __future__ import annotations
@@ -12,9 +12,10 @@ import sympy as sp
 
 from ptproof.proof.kernel.atoms import Atoms
 from ptproof.proof.kernel.limits import near
+from ptproof.proof.kernel.obligations import Part
 from ptproof.proof.kernel.products import products
 from ptproof.proof.kernel.terms import NoTranslation, term
-from ptproof.proof.kernel.theorem import Part, Proposition
+from ptproof.proof.kernel.theorem import Proposition
 from ptproof.proof.statement import Relation
 
 
@@ -102,9 +103,8 @@ def _by_logarithms(relation: Relation, known: list[Relation], said: Proposition)
     facts = []
     for item in (given.standard() for given in known):
         if _monomial(item.left) and _monomial(item.right):
-            steps.append(
-                f"try (logarithms_of {_brackets(term(item.left, said.names))} {_brackets(term(item.right, said.names))})"
-            )
+            sides = " ".join(_brackets(term(side, said.names)) for side in (item.left, item.right))
+            steps.append(f"try (logarithms_of {sides})")
             facts.append(item.map(_logarithm).map(atoms))
         elif item.left.is_number or item.right.is_number:
             facts.append(item.map(atoms))
@@ -135,7 +135,7 @@ def _logarithm(expression: sp.Basic) -> sp.Expr:
 
 
 def slack(facts: list[Relation], atoms: Atoms) -> tuple[dict[sp.Symbol, sp.Expr], list[str]]:
-    """Variables replaced by what they are equal to, or by a lower bound and what is above it, with the lines for Coq."""
+    """Variables replaced by what they are equal to, or by a lower bound and what is above it; and the lines for Coq."""
     moved: dict[sp.Symbol, sp.Expr] = {}
     lines: list[str] = []
     for relation in facts:

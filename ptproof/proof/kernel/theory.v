@@ -208,15 +208,14 @@ Ltac angles_of_PI := rewrite ?cos_2PI, ?sin_2PI, ?cos_PI, ?sin_PI, ?cos_PI2, ?si
 Ltac trigonometric := expand_angles; angles_of_PI; opaque; circles; opaque; first [ rational | ideal ].
 
 (* Derivatives of what is written out; those of unknown functions stay as they are. *)
+Ltac head t := lazymatch t with ?g _ => head g | _ => t end.
 Ltac unknown f := idtac;
-  lazymatch f with
-  | fun y => ?g y => is_var g
-  | fun y => ?g y _ => is_var g
-  | fun y => ?g _ y => is_var g
-  | fun y => ?g y _ _ => is_var g
-  | fun y => ?g _ y _ => is_var g
-  | fun y => ?g _ _ y => is_var g
-  | ?g => is_var g
+  match f with
+  | fun y => ?g y => let h := head g in is_var h
+  | fun y => ?g y ?b => let h := head g in is_var h
+  | fun y => ?g y ?b ?c => let h := head g in is_var h
+  | fun y => ?g y ?b ?c ?d => let h := head g in is_var h
+  | _ => let h := head f in is_var h
   end.
 Ltac derivative_sides := repeat match goal with
   | |- _ /\ _ => split

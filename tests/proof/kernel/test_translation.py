@@ -122,7 +122,10 @@ def test_a_choice_comes_after_what_it_may_depend_on() -> None:
 
 def test_a_limit_is_of_a_function_that_is_defined_near_the_place() -> None:
     said = text(eq(sp.Limit(1 / x, x, sp.oo), 0))
-    assert said == "(Rbar_locally p_infty) (fun x => x <> 0) /\\ filterlim (fun x => (/ x)) (Rbar_locally p_infty) (locally 0)"
+    assert (
+        said
+        == "(Rbar_locally p_infty) (fun x => x <> 0) /\\ filterlim (fun x => (/ x)) (Rbar_locally p_infty) (locally 0)"
+    )
 
 
 @pytest.mark.parametrize("name", ["lambda", "fun", "forall", "R", "sin", "x'", "a b", "λ", "1/nu", "", "PI", "exists"])
@@ -134,7 +137,12 @@ def test_names_mean_nothing_to_coq(name: str) -> None:
 
 
 def test_one_name_with_two_declarations_is_two_names() -> None:
-    items = [sp.Symbol("x", real=True), sp.Symbol("x", positive=True), sp.Function("x", real=True), sp.Symbol("x'", real=True)]
+    items = [
+        sp.Symbol("x", real=True),
+        sp.Symbol("x", positive=True),
+        sp.Function("x", real=True),
+        sp.Symbol("x'", real=True),
+    ]
     assert len(set(identifiers(items).values())) == 4
 
 
