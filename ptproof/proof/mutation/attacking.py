@@ -18,7 +18,7 @@ from ptproof.proof.substitution import Substitution
 from ptproof.proof.verdict import Witness
 
 _FALSE = eq(0, 1)
-_POINTS = 20
+_POINTS = 16
 
 
 @dataclass(frozen=True)
