@@ -33,6 +33,10 @@ class Edit:
             return f"{short(self.old)} → {short(self.new)}"
         return self.how.format(short(self.part))
 
+    def said(self, before: str) -> str:
+        """The words, with others before them."""
+        return before + self.words
+
     def apply(self, expression: sp.Expr) -> sp.Expr:
         """The changed expression; an exchange puts each of the two where the other stands.
 
