@@ -46,7 +46,10 @@ class Edit:
             If SymPy cannot build it, such as an integral whose bound variable became a number.
         """
         change = {self.old: self.new} | ({self.new: self.old} if self.exchange else {})
-        return expression.xreplace(change)
+        changed = expression.xreplace(change)
+        if not all(limit.args[1].is_Symbol for limit in changed.atoms(sp.Limit)):
+            raise ValueError("the variable of a limit became an expression")  # which SymPy lets pass
+        return changed
 
 
 Letters: TypeAlias = Sequence[sp.Expr]

@@ -3,7 +3,7 @@
 import pytest
 import sympy as sp
 
-from ptproof.proof.mutation.edits import edits, similar
+from ptproof.proof.mutation.edits import Edit, edits, similar
 
 x, y, a1, a2 = sp.symbols("x y a1 a2", real=True)
 n = sp.Symbol("n", integer=True, positive=True)
@@ -76,3 +76,8 @@ def test_names_that_are_taken_for_each_other(name, other):
 @pytest.mark.parametrize(("name", "other"), [("x", "x"), ("k", "T"), ("omega", "mu"), ("kappa", "k")])
 def test_names_that_are_not(name, other):
     assert not similar(name, other)
+
+
+def test_the_variable_of_a_limit_stays_a_symbol():
+    with pytest.raises(ValueError, match="limit"):
+        Edit("exponent", x, x**2).apply(sp.Limit(x, x, 0))
