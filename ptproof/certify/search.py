@@ -16,6 +16,7 @@ import sympy as sp
 
 from ptproof.balls.ball import precision
 from ptproof.balls.tape import Undefined
+from ptproof.certify.attack import unshaken
 from ptproof.certify.certificate import FieldCertificate, FieldWitness, Range
 from ptproof.certify.domain import Domain
 from ptproof.certify.evaluator import Goal, Place, start_boxes
@@ -110,7 +111,8 @@ def _begun(field: Field, domain: Domain, rtol: float, began: float, seconds: flo
     except Undefined as error:
         detail = f"the field cannot be enclosed: {error}"
         return FieldCertificate(field, domain, Verdict.UNDECIDED, detail=detail, rtol=rtol)
-    return _Search(field, domain, quotients, Prosecutor(field, quotients, domain), rtol, began, seconds, tell).run()
+    search = _Search(field, domain, quotients, Prosecutor(field, quotients, domain), rtol, began, seconds, tell)
+    return unshaken(search.run(), rays=1)
 
 
 def not_differentiable(field: Field, domain: Domain) -> str | None:
