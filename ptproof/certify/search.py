@@ -16,6 +16,7 @@ import sympy as sp
 
 from ptproof.balls.ball import precision
 from ptproof.balls.tape import Undefined
+from ptproof.certify.attack import unshaken
 from ptproof.certify.certificate import FieldCertificate, FieldWitness, Range
 from ptproof.certify.domain import Domain
 from ptproof.certify.evaluator import Goal, Place, start_boxes
@@ -70,10 +71,8 @@ def certify_field(
         n ≥ 1 symbols or their names, the n exact coordinates of x*, and κ, a positive integer; numbers or text.
     radius, annulus
         The ball ‖x − x*‖ ≤ radius, or the annulus (r, R), exact; the whole space if both are left out.
-    rtol
-        The wanted relative width of each enclosure, between 1e-9 and 1.
-    seconds
-        The time after which what is not decided is left undecided.
+    rtol, seconds
+        The wanted relative width, between 1e-9 and 1; the time after which what is not decided is left undecided.
     progress
         Called with a sentence now and then.
 
@@ -98,18 +97,22 @@ def certify_field(
         raise InputError(f"the relative width must be between 1e-9 and 1, but is {rtol}")
     check_seconds(seconds)
     with precision(BITS):
-        if (reason := not_differentiable(field, domain)) is not None:
-            return FieldCertificate(
-                field, domain, Verdict.UNDECIDED, detail=f"the field has no gradient: {reason}", rtol=rtol
-            )
-        try:
-            quotients = Quotients(*_drop(field), field.kappa)
-        except Undefined as error:
-            detail = f"the field cannot be enclosed: {error}"
-            return FieldCertificate(field, domain, Verdict.UNDECIDED, detail=detail, rtol=rtol)
-        prosecutor = Prosecutor(field, quotients, domain)
-        tell = progress or (lambda text: None)
-        return _Search(field, domain, quotients, prosecutor, rtol, began, seconds, tell).run()
+        return _begun(field, domain, rtol, began, seconds, progress or (lambda text: None))
+
+
+def _begun(field: Field, domain: Domain, rtol: float, began: float, seconds: float, tell: Progress) -> FieldCertificate:
+    """The search's answer, or why there can be none: a field without a gradient, or without enclosures."""
+    detail = not_differentiable(field, domain)
+    if detail is not None:
+        detail = f"the field has no gradient: {detail}"
+        return FieldCertificate(field, domain, Verdict.UNDECIDED, detail=detail, rtol=rtol)
+    try:
+        quotients = Quotients(*_drop(field), field.kappa)
+    except Undefined as error:
+        detail = f"the field cannot be enclosed: {error}"
+        return FieldCertificate(field, domain, Verdict.UNDECIDED, detail=detail, rtol=rtol)
+    search = _Search(field, domain, quotients, Prosecutor(field, quotients, domain), rtol, began, seconds, tell)
+    return unshaken(search.run(), rays=1)
 
 
 def not_differentiable(field: Field, domain: Domain) -> str | None:
@@ -142,6 +145,14 @@ def _drop(field: Field) -> tuple[sp.Expr, tuple[sp.Symbol, ...]]:
     offsets = tuple(sp.Symbol(f"y{index}", real=True) for index in range(1, field.dimension + 1))
     at = {x: s + y for x, s, y in zip(field.variables, field.source, offsets, strict=True)}
     return field.peak - field.expression.subs(at, simultaneous=True), offsets
+
+
+def _tolerance(rtol: float, goal: Goal) -> float:
+    """How far below the best value, in relation to it, the search may stop so that the constant has the width asked.
+
+    The width is in relation to the lower end, and the constant is a root where the search is for a squared slope.
+    """
+    return 0.95 * (2 * rtol / (1 + rtol) ** 2 if goal.slope else rtol / (1 + rtol))
 
 
 @dataclass(frozen=True)
@@ -183,8 +194,7 @@ class _Search:
     def constants(self) -> FieldCertificate:
         boxes = list(start_boxes(self.quotients, self.domain))
         searches = {
-            name: Extremum(self.quotients, goal, boxes, 0.95 * self.rtol * (2 if goal.slope else 1))
-            for name, goal in GOALS.items()
+            name: Extremum(self.quotients, goal, boxes, _tolerance(self.rtol, goal)) for name, goal in GOALS.items()
         }
         # First each has its share of the time, then the unfinished ones have what is left.
         for round_ in (1, 2):

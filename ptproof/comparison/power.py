@@ -8,9 +8,8 @@ from typing import Any
 
 import sympy as sp
 
+from ptproof.comparison.regular import check_regular
 from ptproof.errors import InputError
-from ptproof.proof.definedness import obligations
-from ptproof.proof.engines.reals import are_met
 from ptproof.proof.signs import vanishes
 
 
@@ -18,18 +17,6 @@ def holds(difference: sp.Expr, what: str) -> None:
     """Raise unless ``difference`` is shown to vanish."""
     if not vanishes(difference):
         raise InputError(f"comparison: it does not hold, or cannot be shown, that {what}")
-
-
-def regular(expression: sp.Expr, time: sp.Symbol, start: sp.Expr, what: str) -> None:
-    """Raise unless ``expression`` is shown to be continuously differentiable for all times from ``start`` on.
-
-    Exact algebra alone does not see a jump or a kink: for SymPy the derivative of a jump is 0.
-    """
-    elapsed = sp.Dummy("elapsed", nonnegative=True)
-    there = sp.sympify(expression).subs(time, start + elapsed)
-    found = are_met(list(obligations(there, moving=[elapsed])), (), seconds=2.0)
-    if not found.shown:
-        raise InputError(f"comparison: it is not shown that {what} has neither jump nor kink nor pole: {found.how}")
 
 
 def sympify_members(bound: Any) -> None:
@@ -59,7 +46,8 @@ class PowerBound:
     Raises
     ------
     InputError
-        Unless the bound starts at ``initial`` and solves du/dτ = α·u^p by exact algebra.
+        Unless the bound starts at ``initial`` and solves du/dτ = α·u^p by exact algebra, and rate and integral are
+        shown to be continuous from ``start`` on.
     """
 
     time: sp.Symbol
@@ -74,7 +62,7 @@ class PowerBound:
         if self.initial.is_positive is False:
             raise InputError(f"comparison: the initial value {self.initial} is not positive")
         sigma = self.sigma
-        regular(self.integral, self.time, self.start, "the integral")
+        check_regular(self.integral, self.time, self.start, "the integral")
         holds(sp.diff(self.integral, self.time) - self.rate, "the integral's derivative is the rate")
         holds(self.integral.subs(self.time, self.start), "the integral starts at zero")
         if sigma == 0:

@@ -6,7 +6,7 @@ from typing import Any
 
 import hypothesis.strategies as st
 import sympy as sp
-from hypothesis import given
+from hypothesis import event, given
 
 from ptproof.errors import InputError
 from ptproof.transforms.clocks.clock import Clock
@@ -37,14 +37,14 @@ def scaled(shape: Any, at: Any, c: Any, d: Any) -> Any:
 
 
 @given(shapes, shapes, factors, factors, factors, factors, horizons)
-@fuzz(10)
+@fuzz(6)
 def test_a_clock_that_is_accepted_is_one(forth: Any, back: Any, c: Any, d: Any, e: Any, f: Any, horizon: Any) -> None:
     to_tau, to_t = scaled(forth, t, c, d), scaled(back, tau, e, f)
     _check(lambda: Clock(t, tau, to_tau, to_t, sp.S.Zero, horizon))
 
 
 @given(shapes, shapes, factors, factors, horizons, st.booleans(), st.booleans())
-@fuzz(4)
+@fuzz(3)
 def test_a_clock_that_is_made_is_one(
     first: Any, second: Any, c: Any, d: Any, horizon: Any, rate: bool, ends: bool
 ) -> None:
@@ -64,6 +64,7 @@ def _check(make: Any) -> None:
         return
     if clock is None:
         return
+    event("answered")
     end = MP.mpf(20) if clock.horizon is sp.oo else oracle.value(clock.horizon, VALUES)
     before = None
     for k in range(20):

@@ -11,7 +11,7 @@ from sympy.core.function import AppliedUndef
 
 from ptproof.proof.claim import Claim
 from ptproof.proof.kernel import declared
-from ptproof.proof.kernel.names import Names, identifiers, plain
+from ptproof.proof.kernel.names import Names, called, identifiers, plain
 from ptproof.proof.kernel.obligations import Part, obligations
 from ptproof.proof.kernel.terms import SIGNS, NoTranslation, term
 from ptproof.proof.statement import (
@@ -115,13 +115,12 @@ def _bound(statements: Iterable[Statement | Assumption]) -> set[sp.Symbol]:
     }
 
 
-def _sorted(items: Iterable[sp.Basic]) -> list[sp.Basic]:
-    def key(item: sp.Basic) -> tuple[str, str]:
+def _sorted(items: Iterable[Any]) -> list[Any]:
+    """By name, and then by what tells items of one name apart."""
+
+    def key(item: Any) -> tuple[str, str, int]:
         own = item._assumptions_orig if isinstance(item, sp.Symbol) else item._kwargs
-        return (
-            getattr(item, "name", None) or item.__name__,
-            str(sorted(own.items())) + str(getattr(item, "dummy_index", "")),
-        )
+        return called(item), str(sorted(own.items())), getattr(item, "dummy_index", 0)
 
     return sorted(items, key=key)
 
@@ -185,8 +184,10 @@ def _limit(limit: sp.Limit, value: sp.Basic, names: Names) -> tuple[tuple[Part, 
     target = infinite.get(value) or f"(locally {term(value, names)})"
     domain = [] if place in infinite else list(obligations(place, names))
     domain += [] if value in infinite else list(obligations(value, names))
-    domain += [Part(f"{where} (fun {name} => {part.text})") for part in obligations(expression, names)]
-    return tuple(domain), Part(f"filterlim (fun {name} => {term(expression, names)}) {where} {target}")
+    domain += [Part(f"{where} (fun {name} => {part.text})", part.relation, limit, True)
+               for part in obligations(expression, names)]  # fmt: skip
+    said = f"filterlim (fun {name} => {term(expression, names)}) {where} {target}"
+    return tuple(domain), Part(said, Relation(expression, "=", value), limit)
 
 
 def _improper(integral: sp.Integral, value: sp.Basic, names: Names) -> tuple[tuple[Part, ...], Part]:

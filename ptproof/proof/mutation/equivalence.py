@@ -10,7 +10,7 @@ from ptproof.proof.engines.reals import are_met, follows
 from ptproof.proof.mutation.mutant import Mutant
 from ptproof.proof.statement import All, Assumption, ForAll, Relation, free_symbols, plain, relations_of
 
-SECONDS = 0.4
+SECONDS = 0.3
 
 
 def equivalent(mutant: Mutant) -> str:

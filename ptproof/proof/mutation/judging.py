@@ -14,6 +14,7 @@ from ptproof.proof.mutation.equivalence import equivalent, implied
 from ptproof.proof.mutation.haste import in_haste
 from ptproof.proof.mutation.mutant import Mutant
 from ptproof.proof.mutation.outcomes import Outcome, Word
+from ptproof.proof.settling import ATTACK
 from ptproof.proof.verdict import Evidence, Verdict
 from ptproof.reading.limits import OutOfTime, within
 
@@ -31,39 +32,37 @@ class Patience:
         An attack, a proof, or the comparison with the original.
     question
         z3, for one question of a proof.
-    refuted
-        z3, for one question where the mutant is known to be false.
     attack
-        The attacker; three times that where nothing else says whether the mutant is true.
+        The attacker.
     """
 
     step: float = 8.0
-    question: float = 1.0
-    refuted: float = 0.4
-    attack: float = 0.5
+    question: float = 0.8
+    attack: float = 0.3
 
 
 def judge(mutant: Mutant, patience: Patience) -> Outcome:
     """What comes of the mutant: its proof is run whether it is refuted or not, since no false one may be proved."""
     start = time.perf_counter()
-    outcome = _judged(mutant, patience, _Steps(patience.step))
+    with in_haste(patience.question):
+        outcome = _judged(mutant, patience, _Steps(patience.step))
     return replace(outcome, seconds=time.perf_counter() - start)
 
 
 def _judged(mutant: Mutant, patience: Patience, steps: _Steps) -> Outcome:
-    false = how = why = None
-    if mutant.claim.statement != mutant.original.statement or mutant.claim.assumptions != mutant.original.assumptions:
+    false, how, why = None, "", ""
+    restates = mutant.claim.statement == mutant.original.statement
+    if restates:  # an assumption that says more, or another dependency, makes nothing false
+        why = steps.take("comparison", lambda: implied(mutant), "")
+    if not why:
         false = steps.take("attack", lambda: falsity(mutant, patience.attack), None)
-    with in_haste(patience.refuted if false else patience.question):
-        evidence = steps.take("proof", lambda: run_one(mutant.claim), _NO_ANSWER)
-    if false is None and evidence.verdict is Verdict.REFUTED:
-        false = Falsity(evidence.witness, evidence.detail)
+    evidence = steps.take("proof", lambda: run_one(mutant.claim), _NO_ANSWER)
+    if false is None:
+        false = _by_the_proof(evidence)
     if false is None:
         how = steps.take("comparison", lambda: equivalent(mutant), "")
-        why = None if how else steps.take("comparison", lambda: implied(mutant), "")
-    if false is None and not how and not why:  # what follows from the original cannot be refuted
-        with in_haste(patience.refuted):
-            false = steps.take("attack", lambda: falsity(mutant, 3 * patience.attack, seed=1), None)
+        if not how and not restates:
+            why = steps.take("comparison", lambda: implied(mutant), "")
     if false is not None:
         return _false(mutant, false, evidence, steps.troubles)
     if how:
@@ -73,9 +72,21 @@ def _judged(mutant: Mutant, patience: Patience, steps: _Steps) -> Outcome:
     return _outcome(mutant, Word.UNDECIDED, "; ".join(filter(None, [why, evidence.detail, *steps.troubles])))
 
 
+def _by_the_proof(evidence: Evidence) -> Falsity | None:
+    """What an engine refuted, or what the attack met before something was to count as proved."""
+    if evidence.verdict is Verdict.REFUTED:
+        return Falsity(evidence.witness, evidence.detail)
+    return Falsity(None, evidence.detail) if _shows_what_is_false(evidence) else None
+
+
+def _shows_what_is_false(evidence: Evidence) -> bool:
+    """Whether an engine proved it, and only the attacker kept it from counting."""
+    return any(item.engine == ATTACK and item.verdict is Verdict.REFUTED for item in evidence.besides)
+
+
 def _false(mutant: Mutant, false: Falsity, evidence: Evidence, troubles: list[str]) -> Outcome:
     """The outcome of a mutant that is false; only exact values refute it."""
-    if evidence.verdict is Verdict.PROVED:
+    if evidence.verdict is Verdict.PROVED or _shows_what_is_false(evidence):
         return _outcome(mutant, Word.PROVED, f"{false.how}; {evidence.engine}: {evidence.detail}", false)
     if false.witness is None and evidence.verdict is not Verdict.REFUTED:
         return _outcome(mutant, Word.UNDECIDED, "; ".join([false.how, evidence.detail, *troubles]), false)
