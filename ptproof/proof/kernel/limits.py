@@ -93,15 +93,11 @@ def near(part: Part, group: list[Part], names: Names) -> str:
     if part.limit is None or part.relation is None:
         raise NoTranslation("no hint for this part of a limit")
     place = _Place(part.limit, names)
-    followed: list[sp.Expr] = [
-        place.there(other.relation.left) for other in group if other.relation is not None and other.limit == part.limit
-    ]
+    followed: list[sp.Expr] = [place.there(other.relation.left) for other in group if other.relation is not None and other.limit == part.limit]
     lines = place.factors([*followed, *place.decaying.values()])
     if part.domain:
         form = place.positive(place.there(part.relation.left))
-        tactic = (
-            f"nonzero_as {_text(form, place)}" if part.relation.sign == "!=" else f"positive_as {_text(form, place)}"
-        )
+        tactic = f"nonzero_as {_text(form, place)}" if part.relation.sign == "!=" else f"positive_as {_text(form, place)}"
         return "; ".join(["near_right_of_0", *lines, f"right_at {place.name}", f"first [ sign | {tactic} ]"])
     return _followed(part.relation, place, lines)
 
