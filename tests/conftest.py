@@ -21,3 +21,9 @@ def saved(monkeypatch: pytest.MonkeyPatch) -> list[Any]:
 
     monkeypatch.setattr(Figure, "savefig", savefig)
     return figures
+
+
+@pytest.fixture(autouse=True)
+def own_memory(monkeypatch: pytest.MonkeyPatch) -> None:
+    """No test recalls what another, or a person, has had decided; nor does it keep anything."""
+    monkeypatch.setenv("PTPROOF_CACHE", "")

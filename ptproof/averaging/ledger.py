@@ -238,7 +238,9 @@ def _lipschitz(rate: sp.Expr, variables: Sequence[sp.Symbol], problem: DitherPro
     places = []
     for node in sorted(kinks, key=lambda entry: -sp.count_ops(entry)):
         if outer.has(node):
-            places.append(sp.Dummy("kink", real=True))
+            places.append(
+                sp.Dummy("kink", nonnegative=True) if isinstance(node, sp.Abs) else sp.Dummy("kink", real=True)
+            )
             outer = outer.xreplace({node: places[-1]})
     domain = problem.domain
     for part in (outer, *(argument for node in kinks for argument in node.args)):

@@ -36,6 +36,8 @@ def split_dithers(
     ------
     AveragingRefused
         If a fast term does not have the factor √ω, or the factor stands with no dither.
+    AveragingUndecided
+        If what was read is not shown to be the right-hand side again.
 
     Examples
     --------
@@ -69,10 +71,16 @@ def split_dithers(
     period = 2 * sp.pi / sp.gcd_list([rate for rate, _ in order] or [1])
     title = system.name if name is None else name
     result = DitherSystem(system.time, theta, omega, system.state, tuple(drift), fields, dithers, period, name=title)
-    for row, (ours, given) in enumerate(zip(result.to_system().rhs, system.rhs, strict=True)):
-        if tidy(sp.expand(sp.expand_trig(ours - given))) != 0:
-            raise ArithmeticError(f"split_dithers: recombining gives {ours} for entry {row + 1}, not {given}")
+    _read_back(result, system)
     return result
+
+
+def _read_back(result: DitherSystem, system: System) -> None:
+    """Return if the dither system is the system again, exactly; else raise :class:`AveragingUndecided`."""
+    for state, ours, given in zip(system.state, result.to_system().rhs, system.rhs, strict=True):
+        if tidy(sp.expand(sp.expand_trig(ours - given))) != 0:
+            where = f"d{state}/d{system.time}"
+            raise AveragingUndecided(f"{where}: {given} is read as {ours}, which is not shown to be the same")
 
 
 def _waves_in_phase(masked: sp.Expr, time: sp.Symbol, theta: sp.Symbol, root: sp.Symbol, where: str) -> sp.Expr:

@@ -9,6 +9,7 @@ from typing import Any
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from ptproof.averaging.attack import unshaken
 from ptproof.averaging.average import Pair, derive
 from ptproof.averaging.brackets import Vector
 from ptproof.averaging.coefficients import Coefficients, v_matrix
@@ -143,7 +144,7 @@ def study(problem: DitherProblem | DitherSystem) -> Average:
     if ledger.verdict is Verdict.REFUTED or not (known and solved):
         return without(v_matrix(problem.system) if known else {}, "there is no average to compare with")
     try:
-        derived = derive(problem.reduced(ledger.steady or ()))
+        derived = unshaken(derive(problem.reduced(ledger.steady or ())), points=2, coefficients=0)
     except (AveragingRefused, AveragingUndecided) as error:
         return without({}, str(error))
     expected = None if asked is None else compare(derived.system, asked, problem.domain)

@@ -16,6 +16,7 @@ import sympy as sp
 
 from ptproof.balls.ball import precision
 from ptproof.balls.tape import Undefined
+from ptproof.certify.attack import unshaken
 from ptproof.certify.certificate import FieldCertificate, FieldWitness, Range
 from ptproof.certify.domain import Domain
 from ptproof.certify.evaluator import Goal, Place, start_boxes
@@ -109,7 +110,7 @@ def certify_field(
             return FieldCertificate(field, domain, Verdict.UNDECIDED, detail=detail, rtol=rtol)
         prosecutor = Prosecutor(field, quotients, domain)
         tell = progress or (lambda text: None)
-        return _Search(field, domain, quotients, prosecutor, rtol, began, seconds, tell).run()
+        return unshaken(_Search(field, domain, quotients, prosecutor, rtol, began, seconds, tell).run(), rays=1)
 
 
 def not_differentiable(field: Field, domain: Domain) -> str | None:
@@ -142,6 +143,14 @@ def _drop(field: Field) -> tuple[sp.Expr, tuple[sp.Symbol, ...]]:
     offsets = tuple(sp.Symbol(f"y{index}", real=True) for index in range(1, field.dimension + 1))
     at = {x: s + y for x, s, y in zip(field.variables, field.source, offsets, strict=True)}
     return field.peak - field.expression.subs(at, simultaneous=True), offsets
+
+
+def _tolerance(rtol: float, goal: Goal) -> float:
+    """How far below the best value, in relation to it, the search may stop so that the constant has the width asked.
+
+    The width is in relation to the lower end, and the constant is a root where the search is for a squared slope.
+    """
+    return 0.95 * (2 * rtol / (1 + rtol) ** 2 if goal.slope else rtol / (1 + rtol))
 
 
 @dataclass(frozen=True)
@@ -183,8 +192,7 @@ class _Search:
     def constants(self) -> FieldCertificate:
         boxes = list(start_boxes(self.quotients, self.domain))
         searches = {
-            name: Extremum(self.quotients, goal, boxes, 0.95 * self.rtol * (2 if goal.slope else 1))
-            for name, goal in GOALS.items()
+            name: Extremum(self.quotients, goal, boxes, _tolerance(self.rtol, goal)) for name, goal in GOALS.items()
         }
         # First each has its share of the time, then the unfinished ones have what is left.
         for round_ in (1, 2):

@@ -16,8 +16,8 @@ from ptproof.commands import streams
 from ptproof.commands.shown import Shown
 
 if TYPE_CHECKING:
-    from ptproof.proof import claim as proof
-    from ptproof.proof.run import Verification
+    from ptproof.proof.claim import Claim as DecidedClaim
+    from ptproof.proof.result import Verification
     from ptproof.proof.verdict import Evidence
 
 Claim: TypeAlias = Mapping[str, Any]  # as it stands in the JSON
@@ -53,12 +53,12 @@ def progress(what: str, total: int) -> Iterator[Callable[..., None]]:
 
 
 @contextmanager
-def claim_progress(total: int) -> Iterator[Callable[[proof.Claim, Evidence], None]]:
+def claim_progress(total: int) -> Iterator[Callable[[DecidedClaim, Evidence], None]]:
     """A bar with the verdicts so far; gives the function to call with each claim that is done."""
     counts = dict.fromkeys(COLOURS, 0)
     with progress("verifying", total) as advance:
 
-        def done(claim: proof.Claim, evidence: Evidence) -> None:
+        def done(claim: DecidedClaim, evidence: Evidence) -> None:
             counts[str(evidence.verdict)] += 1
             shown = "  ".join(f"[{COLOURS[word]}]{number} {word}[/]" for word, number in counts.items() if number)
             advance(1, shown)

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import time
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from ptproof.commands import options
+from ptproof.commands import opinion, options
 from ptproof.commands.shown import Shown
 
 if TYPE_CHECKING:
     from ptproof.proof.load import Derivation
     from ptproof.proof.memory import Memory
+    from ptproof.proof.result import Verification
 
 
 @click.command()
@@ -24,14 +26,10 @@ if TYPE_CHECKING:
 @options.timeout("one claim")
 @click.option("-k", "select", default="", metavar="TEXT", help="Only claims that contain TEXT, and what they use.")
 @options.fresh
+@opinion.kernel
+@opinion.keep
 def verify(
-    paths: tuple[str, ...],
-    as_json: bool,
-    jobs: int | None,
-    cluster: str | None,
-    timeout: float,
-    select: str,
-    fresh: bool,
+    paths: tuple[str, ...], as_json: bool, select: str, fresh: bool, kernel: bool, keep: Path | None, **how: Any
 ) -> int:
     """Verify the claims below each PATH (the shipped derivation of the paper where left out).
 
@@ -39,19 +37,23 @@ def verify(
     if a claim did not come out as its author recorded.
     """
     start = time.perf_counter()
+    opinion.available(kernel, keep)
     memory = options.memory_of(paths, fresh)
-    if cluster is None and (shown := Shown.again(memory.run(select))) is not None:
+    kept = None if kernel or how["cluster"] is not None else memory.run(select)
+    if (shown := Shown.again(kept)) is not None:
         _print(replace(shown, seconds=time.perf_counter() - start), as_json)
         return 0 if shown.as_expected else 1
     with options.loaded(paths, memory) as derivation:
-        shown, status = _decided(derivation, memory, jobs, cluster, timeout, select)
-        _print(shown, as_json)
+        verification, status = _decided(derivation, memory, select, **how)
+        if kernel and status in (0, 1):
+            verification = opinion.confirmed(verification, how["jobs"], keep)
+        _print(Shown.of(verification), as_json)
     return status
 
 
 def _decided(
-    derivation: Derivation, memory: Memory, jobs: int | None, cluster: str | None, timeout: float, select: str
-) -> tuple[Shown, int]:
+    derivation: Derivation, memory: Memory, select: str, jobs: int | None, cluster: str | None, timeout: float
+) -> tuple[Verification, int]:
     """What came out, and the exit status."""
     from ptproof.commands.terminal import claim_progress
     from ptproof.proof.run import Interrupted
@@ -64,10 +66,9 @@ def _decided(
                 memory=memory,
             )  # fmt: skip
     except Interrupted as interrupted:
-        return Shown.of(interrupted.verification), options.interrupted(interrupted)
-    shown = Shown.of(verification)
-    memory.keep_run(select, shown.data, verification)
-    return shown, 0 if verification.as_expected else 1
+        return interrupted.verification, options.interrupted(interrupted)
+    memory.keep_run(select, Shown.of(verification).data, verification)
+    return verification, 0 if verification.as_expected else 1
 
 
 def _print(shown: Shown, as_json: bool) -> None:

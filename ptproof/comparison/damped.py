@@ -8,6 +8,7 @@ from functools import cached_property
 import sympy as sp
 
 from ptproof.comparison.power import PowerBound, holds, sympify_members
+from ptproof.comparison.regular import check_regular
 from ptproof.errors import InputError
 
 
@@ -71,7 +72,8 @@ class LinearBound:
     Raises
     ------
     InputError
-        Unless ``convolution`` starts at zero and solves dc/dτ = −h·c + ζ by exact algebra.
+        Unless ``convolution`` starts at zero and solves dc/dτ = −h·c + ζ by exact algebra, and it and ζ are shown to be
+        continuous from ``start`` on.
     """
 
     time: sp.Symbol
@@ -83,6 +85,7 @@ class LinearBound:
 
     def __post_init__(self) -> None:
         sympify_members(self)
+        check_regular(self.convolution, self.time, self.start, "the convolution")
         difference = sp.diff(self.convolution, self.time) + self.damping * self.convolution - self.input
         holds(difference, "the convolution solves its equation")
         holds(self.convolution.subs(self.time, self.start), "the convolution starts at zero")

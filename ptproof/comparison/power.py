@@ -8,6 +8,7 @@ from typing import Any
 
 import sympy as sp
 
+from ptproof.comparison.regular import check_regular
 from ptproof.errors import InputError
 from ptproof.proof.signs import vanishes
 
@@ -45,7 +46,8 @@ class PowerBound:
     Raises
     ------
     InputError
-        Unless the bound starts at ``initial`` and solves du/dτ = α·u^p by exact algebra.
+        Unless the bound starts at ``initial`` and solves du/dτ = α·u^p by exact algebra, and rate and integral are
+        shown to be continuous from ``start`` on.
     """
 
     time: sp.Symbol
@@ -60,6 +62,7 @@ class PowerBound:
         if self.initial.is_positive is False:
             raise InputError(f"comparison: the initial value {self.initial} is not positive")
         sigma = self.sigma
+        check_regular(self.integral, self.time, self.start, "the integral")
         holds(sp.diff(self.integral, self.time) - self.rate, "the integral's derivative is the rate")
         holds(self.integral.subs(self.time, self.start), "the integral starts at zero")
         if sigma == 0:

@@ -27,6 +27,8 @@ from ptproof.proof.verdict import Verdict
 _DIGITS = 6
 _INTERVALS = 512
 _UNCLIPPED = sp.Rational(19, 20)
+_AFTER_CLIP = ("clip.k_min_after_clip",)
+_LASTING = ("asymptotic.k_min", "asymptotic.k_min_printed", *_AFTER_CLIP)
 
 
 @dataclass(frozen=True)
@@ -66,6 +68,25 @@ class Study:
         if self.curve.evidence.verdict is not Verdict.PROVED:
             return where + ", if it stays there"
         return where + f", which is certified up to t = {self.curve.times[-1]:.6g} for this start"
+
+    def doubt(self, key: str) -> str | None:
+        """Why a condition on k for all time is not shown to suffice, None if it is; no other key has such a doubt.
+
+        With k above it V falls wherever the gradient is not zero, which is certified on a ball. So the seeker converges
+        if it starts on a level of V that lies in this ball, or in a larger one on which constants are certified too;
+        after the clip it starts where the average is at t₀ + T.
+        """
+        level = None if self.answer is None else self.answer.data.level
+        if self.answer is None or level is None or key not in _LASTING:
+            return None
+        problem, bounds = self.problem, self.answer.data.bounds
+        if key in _AFTER_CLIP:
+            start = bounds.a1 * sp.Rational(self.curve.final) ** (2 * bounds.kappa) if self.applies else sp.oo
+        else:
+            start = problem.peak - problem.field.value(problem.initial.x)
+        if start.is_finite and (sign(level - start) >= 0 or _level_is_certified(problem, start, bounds)):
+            return None
+        return f"the constants hold {self.condition}, and later times are not shown to keep it there"
 
     @property
     def bounds_at_end(self) -> Mapping[str, float | None]:
@@ -146,6 +167,19 @@ def study(
     if certificate.verdict is Verdict.PROVED:
         answer = gains(gain_data(problem, certificate.field_bounds(), radius, confined=True, **known))
     return Study(problem, curve, certificate, answer)
+
+
+def _level_is_certified(problem: Problem, value: sp.Expr, bounds: FieldBounds) -> bool:
+    """Whether {V ≤ value} lies in a ball on which the field certainly has constants; a few radii are tried."""
+    for _ in range(3):
+        radius = _rounded_up(float((value / bounds.a2) ** (1 / (2 * bounds.kappa))) * 1.01)
+        certificate = certify_field(problem.field, radius=radius, rtol=0.1, seconds=10)
+        if certificate.verdict is not Verdict.PROVED:
+            return False
+        bounds = certificate.field_bounds()
+        if sign(bounds.a2 * radius ** (2 * bounds.kappa) - value) >= 0:
+            return True
+    return False
 
 
 def gain_data(

@@ -81,7 +81,9 @@ class _Place:
         return bool(self.moving & node.free_symbols)
 
 
-def obligations(expression: sp.Basic, shown: Collection[sp.Basic] = ()) -> Iterator[Obligation]:
+def obligations(
+    expression: sp.Basic, shown: Collection[sp.Basic] = (), moving: Collection[sp.Symbol] = ()
+) -> Iterator[Obligation]:
     """What has to hold for ``expression`` to be defined and real, the inner parts first.
 
     Parameters
@@ -90,6 +92,8 @@ def obligations(expression: sp.Basic, shown: Collection[sp.Basic] = ()) -> Itera
         A scalar expression, or a column of them.
     shown
         Integrals and limits of which an engine has shown that they exist and are real.
+    moving
+        Symbols in which it has to be continuously differentiable as well: no kink, no jump, no root of 0.
 
     Examples
     --------
@@ -102,7 +106,7 @@ def obligations(expression: sp.Basic, shown: Collection[sp.Basic] = ()) -> Itera
     entries = expression if isinstance(expression, sp.MatrixBase) else (expression,)
     seen: set[Obligation] = set()
     for entry in entries:
-        for need in _of(entry, _Place(shown=shown)):
+        for need in _of(entry, _Place(shown=shown, moving=frozenset(moving))):
             if need not in seen:
                 seen.add(need)
                 yield need
@@ -176,6 +180,8 @@ def _own(node: sp.Basic, place: _Place) -> Iterator[Obligation]:
             yield place.needs(node, Relation(node.args[0] ** 2, "<", ONE))
         case sp.atan2():
             yield place.needs(node, gt(node.args[0] ** 2 + node.args[1] ** 2, ZERO))
+        case sp.Ei():
+            yield place.needs(node, Relation(node.args[0], "!=", ZERO))
         case sp.Mod():
             yield place.needs(node, Relation(node.args[1], "!=", ZERO))
         case sp.Limit():

@@ -20,7 +20,7 @@ from ptproof.reading.cache import Cache, place
 
 if TYPE_CHECKING:
     from ptproof.proof.claim import Claim
-    from ptproof.proof.run import Verification
+    from ptproof.proof.result import Verification
     from ptproof.proof.verdict import Evidence
 
 _LOOK = 2.0  # between two looks at whether the files are still the same [s]
@@ -74,7 +74,7 @@ class Memory:
 
     def keep_run(self, select: str, data: dict[str, Any], verification: Verification) -> None:
         """Keep the whole outcome, if each part of it is one that is remembered."""
-        if self._unchanged() and all(_lasting(result.claim, result.evidence[0]) for result in verification.results):
+        if self._unchanged() and all(_lasting(item.claim, *item.evidence) for item in verification.results):
             self._cache.write(self._run_key(select), {"files": self._files, "data": data})
         self._cache.tidy()
 
@@ -107,12 +107,12 @@ class Memory:
         return hashes.of_texts(["run", self._environment, select, *map(str, self._paths)])
 
 
-def _lasting(claim: Claim, evidence: Evidence) -> bool:
+def _lasting(claim: Claim, evidence: Evidence, *others: Evidence) -> bool:
     """Whether another run would come to the same: what was left open may be for want of time, unless it is expected."""
     from ptproof.proof.answering import CRASH, INTERRUPTED, TIME
     from ptproof.proof.verdict import Verdict
 
-    if evidence.engine in (CRASH, TIME, INTERRUPTED, "mismatch"):
+    if any(item.engine in (CRASH, TIME, INTERRUPTED, "mismatch") for item in (evidence, *evidence.besides, *others)):
         return False
     return evidence.verdict is not Verdict.UNDECIDED or claim.expected is Verdict.UNDECIDED
 

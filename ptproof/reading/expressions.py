@@ -7,16 +7,17 @@ below and arithmetic are turned into SymPy objects. Nothing is evaluated as Pyth
 from __future__ import annotations
 
 import ast
-import math
 import operator
 import warnings
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import sympy as sp
+from sympy.core.function import AppliedUndef
 from sympy.logic.boolalg import Boolean
 
 from ptproof.errors import InputError
+from ptproof.reading.guards import INFINITE, arguments_refused, divisor_refused, is_deep, power_refused, value_refused
 
 FUNCTIONS: Mapping[str, Callable[..., Any]] = {
     "sin": sp.sin, "cos": sp.cos, "tan": sp.tan, "asin": sp.asin, "acos": sp.acos, "atan": sp.atan,
@@ -24,7 +25,6 @@ FUNCTIONS: Mapping[str, Callable[..., Any]] = {
     "sqrt": lambda value: sp.sqrt(value), "Abs": sp.Abs, "abs": sp.Abs, "sign": sp.sign, "Max": sp.Max, "Min": sp.Min,
     "atan2": sp.atan2, "floor": sp.floor, "Mod": sp.Mod,
 }  # fmt: skip
-_GROWING = ("exp", "sinh", "cosh")
 CONSTANTS: Mapping[str, sp.Expr] = {"pi": sp.pi, "E": sp.E}
 
 _ARITHMETIC: Mapping[type[ast.operator], Callable[[Any, Any], Any]] = {
@@ -34,12 +34,8 @@ _ARITHMETIC: Mapping[type[ast.operator], Callable[[Any, Any], Any]] = {
 _COMPARISONS: Mapping[type[ast.cmpop], Callable[[Any, Any], Any]] = {
     ast.Lt: sp.Lt, ast.LtE: sp.Le, ast.Gt: sp.Gt, ast.GtE: sp.Ge,
 }  # fmt: skip
-_INFINITE = frozenset({sp.zoo, sp.nan, sp.oo, -sp.oo})
 _LONGEST = 10_000
-_LARGEST_EXPONENT = 10_000
 _LARGEST_DECIMAL_EXPONENT = 400
-# Python itself writes no integer of more than 4300 digits; what is read can also be printed.
-_LARGEST_BITS = 14_000
 _MOST_DERIVATIVES = 8
 
 
@@ -78,8 +74,8 @@ def parse(
     table = dict(names) if isinstance(names, Mapping) else {symbol.name: symbol for symbol in names}
     if isinstance(text, bool) or not isinstance(text, str | int | float):
         raise InputError(f"{where}: expected a number or an expression as text, got {quoted(text)}")
-    if isinstance(text, int) and text.bit_length() > _LARGEST_BITS:
-        raise InputError(f"{where}: a number that is too large")
+    if isinstance(text, int) and (reason := value_refused(text)):
+        raise InputError(f"{where}: {reason}")
     source = str(text).strip()
     if not source:
         raise InputError(f"{where}: the expression is empty")
@@ -89,8 +85,10 @@ def parse(
     source = source.replace("^", "**")
     try:
         value = _Reader(source, table, where).number(_tree(source, where))
-        if value.has(*_INFINITE, sp.I, sp.AccumBounds, sp.DiracDelta):
+        if value.has(*INFINITE, sp.I, sp.AccumBounds):
             raise InputError(f"{where}: {quoted(source)} is not a finite real number")
+        if is_deep(value):
+            raise RecursionError
     except RecursionError:
         raise InputError(f"{where}: {quoted(source)} is nested too deeply") from None
     return value
@@ -143,11 +141,7 @@ class _Reader:
     def read(self, node: ast.expr) -> Any:
         """What ``node`` says; a number is finite and small enough to be written down."""
         value = self.value(node)
-        if isinstance(value, sp.Rational):
-            if max(abs(int(value.p)), int(value.q)).bit_length() > _LARGEST_BITS:
-                raise self.fail("a number that is too large")
-        elif value in _INFINITE or not _INFINITE.isdisjoint(value.args) or isinstance(value, sp.AccumBounds):
-            raise self.fail(f"{self.text(node)} is not a finite number")
+        self.unless(value_refused(value))
         return value
 
     def value(self, node: ast.expr) -> Any:
@@ -191,54 +185,23 @@ class _Reader:
         known = ", ".join([*map(str, self.names), *CONSTANTS]) or "none"
         raise self.fail(f"unknown name {quoted(name)} (known: {known})")
 
+    def unless(self, reason: str) -> None:
+        if reason:
+            raise self.fail(reason)
+
     def arithmetic(self, op: ast.operator, left: sp.Expr, right: sp.Expr) -> sp.Expr:
         if isinstance(op, ast.Pow):
-            self.check_power(left, right)
-        if isinstance(op, ast.Div | ast.Mod) and right.is_zero:
-            raise self.fail("a division by zero")
-        return self.made(_ARITHMETIC[type(op)], left, right)
-
-    def check_power(self, base: sp.Expr, exponent: sp.Expr) -> None:
-        """Refuse powers that would fill the memory before anybody could look at them."""
-        if exponent.is_number and self.size(exponent) > _LARGEST_EXPONENT:
-            raise self.fail(f"an exponent over {_LARGEST_EXPONENT}")
-        if base.is_number and exponent.is_number and base != 0:
-            # The parts of a fraction, since 1 + 10**-300 is near 1 and its powers are long all the same.
-            parts = (base.p, base.q) if base.is_Rational else (base,)
-            if max(map(self.bits, parts)) * self.size(exponent) > _LARGEST_BITS:
-                raise self.fail("a number that is too large")
-
-    def size(self, number: sp.Expr) -> float:
-        """About the absolute value of a number; infinite where that is beyond a floating-point number."""
-        try:
-            return abs(complex(number.evalf(15)))
-        except OverflowError:
-            return math.inf
-
-    def bits(self, number: Any) -> float:
-        """About the absolute value of the logarithm of a number to the base 2; 0 for what may be 0."""
-        if isinstance(number, int) or number.is_Integer:
-            return int(number).bit_length()
-        near = sp.Abs(number.evalf(15))
-        return 0.0 if near == 0 else abs(float(sp.log(near, 2).evalf(15)))
-
-    def made(self, target: Callable[..., Any], *values: sp.Expr) -> Any:
-        """What SymPy makes of the values, whose own refusals become one sentence."""
-        try:
-            return target(*values)
-        except ArithmeticError:
-            raise self.fail("a division by zero") from None
-        except (TypeError, ValueError):
-            if not all(value.is_extended_real is not False for value in values):
-                raise self.fail("a comparison of what is not real") from None
-            raise
+            self.unless(power_refused(left, right))
+        if isinstance(op, ast.Div | ast.Mod):
+            self.unless(divisor_refused(right))
+        return _ARITHMETIC[type(op)](left, right)
 
     def compare(self, left: sp.Expr, ops: list[ast.cmpop], right: list[sp.Expr]) -> Any:
         parts = []
         for op, value in zip(ops, right, strict=True):
             if type(op) not in _COMPARISONS:
                 raise self.fail("only <, <=, > and >= compare")
-            parts.append(self.made(_COMPARISONS[type(op)], left, value))
+            parts.append(_COMPARISONS[type(op)](left, value))
             left = value
         return sp.And(*parts)
 
@@ -252,10 +215,9 @@ class _Reader:
         if target is None or isinstance(target, sp.Basic):
             known = ", ".join(sorted({*FUNCTIONS, "Piecewise", "Derivative"}))
             raise self.fail(f"unknown function {quoted(name)} (known: {known})")
-        if name in _GROWING and values and values[0].is_number and self.size(values[0]) > _LARGEST_EXPONENT:
-            raise self.fail(f"an exponent over {_LARGEST_EXPONENT}")
+        self.unless(arguments_refused(name, values))
         try:
-            return self.made(target, *values)
+            return target(*values)
         except TypeError:
             raise self.fail(f"wrong number of arguments for {name!r}") from None
 
@@ -272,7 +234,10 @@ class _Reader:
         inside = [node for node in ast.walk(args[0]) if isinstance(node, ast.Call)]
         if len(values) - 1 + sum(_is_derivative(node) for node in inside) > _MOST_DERIVATIVES:
             raise self.fail(f"more than {_MOST_DERIVATIVES} derivatives of one expression")
-        return sp.diff(*values)
+        value = sp.diff(*values)
+        if value.has(sp.DiracDelta) or any(not node.expr.has(AppliedUndef) for node in value.atoms(sp.Derivative)):
+            raise self.fail(f"no derivative of {self.text(args[0])}, which jumps")
+        return value
 
 
 def _is_derivative(node: ast.Call) -> int:

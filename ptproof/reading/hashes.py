@@ -88,7 +88,7 @@ def of_derivation(paths: Iterable[Path]) -> dict[str, str]:
         for file in files_below(path) if path.is_dir() else [path]:
             with contextlib.suppress(OSError):
                 size += file.stat().st_size
-            if size > _SIZE or len(found) > _FILES:
+            if size > _SIZE or len(found) >= _FILES:
                 return {}
             found[str(file)] = of_file(file)
     return found

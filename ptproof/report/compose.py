@@ -7,9 +7,9 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from ptproof.proof.claim import Claim, Definition, Result
+from ptproof.proof.claim import Claim, Definition
 from ptproof.proof.load import Derivation
-from ptproof.proof.run import Verification
+from ptproof.proof.result import Result, Verification
 from ptproof.proof.statement import All, Exists, Prose, Relation, relations_of
 from ptproof.report import status
 from ptproof.report.content import Figure, Table

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING
 
 import sympy as sp
@@ -76,7 +76,7 @@ def assert_gain_condition(data: GainData | Problem, condition: str, *, seconds: 
 def _decide(asked: GainData | Problem, condition: str, left: str, symbol: str, right: str) -> str | None:
     from ptproof.gains.numbers import sign
 
-    answer, open_question = _answer(asked)
+    answer, open_question, doubt = _answer(asked)
     if answer is None:
         return lines(f"the condition {condition} could not be decided: undecided", [("reason", open_question)])
     data = answer.data
@@ -106,7 +106,8 @@ def _decide(asked: GainData | Problem, condition: str, left: str, symbol: str, r
     except InputError as undecided:
         return lines(f"the condition {condition} could not be decided: undecided", [("reason", str(undecided))])
     if {"<": order < 0, "<=": order <= 0, ">": order > 0, ">=": order >= 0}[symbol]:
-        return None
+        open_ones = [(key, reason) for key in keys if (reason := doubt(key)) is not None]
+        return lines(f"the condition {condition} could not be decided: undecided", open_ones) if open_ones else None
     gap = sides[0] - sides[1]
     return lines(f"the condition {condition} does not hold: refuted", [
         (left.strip(), _shown(sides[0])), (right.strip(), _shown(sides[1])),
@@ -114,20 +115,23 @@ def _decide(asked: GainData | Problem, condition: str, left: str, symbol: str, r
     ])  # fmt: skip
 
 
-def _answer(asked: GainData | Problem) -> tuple[Gains | None, str]:
-    """All quantities; None, and why, where the constants of a problem are not certain along its average."""
+def _answer(asked: GainData | Problem) -> tuple[Gains | None, str, Callable[[str], str | None]]:
+    """All quantities; None, and why, where the constants of a problem are not certain along its average.
+
+    The last says of a key that speaks of all time why it is not certain.
+    """
     from ptproof.gains import GainData, gains
     from ptproof.gains.problem import study
 
     if isinstance(asked, GainData):
-        return gains(asked), ""
+        return gains(asked), "", lambda _: None
     found = study(asked)
     assert found.certificate is not None
     if found.answer is None:
-        return None, f"the constants of the field are not certified: {found.certificate.summary}"
+        return None, f"the constants of the field are not certified: {found.certificate.summary}", found.doubt
     if not found.applies:
-        return None, f"the constants of the field hold {found.condition}, which is not shown"
-    return found.answer, ""
+        return None, f"the constants of the field hold {found.condition}, which is not shown", found.doubt
+    return found.answer, "", found.doubt
 
 
 def _value(text: str, data: GainData, keys: Mapping[str, sp.Expr]) -> sp.Expr:

@@ -5,14 +5,22 @@ from dataclasses import replace
 import pytest
 import sympy as sp
 
-from ptproof.averaging import AveragingRefused, AveragingUndecided, DitherProblem, FastStates, average, study
+from ptproof.averaging import (
+    AveragingRefused,
+    AveragingUndecided,
+    DitherProblem,
+    FastStates,
+    average,
+    split_dithers,
+    study,
+)
 from ptproof.averaging.bounded import bounded_in_time
 from ptproof.averaging.correction import first_correction
 from ptproof.averaging.samples import masked_functions, sample_points
 from ptproof.errors import InputError
 from ptproof.proof.statement import le
 from ptproof.proof.verdict import Verdict
-from ptproof.system import DitherSystem
+from ptproof.system import DitherSystem, System
 
 tau, theta, x, y, z, w, p = sp.symbols("tau theta x y z w p", real=True)
 omega, k = sp.symbols("omega k", positive=True)
@@ -262,3 +270,54 @@ def test_a_function_has_one_value_at_one_place_and_is_flat_at_a_zero_that_its_si
         assert point[x] != point[y] or point[names["F(x)"]] == point[names["F(y)"]]
         assert point[names["B(x)"]] >= 0
         assert point[names["B(x)"]] != 0 or point[names["Derivative(B(x), x)"]] == 0
+
+
+@pytest.mark.parametrize(
+    ("rate", "verdict"),
+    [
+        (x - z, P),
+        (sp.Max(-z, -2 * z), P),
+        (sp.sqrt(1 + sp.Abs(z)) - z, P),
+        (sp.Abs(x) * sp.Abs(z) - z, P),
+        (-sp.sign(z), R),
+        (sp.Piecewise((-z, z < 0), (1 - z, True)), R),
+        (1 / sp.Abs(z) - z, R),
+        (sp.floor(z) - z, R),
+        (-sp.sqrt(sp.Abs(z)), U),
+        (-(z ** sp.Rational(1, 3)), U),
+        (-z * sp.log(sp.Abs(z)), U),
+        (sp.Max(1 / z, z), U),
+        (sp.Min(z, sp.sqrt(x)) - z, U),
+        (-z * s(1 / z), U),
+    ],
+    ids=str,
+)
+def test_locally_lipschitz_is_more_than_continuous(rate, verdict):
+    assert letter(fast(rate, steady=(x,)), "E") is verdict
+
+
+ROOT = sp.sqrt(omega)
+
+
+@pytest.mark.parametrize(
+    "rate",
+    [
+        c(omega * tau),
+        c(omega * tau) / ROOT,
+        ROOT * c(omega**2 * tau),
+        ROOT * c(tau),
+        ROOT * sp.Abs(c(omega * tau)),
+        ROOT * F(c(omega * tau)),
+        ROOT * sp.exp(sp.I * omega * tau),
+        ROOT * c(omega * tau) ** 2,
+        ROOT * c(omega * (tau + x)),
+        ROOT * c(omega * tau) * theta,
+        sp.sqrt(omega * x**2) * c(omega * tau) * omega ** sp.Rational(1, 3),
+        ROOT * sp.Piecewise((1, s(omega * tau) > 0), (-1, True)),
+    ],
+    ids=str,
+)
+def test_what_is_no_sum_of_dithers_is_not_split(rate):
+    assert split_dithers(System(tau, (x,), (ROOT * c(omega * tau + F(x)),)), omega).fields == ((c(F(x)),), (-s(F(x)),))
+    with pytest.raises((AveragingRefused, AveragingUndecided)):
+        split_dithers(System(tau, (x,), (rate,)), omega)

@@ -257,3 +257,19 @@ def test_time_limit_must_make_sense(seconds):
     x = sp.Symbol("x", real=True)
     with pytest.raises(InputError, match="time limit"):
         certify_field(-(x**2), (x,), (0,), 1, seconds=seconds)
+
+
+@pytest.mark.parametrize("rtol", [1.0, 0.5, 0.1, 0.01])
+@pytest.mark.parametrize("text", ["5/2 + cos(2*pi/3*x1)/2 - (x1**2 + x2**2)/2", "-exp(x1) + x1 - x2**2 - x1**2/3"])
+def test_a_wide_tolerance_is_reached_like_a_narrow_one(text, rtol):
+    found = certify(text, (0, 0), 1, radius=2, rtol=rtol)
+    assert found.verdict is Verdict.PROVED
+    assert all(getattr(found, name).width <= rtol for name in ("a1", "a2", "b1", "b2"))
+
+
+@pytest.mark.parametrize("radius", [R(7, 2), 4])
+def test_a_value_that_is_certainly_negative_at_once_has_its_witness(radius):
+    found = certify("-x1**2 - x1**3/3", (0,), 1, radius=radius)
+    assert found.verdict is Verdict.REFUTED
+    assert found.witness is not None
+    assert R(199, 100) <= found.largest_radius < 2

@@ -191,3 +191,25 @@ def test_the_first_escape_is_the_smaller_root():
     roots = sorted(float(root) for root in sp.Poly(bound.quadratic, s).nroots())
     assert float(bound.escape_elapsed) == pytest.approx(roots[0])
     assert roots[0] > 0
+
+
+@pytest.mark.parametrize(
+    ("rate", "integral"),
+    [
+        (1 / (tau - 2), None),
+        (1 / (tau - 2) ** 2, None),
+        (sp.tan(tau) ** 2 + 1, sp.tan(tau)),
+        (sp.S.One, tau + sp.Piecewise((0, tau < 2), (-5, True))),
+        (sp.S.One, tau - 5 * sp.Heaviside(tau - 2)),
+    ],
+)
+def test_a_rate_with_a_pole_and_an_integral_that_jumps_bound_nothing(rate, integral):
+    with pytest.raises(InputError, match="continuous"):
+        power_bound(time=tau, rate=rate, power=sp.S.One, initial=sp.Integer(3), integral=integral)
+
+
+def test_a_convolution_that_jumps_bounds_nothing():
+    forced = 1 - sp.exp(-tau)
+    assert LinearBound(tau, 0, 1, 1, 1, forced).bound == 1
+    with pytest.raises(InputError, match="continuous"):
+        LinearBound(tau, 0, 1, 1, 1, forced - sp.Piecewise((0, tau < 2), (5 * sp.exp(-tau), True)))

@@ -194,6 +194,11 @@ class _Evaluator:
         def along(inner: Any) -> Any:
             return _Evaluator({**self.values, variable: inner}, self.functions).visit(node.function)
 
+        if low is -sp.oo:
+            if high is sp.oo:
+                raise Unsure("an integral over the whole line")
+            end = self.visit(high)
+            return _quadrature(lambda u: along(end - u / (1 - u)) / (1 - u) ** 2, mpf(0), mpf(1))
         start = self.visit(low)
         if high is not sp.oo:
             return _quadrature(along, start, self.visit(high))

@@ -6,7 +6,7 @@ from typing import Any
 
 import hypothesis.strategies as st
 import sympy as sp
-from hypothesis import given
+from hypothesis import event, given
 
 from ptproof.averaging.coefficients import v_matrix
 from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided
@@ -62,6 +62,7 @@ def test_coefficients_are_the_double_integrals(chosen: list[Any], shifted: bool)
         return
     if found is None:
         return
+    event("answered")
     samples = [_samples(u) for u in chosen]
     for (j, i), value in found.items():
         numeric = _nested(samples[j - 1], samples[i - 1])

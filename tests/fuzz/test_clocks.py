@@ -6,7 +6,7 @@ from typing import Any
 
 import hypothesis.strategies as st
 import sympy as sp
-from hypothesis import given
+from hypothesis import event, given
 
 from ptproof.errors import InputError
 from ptproof.transforms.clocks.clock import Clock
@@ -64,6 +64,7 @@ def _check(make: Any) -> None:
         return
     if clock is None:
         return
+    event("answered")
     end = MP.mpf(20) if clock.horizon is sp.oo else oracle.value(clock.horizon, VALUES)
     before = None
     for k in range(20):

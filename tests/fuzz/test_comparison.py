@@ -6,7 +6,7 @@ from typing import Any
 
 import hypothesis.strategies as st
 import sympy as sp
-from hypothesis import given
+from hypothesis import event, given
 
 from ptproof.comparison import DampedBound, DilatedBound, LinearBound, fading_input, power_bound
 from ptproof.errors import InputError
@@ -72,6 +72,7 @@ def test_a_power_bound_solves_its_equation(rate: Any, power: Any, initial: Any, 
             if value(found.denominator, instant) <= 0:
                 return  # beyond its escape
             u = value(found.bound, instant)
+            assert u > 0, f"{found.bound} at {instant}"
             assert near(slope(found.bound, instant), value(rate, instant) * u ** oracle.value(power, VALUES)), (
                 f"{found.bound}"
             )
@@ -178,6 +179,7 @@ def test_a_bound_by_comparison_is_not_exceeded_by_the_worst_case(
     found = or_nothing(10, lambda: comparison(goal, u, denominators=denominators))
     if found is None or found.verdict is not Verdict.PROVED:
         return
+    event("answered")
     letter = sp.Dummy("v", real=True)
     rate = growth(letter)
     for begin in (MP.mpf(0), MP.mpf("0.3"), MP.mpf(2), *([] if v is V else [MP.mpf(-1)])):

@@ -6,7 +6,7 @@ from typing import Any
 
 import hypothesis.strategies as st
 import sympy as sp
-from hypothesis import given
+from hypothesis import event, given
 
 from ptproof.proof.engines.smoothness import smoothness
 from ptproof.proof.statement import Relation
@@ -67,6 +67,7 @@ def test_what_is_shown_smooth_is_smooth_along_lines(expression: Any, order: int,
     found = or_nothing(SECONDS, lambda: smoothness(expression, (X, Y), order, domain=domain))
     if found is None or found.verdict is not Verdict.PROVED:
         return
+    event("answered")
     for base in BASES:
         for direction in DIRECTIONS:
             _check_line(expression, order, domain, base, direction)

@@ -8,7 +8,7 @@ from typing import Any
 
 import hypothesis.strategies as st
 import sympy as sp
-from hypothesis import given
+from hypothesis import event, given
 
 from ptproof.proof.algebra import NotAlgebraic, is_zero
 from ptproof.proof.powers import split_powers
@@ -106,6 +106,7 @@ def said_to_be_zero(decide: Callable[[Any], Any], expression: Any) -> bool:
 def test_what_has_the_normal_form_0_is_0(expression: Any, seed: int) -> None:
     for decide in (is_zero, vanishes):
         if said_to_be_zero(decide, expression):
+            event("answered")
             for point in trees.points(expression.free_symbols, 6, seed):
                 check_zero(expression, point)
 
@@ -128,6 +129,7 @@ def test_a_sign_is_the_sign_of_every_value(expression: Any, seed: int) -> None:
     found = or_nothing(SECONDS, sign_of, expression)
     if found is None:
         return
+    event("answered")
     assert found in (-1, 0, 1)
     for point in trees.points(expression.free_symbols, 6 if expression.free_symbols else 1, seed):
         try:

@@ -10,7 +10,11 @@ from scipy.integrate import solve_ivp
 
 from ptproof.errors import InputError
 from ptproof.gains import GainData, gains
+from ptproof.gains.problem import gain_data
+from ptproof.problem import example
+from ptproof.problem.drift import bounded_drift
 from ptproof.problem.field import FieldBounds
+from ptproof.problem.model import TIME
 from ptproof.testing import assert_gain_condition
 
 R = sp.Rational
@@ -212,3 +216,27 @@ def test_a_filter_that_starts_elsewhere_raises_the_peak_of_the_turn():
 def test_a_radius_that_is_none_is_refused():
     with pytest.raises(InputError, match="radius must be positive"):
         GainData(ONE, radius=R(0))
+
+
+def test_a_drift_is_enclosed_for_all_time_where_the_whole_line_allows_it():
+    base, t = example("saturated"), TIME
+    beats = dataclasses.replace(base, drift=bounded_drift([sp.sin(3 * t) / 2, sp.S.Zero]))
+    grows = dataclasses.replace(base, drift=bounded_drift([t / 10, sp.S.Zero]))
+    for problem, later in ((beats, R(1, 2)), (grows, None)):
+        asked = gain_data(problem, ONE)
+        assert asked.drift_until_end
+        assert asked.drift_bound_later == (None if later is None else pytest.approx(later, rel=1e-4))
+    assert float(gain_data(grows, ONE).drift_bound) == pytest.approx(0.1 * float(base.tuning.T), rel=1e-4)
+    assert not gain_data(grows, ONE, drift_bound=R(7)).drift_until_end
+
+
+def test_the_start_of_the_filter_is_that_of_the_problem():
+    base = example("saturated")
+    given = dataclasses.replace(base, initial=dataclasses.replace(base.initial, z=base.measured + 2))
+    assert (gain_data(base, ONE).filter_error, gain_data(given, ONE).filter_error) == (0, 2)
+
+
+def test_constants_are_confined_to_a_ball_only_where_they_are_certified_on_it():
+    base = example("saturated")
+    assert gain_data(base, ONE, R(3)).radius is None
+    assert gain_data(base, ONE, R(3), confined=True).radius == 3

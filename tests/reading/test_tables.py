@@ -52,7 +52,12 @@ def test_decimals_stay_exact():
 
 @pytest.mark.parametrize(
     ("text", "message"),
-    [("a =", "^here: not TOML"), ("a = nan", "^here: a: nan is not a finite"), ("a = -inf", "^here: a: -inf is not")],
+    [
+        ("a =", "^here: not TOML"),
+        ("a = " + "9" * 5000, "^here: not TOML"),
+        ("a = nan", "^here: a: nan is not a finite"),
+        ("a = -inf", "^here: a: -inf is not"),
+    ],
 )
 def test_every_error_opens_with_the_place(text, message):
     with pytest.raises(InputError, match=message):

@@ -178,3 +178,13 @@ def test_a_field_that_jumps_elsewhere_has_bounds_here():
     assert_field_bounds(-(x1**2 + x2**2) * STEP, radius=half, a1="1.001", a2="0.999", b1="1.99", b2="2.01", **PLANE)
     with pytest.raises(AssertionError, match="refuted"):
         assert_field_bounds(-(x1**2 + x2**2) * STEP, radius=half, a1="0.99", **PLANE)
+
+
+def test_a_condition_for_all_time_needs_a_level_that_lies_where_the_constants_hold():
+    """From (1.9, 1.9) the level of V reaches beyond the saddles of cos x₁ + cos x₂, from (1, 1) it does not."""
+    hills = replace(example("saturated"), field=Field((x1, x2), sp.cos(x1) + sp.cos(x2), (0, 0), 1))
+    near, far = (replace(hills, initial=replace(hills.initial, x=(sp.Rational(r),) * 2)) for r in ("1", "1.9"))
+    assert_gain_condition(near, "k > asymptotic.k_min")
+    with pytest.raises(AssertionError, match=r"(?s)undecided.*later times are not shown to keep it there"):
+        assert_gain_condition(far, "k > asymptotic.k_min")
+    assert_gain_condition(far, "k > clip.k_min_after_clip")

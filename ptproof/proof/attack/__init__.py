@@ -8,3 +8,6 @@ from ptproof.proof.attack.attacker import Attack as Attack
 from ptproof.proof.attack.attacker import Hit as Hit
 from ptproof.proof.attack.attacker import attack as attack
 from ptproof.proof.attack.attacker import points_of as points_of
+from ptproof.proof.attack.worth import Place as Place
+from ptproof.proof.attack.wrong import WrongPromise as WrongPromise
+from ptproof.proof.attack.wrong import insist as insist

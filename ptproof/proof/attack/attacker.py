@@ -9,7 +9,7 @@ from typing import Any
 
 import sympy as sp
 
-from ptproof.proof.attack.evaluator import Evaluator, text
+from ptproof.proof.attack.evaluator import Evaluator
 from ptproof.proof.attack.exact import exact_values
 from ptproof.proof.attack.kinds import holds
 from ptproof.proof.attack.limiting import Grows
@@ -18,6 +18,7 @@ from ptproof.proof.attack.preparation import Prepared, prepared
 from ptproof.proof.attack.quantified import satisfied
 from ptproof.proof.attack.roughness import rough
 from ptproof.proof.attack.sampling import MISSES, Point, Sampler
+from ptproof.proof.attack.worth import text
 from ptproof.proof.claim import Goal
 from ptproof.proof.statement import Exists, Prose, Relation, Smooth
 
@@ -240,7 +241,7 @@ def _confirmed_hit(goal: Goal, ready: Prepared, point: Point, part: Relation) ->
     found = {_outcome(part, point.evaluator(digits)) for digits in _DIGITS}
     if len(found) != 1 or not (what := found.pop()):
         return None
-    if what != FAILS and getattr(goal, "where_defined", False):
+    if what != FAILS and goal.where_defined:
         return None
     left, right = _sides(part, point.evaluator(_DIGITS[1]))
     return Hit(exact_values(ready, point), part, left, right, what)

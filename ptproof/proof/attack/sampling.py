@@ -11,7 +11,8 @@ from typing import Any
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ptproof.proof.attack.evaluator import Evaluator, Inadmissible, Work, fits
+from ptproof.proof.attack.elementary import fits
+from ptproof.proof.attack.evaluator import Evaluator, Inadmissible, Work
 from ptproof.proof.attack.functions import START, Concrete, drawn
 from ptproof.proof.attack.kinds import fits_kind, holds
 from ptproof.proof.attack.numbers import NotReal, Number, Undefined, Unsure

@@ -55,14 +55,30 @@ def find_singularity(
     for argument in (entry for suspect in suspects for entry in _arguments(_concrete(suspect))):
         for variable, values in _lines(argument, beside, variables):
             try:
-                restricted, line = (entry.subs(values, simultaneous=True) for entry in (argument, expression))
-            except ZeroDivisionError:  # SymPy's answer to a remainder modulo 0
+                found = _on_line(argument, expression, order, variable, values, tuple(here), {**names, **others})
+            except (ZeroDivisionError, ValueError):  # SymPy's answer to what is not comparable, or modulo 0
                 continue
-            for root in _roots(restricted, variable):
-                place = _Place(variable, root, values, tuple(here), {**names, **others})
-                found = place.examine(line, order) if place.is_allowed(root) else None
-                if found is not None:
-                    return found
+            if found is not None:
+                return found
+    return None
+
+
+def _on_line(
+    argument: sp.Expr,
+    expression: sp.Expr,
+    order: int,
+    variable: sp.Symbol,
+    values: dict[sp.Symbol, sp.Expr],
+    domain: tuple[Relation, ...],
+    names: dict[str, str],
+) -> Found | None:
+    """What is wrong at a zero of the argument in the domain, where one variable moves and the others have values."""
+    restricted, line = (entry.subs(values, simultaneous=True) for entry in (argument, expression))
+    for root in _roots(restricted, variable):
+        place = _Place(variable, root, values, domain, names)
+        found = place.examine(line, order) if place.is_allowed(root) else None
+        if found is not None:
+            return found
     return None
 
 

@@ -15,10 +15,16 @@ from ptproof.proof.statement import Relation, RelationSign
 
 @dataclass(frozen=True)
 class Part:
-    """One proposition: as text for Coq and, where it is a plain relation, as that relation."""
+    """One proposition: as text for Coq and, for whoever looks for hints, as a relation.
+
+    With a ``limit`` the relation holds near its place: ``domain`` says whether it is what has to be defined there, or
+    what the function tends to.
+    """
 
     text: str
     relation: Relation | None = field(default=None, compare=False)
+    limit: sp.Limit | None = field(default=None, compare=False)
+    domain: bool = field(default=False, compare=False)
 
 
 def obligations(expression: sp.Basic, names: Names) -> tuple[Part, ...]:

@@ -11,6 +11,7 @@ from collections.abc import Iterator
 import sympy as sp
 
 from ptproof.proof.kernel.atoms import Atoms
+from ptproof.proof.kernel.limits import near
 from ptproof.proof.kernel.products import products
 from ptproof.proof.kernel.terms import NoTranslation, term
 from ptproof.proof.kernel.theorem import Part, Proposition
@@ -19,10 +20,17 @@ from ptproof.proof.statement import Relation
 
 def script(said: Proposition) -> str:
     """The tactics for the whole proposition, as one sentence for Coq."""
-    known = list(dict.fromkeys(part.relation for part in said.premises if part.relation is not None
+    known = list(dict.fromkeys(part.relation for part in said.premises if part.relation is not None and part.limit is None
                                and part.relation.sign != "!=" and not _trivial(part.relation)))  # fmt: skip
-    leaves = [_leaf(part, known, said) for part in said.conclusions]
+    leaves = [_near(part, said) if part.limit is not None else _leaf(part, known, said) for part in said.conclusions]
     return f"intros; facts; pieces; [> {' | '.join(leaves)} ]"
+
+
+def _near(part: Part, said: Proposition) -> str:
+    try:
+        return f"first [ {near(part, list(said.conclusions), said.names)} | leaf_or_say ]"
+    except (NoTranslation, sp.PolynomialError):
+        return "leaf_or_say"
 
 
 def _trivial(relation: Relation) -> bool:
@@ -60,9 +68,9 @@ def _directly(relation: Relation, known: list[Relation], said: Proposition) -> I
     start = "; ".join([*atoms.lines, *lines])
     start = f"{start}; " if start else ""
     if relation.sign == "!=":
-        yield f"solve [ {start}timeout 10 (nonzero_as {_text(-gap, atoms)}) ]"
+        yield f"solve [ {start}nonzero_as {_text(-gap, atoms)} ]"
         return
-    yield f"solve [ {start}timeout 10 (difference_as {_text(gap, atoms)}) ]"
+    yield f"solve [ {start}difference_as {_text(gap, atoms)} ]"
     if gap.is_positive or (gap.is_nonnegative and relation.sign in ("<=", ">=")):
         return
     # Here the variables stay as they are: their bounds are facts like any other.

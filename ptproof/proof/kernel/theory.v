@@ -115,7 +115,7 @@ with sign_pos :=
                             | apply Rplus_lt_le_0_compat; [sign_pos | sign_nonneg] ]
     end
   | match goal with H : forall _, _ |- _ => solve [apply H; first [assumption | lra]] end
-  | lra | timeout 2 nra ]
+  | lra ]
 with sign_nonneg :=
   first
   [ assumption
@@ -133,7 +133,7 @@ with sign_nonneg :=
     | |- 0 <= _ + _ => apply Rplus_le_le_0_compat; sign_nonneg
     end
   | match goal with H : forall _, _ |- _ => solve [apply H; first [assumption | lra]] end
-  | lra | timeout 2 nra | left; sign_pos ]
+  | lra | left; sign_pos ]
 with sign_nonzero :=
   first
   [ assumption
@@ -148,12 +148,11 @@ with sign_nonzero :=
   | lra
   | match goal with
     | H : ?h <> 0 |- ?g <> 0 =>
-        let E := fresh in intro E; apply H; first [ lra | field_simplify_eq; [ first [lra | timeout 2 nra] | repeat split; sign_pos ] ]
+        let E := fresh in intro E; apply H; first [ lra | field_simplify_eq; [ lra | repeat split; sign_pos ] ]
     end
-  | match goal with |- ?g <> 0 => let E := fresh in intro E; timeout 2 nra end
   | match goal with
     | |- ?g <> 0 => let E := fresh in intro E;
-        field_simplify_eq in E; [ first [lra | timeout 2 nra] | repeat split; sign_pos ]
+        field_simplify_eq in E; [ lra | repeat split; sign_pos ]
     end ].
 
 Ltac sides := repeat split; first [ sign | assumption ].
@@ -196,14 +195,16 @@ Ltac circle x :=
   pose proof (sin2_cos2 x) as P; unfold Rsqr in P; revert P;
   generalize (sin x) as S; generalize (cos x) as C; intros C S P.
 Ltac circles := repeat match goal with |- context [sin ?x] => circle x | |- context [cos ?x] => circle x end.
-Ltac opaque := repeat match goal with
+Ltac opaque := repeat match goal with |- context [Derive ?f ?x] => generalize (Derive f x); intro end; repeat match goal with
   | |- context [sqrt ?x] => generalize (sqrt x); intro
   | |- context [?f ?x] => is_var f; lazymatch type of (f x) with R => generalize (f x); intro end
   | |- context [?f ?x ?y] => is_var f; lazymatch type of (f x y) with R => generalize (f x y); intro end
   | |- context [?f ?x ?y ?z] => is_var f; lazymatch type of (f x y z) with R => generalize (f x y z); intro end
   | |- context [Derive ?f ?x] => generalize (Derive f x); intro
   end.
-Ltac trigonometric := expand_angles; opaque; circles; opaque; first [ rational | nsatz ].
+Ltac ideal := cbv [Rpow_def.pow] in *; solve [nsatz].
+Ltac angles_of_PI := rewrite ?cos_2PI, ?sin_2PI, ?cos_PI, ?sin_PI, ?cos_PI2, ?sin_PI2, ?cos_0, ?sin_0.
+Ltac trigonometric := expand_angles; angles_of_PI; opaque; circles; opaque; first [ rational | ideal ].
 
 (* Derivatives of what is written out; those of unknown functions stay as they are. *)
 Ltac unknown f := idtac;
@@ -219,7 +220,7 @@ Ltac unknown f := idtac;
 Ltac derivative_sides := repeat match goal with
   | |- _ /\ _ => split
   | |- True => exact I
-  | H : forall _, ex_derive _ _ |- ex_derive _ _ => apply H
+  | H : forall _, _ |- ex_derive _ _ => apply H
   | |- ex_derive _ _ => eassumption
   end; try first [ sign | assumption ].
 Ltac inner_derivatives :=
@@ -317,8 +318,8 @@ Ltac equality :=
   | solve [derivatives; same_arguments; same_values; rational]
   | solve [subst; same_arguments; same_values; rational]
   | lra
-  | solve [about_sqrt; timeout 10 nsatz]
-  | solve [about_sqrt; reciprocals; timeout 10 nsatz]
+  | solve [about_sqrt; timeout 10 ideal]
+  | solve [about_sqrt; reciprocals; timeout 10 ideal]
   | solve [cases; first [rational | lra | timeout 4 nra]] ].
 
 Ltac leaf :=
@@ -330,7 +331,7 @@ Ltac leaf :=
   | |- _ \/ (_ = 0 /\ _) => first [ left; solve [sign] | apply rpow_defined; sign ]
   | |- forall _, _ => intros; facts; pieces; leaf
   | |- _ -> _ => intros; facts; pieces; leaf
-  | |- _ <> 0 => sign
+  | |- _ <> 0 => first [ sign | let E := fresh in intro E; timeout 4 nra ]
   | |- _ = _ => equality
   | |- _ => first [ inequality | solve [derivatives; inequality] ]
   end.
@@ -359,6 +360,11 @@ Ltac to_difference :=
   end.
 Ltac difference_as e :=
   to_difference;
+  lazymatch goal with
+  | |- 0 < ?d => replace d with e by rational
+  | |- 0 <= ?d => replace d with e by rational
+  end; sign.
+Ltac positive_as e :=
   lazymatch goal with
   | |- 0 < ?d => replace d with e by rational
   | |- 0 <= ?d => replace d with e by rational
@@ -441,4 +447,154 @@ Ltac logarithms_of a b :=
   first
   [ let H := fresh in assert (H : a <= b) by lra; apply (ln_le a b) in H; [ | sign ]
   | let H := fresh in assert (H : a < b) by lra; apply (ln_increasing a b) in H; [ | sign ] ].
-Ltac quickly := try solve [ assumption | lra | timeout 3 sign ].
+Ltac quickly := try solve [ assumption | lra | sign ].
+
+(* Limits: every place is approached as 0 from the right, by a distance d or by 1/d. *)
+Lemma right_positive : at_right 0 (fun d => 0 < d).
+Proof. exists (mkposreal 1 Rlt_0_1). intros y _ P. exact P. Qed.
+
+Lemma right_nonzero : forall N : R -> R, ex_derive N 0 -> N 0 <> 0 -> at_right 0 (fun d => N d <> 0).
+Proof. intros N D H. apply filter_le_within. apply near_nonzero; assumption. Qed.
+
+Lemma right_above : forall N : R -> R, ex_derive N 0 -> 0 < N 0 -> at_right 0 (fun d => 0 < N d).
+Proof. intros N D H. apply filter_le_within. apply near_positive; assumption. Qed.
+
+Lemma near_infinity : forall P : R -> Prop, at_right 0 (fun d => P (/ d)) -> Rbar_locally p_infty P.
+Proof.
+  intros P [e H]. exists (/ e). intros x L.
+  assert (X : 0 < x) by (apply Rlt_trans with (2 := L); apply Rinv_0_lt_compat, cond_pos).
+  rewrite <- (Rinv_involutive x) by lra. apply H; [|apply Rinv_0_lt_compat; exact X].
+  unfold ball; simpl; unfold AbsRing_ball, abs, minus, plus, opp; simpl.
+  rewrite Ropp_0, Rplus_0_r, Rabs_pos_eq by (left; apply Rinv_0_lt_compat; exact X).
+  rewrite <- (Rinv_involutive e) by (apply Rgt_not_eq, cond_pos).
+  apply Rinv_lt_contravar; [|exact L].
+  apply Rmult_lt_0_compat; [apply Rinv_0_lt_compat, cond_pos | exact X].
+Qed.
+
+Lemma near_left : forall a (P : R -> Prop), at_right 0 (fun d => P (a - d)) -> at_left a P.
+Proof.
+  intros a P [e H]. exists e. intros x B L. replace x with (a - (a - x)) by ring. apply H; [|lra].
+  unfold ball in *; simpl in *; unfold AbsRing_ball, abs, minus, plus, opp in *; simpl in *.
+  replace (a - x + - 0) with (- (x + - a)) by ring. rewrite Rabs_Ropp. exact B.
+Qed.
+
+Lemma near_right : forall a (P : R -> Prop), at_right 0 (fun d => P (a + d)) -> at_right a P.
+Proof.
+  intros a P [e H]. exists e. intros x B L. replace x with (a + (x - a)) by ring. apply H; [|lra].
+  unfold ball in *; simpl in *; unfold AbsRing_ball, abs, minus, plus, opp in *; simpl in *.
+  replace (x - a + - 0) with (x + - a) by ring. exact B.
+Qed.
+
+Lemma limit_infinity : forall (f g : R -> R) G,
+  at_right 0 (fun d => f (/ d) = g d) -> filterlim g (at_right 0) G -> filterlim f (Rbar_locally p_infty) G.
+Proof.
+  intros f g G E L P H. apply near_infinity. specialize (L P H). unfold filtermap in L.
+  generalize (filter_and _ _ E L). apply filter_imp. intros d [A B]. rewrite A. exact B.
+Qed.
+
+Lemma limit_left : forall a (f g : R -> R) G,
+  at_right 0 (fun d => f (a - d) = g d) -> filterlim g (at_right 0) G -> filterlim f (at_left a) G.
+Proof.
+  intros a f g G E L P H. apply near_left. specialize (L P H). unfold filtermap in L.
+  generalize (filter_and _ _ E L). apply filter_imp. intros d [A B]. rewrite A. exact B.
+Qed.
+
+Lemma limit_right : forall a (f g : R -> R) G,
+  at_right 0 (fun d => f (a + d) = g d) -> filterlim g (at_right 0) G -> filterlim f (at_right a) G.
+Proof.
+  intros a f g G E L P H. apply near_right. specialize (L P H). unfold filtermap in L.
+  generalize (filter_and _ _ E L). apply filter_imp. intros d [A B]. rewrite A. exact B.
+Qed.
+
+Lemma right_continuous : forall (g : R -> R) l, ex_derive g 0 -> g 0 = l -> filterlim g (at_right 0) (locally l).
+Proof.
+  intros g l D E. rewrite <- E. apply (filterlim_filter_le_1 g (filter_le_within _)).
+  apply (ex_derive_continuous g). exact D.
+Qed.
+
+Lemma right_infinity : forall g h : R -> R,
+  at_right 0 (fun d => g d = / h d) -> ex_derive h 0 -> h 0 = 0 -> at_right 0 (fun d => 0 < h d) ->
+  filterlim g (at_right 0) (Rbar_locally p_infty).
+Proof.
+  intros g h E D Z S. apply (filterlim_ext_loc (fun d => / h d)).
+  { revert E. apply filter_imp. intros d A. symmetry. exact A. }
+  apply (filterlim_comp _ _ _ h Rinv (at_right 0) (at_right 0)); [|apply filterlim_Rinv_0_right].
+  intros P [e H]. pose proof (right_continuous h 0 D Z (fun y => ball 0 e y) (locally_ball 0 e)) as B.
+  unfold filtermap in *. generalize (filter_and _ _ B S). apply filter_imp. intros d [U V]. apply H; assumption.
+Qed.
+
+Lemma right_exp : forall B : R -> R,
+  filterlim B (at_right 0) (Rbar_locally p_infty) -> filterlim (fun d => exp (- B d)) (at_right 0) (locally 0).
+Proof.
+  intros B L. apply (filterlim_comp _ _ _ (fun d => - B d) exp (at_right 0) (Rbar_locally m_infty)).
+  - apply (filterlim_comp _ _ _ B Ropp (at_right 0) (Rbar_locally p_infty)); [exact L|].
+    exact (filterlim_Rbar_opp p_infty).
+  - exact is_lim_exp_m.
+Qed.
+
+Lemma right_plus : forall (f g : R -> R) l m n, filterlim f (at_right 0) (locally l) ->
+  filterlim g (at_right 0) (locally m) -> l + m = n -> filterlim (fun d => f d + g d) (at_right 0) (locally n).
+Proof.
+  intros f g l m n F G E. rewrite <- E. apply (filterlim_comp_2 _ _ Rplus F G). apply (filterlim_plus l m).
+Qed.
+
+Lemma right_mult : forall (f g : R -> R) l m n, filterlim f (at_right 0) (locally l) ->
+  filterlim g (at_right 0) (locally m) -> l * m = n -> filterlim (fun d => f d * g d) (at_right 0) (locally n).
+Proof.
+  intros f g l m n F G E. rewrite <- E. apply (filterlim_comp_2 _ _ Rmult F G). apply (filterlim_mult l m).
+Qed.
+
+Lemma right_smooth : forall (f g : R -> R) l n, filterlim f (at_right 0) (locally l) -> ex_derive g l -> g l = n ->
+  filterlim (fun d => g (f d)) (at_right 0) (locally n).
+Proof.
+  intros f g l n F D E. rewrite <- E. apply (filterlim_comp _ _ _ f g _ _ _ F). apply (ex_derive_continuous g). exact D.
+Qed.
+
+Lemma right_opp : forall (f : R -> R) l n, filterlim f (at_right 0) (locally l) -> - l = n ->
+  filterlim (fun d => - f d) (at_right 0) (locally n).
+Proof.
+  intros f l n F E. rewrite <- E. apply (filterlim_comp _ _ _ f Ropp _ _ _ F). apply (filterlim_opp l).
+Qed.
+
+Lemma right_value : forall (f : R -> R) l n, filterlim f (at_right 0) (locally l) -> l = n -> filterlim f (at_right 0) (locally n).
+Proof. intros f l n F E. rewrite <- E. exact F. Qed.
+
+Ltac here := cbv beta; first [ sign | apply Rlt_not_eq; lra | solve [timeout 3 nra] ].
+(* N is not 0, or even positive, close to 0. *)
+Ltac right_factor N :=
+  first [ let H := fresh in assert (H : at_right 0 (fun d => 0 < N d)) by (apply (right_above N); [ differentiable | here ])
+        | let H := fresh in assert (H : at_right 0 (fun d => N d <> 0)) by (apply (right_nonzero N); [ differentiable | here ]) ].
+Ltac right_at d :=
+  pose proof right_positive;
+  repeat match goal with
+  | H : at_right 0 ?P, K : at_right 0 ?Q |- _ => pose proof (filter_and _ _ H K); clear H K
+  end;
+  match goal with
+  | H : at_right 0 ?P |- at_right 0 ?Q => refine (filter_imp P Q _ H); clear H; cbv beta; intros d ?; facts
+  end.
+Ltac near_right_of_0 :=
+  lazymatch goal with
+  | |- Rbar_locally p_infty _ => apply near_infinity
+  | |- at_left _ _ => apply near_left
+  | |- at_right _ _ => apply near_right
+  end.
+Ltac limit_at g :=
+  lazymatch goal with
+  | |- filterlim ?f (Rbar_locally p_infty) _ => apply (limit_infinity f g)
+  | |- filterlim ?f (at_left ?a) _ => apply (limit_left a f g)
+  | |- filterlim ?f (at_right ?a) _ => apply (limit_right a f g)
+  end.
+Ltac same_at d := right_at d; first [ rational | same_values; rational ].
+Ltac grows h d :=
+  apply (right_infinity _ h); [ same_at d | differentiable | cbv beta; rational | right_at d; sign ].
+Ltac decays B h d :=
+  let H := fresh in
+  assert (H : filterlim (fun d => exp (- B d)) (at_right 0) (locally 0)) by (apply (right_exp B); grows h d); cbv beta in H.
+Ltac right_limit :=
+  first
+  [ eassumption
+  | apply right_continuous; [ differentiable | cbv beta; reflexivity ]
+  | eapply right_plus; [ right_limit | right_limit | reflexivity ]
+  | eapply right_mult; [ right_limit | right_limit | reflexivity ]
+  | eapply right_opp; [ right_limit | reflexivity ] ].
+Ltac tends := unfold Rminus, Rdiv in *; eapply right_value; [ right_limit | first [ rational | rewrite ?Rmult_0_r, ?Rmult_0_l; rational ] ].

@@ -21,6 +21,7 @@ from ptproof.transforms.clocks.algebra import (
     limit_at_infinity,
     settle,
 )
+from ptproof.transforms.clocks.attack import unshaken
 
 
 @dataclass(frozen=True)
@@ -97,6 +98,7 @@ class Clock:
         ):
             if not shown():
                 raise InputError(f"{self.name}: it does not hold, or cannot be shown, that {what}")
+        unshaken(self, points=3)
 
     def _check_symbols(self) -> None:
         times = {self.t, self.tau}

@@ -109,6 +109,10 @@ TRAPS = [
     (sp.Max(x, y), [x, y], 1, {}, []),
     (sp.atan2(x, -1), [x], 0, {}, []),
     (sp.Mod(x, p), [x], 0, {}, []),
+    # what SymPy refuses to compare at some of the points that are tried
+    (y**3 * sp.sign(sp.sqrt(x - y)) * sp.Min(0, sp.sqrt(x - 1)) ** 3, [x, y], 1, {}, []),
+    (sp.sin(sp.Max((x - 1) / (1 - x**2), sp.log(y**2 + 1))), [x, y], 2, {}, []),
+    ((x**2 + 1) ** 3 * sp.Min(0, (x**2 + y**2) / (x * y)) ** 2, [x, y], 1, {}, []),
     # functions of which nothing is known
     (sp.gamma(x), [x], 1, {}, []),
     (sp.acot(x), [x], 0, {}, []),

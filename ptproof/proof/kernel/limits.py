@@ -1,0 +1,120 @@
+"""Hints for limits: every place is approached as 0 from the right, where the function is a simpler one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import sympy as sp
+
+from ptproof.proof.kernel.atoms import Atoms
+from ptproof.proof.kernel.names import Names
+from ptproof.proof.kernel.obligations import Part
+from ptproof.proof.kernel.terms import NoTranslation, term
+from ptproof.proof.statement import Relation
+
+
+class _Place:
+    """A variable that tends to a place, replaced by a distance d > 0 or by 1/d, with what that makes of expressions."""
+
+    def __init__(self, limit: sp.Limit, names: Names) -> None:
+        _, self.variable, place, side = limit.args
+        self.atoms = Atoms.over(names)
+        self.name = self.atoms.fresh("d")
+        self.d = sp.Symbol(self.name, positive=True)
+        self.atoms.names[self.d] = self.name
+        if place is sp.oo:
+            self.moved: sp.Expr = 1 / self.d
+        elif str(side) in ("-", "+") and place.is_finite is not False:
+            self.moved = self.atoms(place) + (self.d if str(side) == "+" else -self.d)
+        else:
+            raise NoTranslation("no hint for a limit at this place")
+        self.decaying: dict[sp.Symbol, sp.Expr] = {}
+
+    def there(self, expression: sp.Basic) -> sp.Expr:
+        """The expression in d, rational in d, in what does not move, and in exponentials."""
+        if not expression.has(self.variable):
+            return self.atoms(expression)
+        if expression == self.variable:
+            return self.moved
+        if isinstance(expression, sp.Add | sp.Mul):
+            return expression.func(*map(self.there, expression.args))
+        if isinstance(expression, sp.Pow) and expression.exp.is_Integer:
+            return self.there(expression.base) ** expression.exp
+        if isinstance(expression, sp.exp):
+            return self._exponential(self.there(expression.args[0]))
+        raise NoTranslation("no hint for the limit of such a function")
+
+    def _exponential(self, argument: sp.Expr) -> sp.Expr:
+        speed = self.positive(-argument)
+        if speed in self.decaying.values():
+            return next(symbol for symbol, known in self.decaying.items() if known == speed)
+        text = term(speed, self.atoms.names)
+        symbol = sp.Symbol(self.atoms.fresh(f"e{len(self.decaying)}"), positive=True)
+        self.atoms.names[symbol] = f"(exp (- {text}))"
+        self.decaying[symbol] = speed
+        return symbol
+
+    def positive(self, expression: sp.Expr) -> sp.Expr:
+        """As a product of factors, each with the sign that makes it positive close to 0, where that is plain."""
+        product: sp.Expr = sp.Integer(1)
+        for part, power in zip(sp.fraction(sp.factor(sp.together(expression))), (1, -1), strict=True):
+            constant, factors = sp.factor_list(part)
+            product *= constant**power
+            for factor, times in factors:
+                if factor.subs(self.d, 0).could_extract_minus_sign():
+                    factor, product = sp.expand(-factor), product * (-1) ** times
+                product *= factor ** (power * times)
+        return product
+
+    def function(self, expression: sp.Expr) -> str:
+        return f"(fun {self.name} => {term(expression, self.atoms.names)})"
+
+    def factors(self, expressions: Iterable[sp.Expr]) -> list[str]:
+        """Lines that show what is above and below in the expressions to be different from 0 near 0."""
+        found: dict[sp.Expr, None] = {}
+        for expression in expressions:
+            for part in sp.fraction(sp.factor(sp.together(expression))):
+                for factor, _ in sp.factor_list(part)[1]:
+                    if factor.subs(self.d, 0).could_extract_minus_sign():
+                        factor = sp.expand(-factor)
+                    if factor.has(self.d) and factor != self.d and factor.subs(self.d, 0) != 0:
+                        found[factor] = None
+        return [f"try (right_factor {self.function(factor)})" for factor in found]
+
+
+def near(part: Part, group: list[Part], names: Names) -> str:
+    """The tactics for one part of a limit: a function that is followed, or what is defined near the place.
+
+    Raises
+    ------
+    NoTranslation
+        If there is no hint for it.
+    """
+    if part.limit is None or part.relation is None:
+        raise NoTranslation("no hint for this part of a limit")
+    place = _Place(part.limit, names)
+    followed: list[sp.Expr] = [place.there(other.relation.left) for other in group if other.relation is not None and other.limit == part.limit]
+    lines = place.factors([*followed, *place.decaying.values()])
+    if part.domain:
+        form = place.positive(place.there(part.relation.left))
+        tactic = f"nonzero_as {_text(form, place)}" if part.relation.sign == "!=" else f"positive_as {_text(form, place)}"
+        return "; ".join(["near_right_of_0", *lines, f"right_at {place.name}", f"first [ sign | {tactic} ]"])
+    return _followed(part.relation, place, lines)
+
+
+def _followed(relation: Relation, place: _Place, lines: list[str]) -> str:
+    form = place.positive(place.there(relation.left))
+    steps = [f"limit_at {place.function(form)}"]
+    first = "; ".join([*lines, f"same_at {place.name}"])
+    if relation.right is sp.oo:
+        rest = [f"grows {place.function(place.positive(1 / form))} {place.name}"]
+    else:
+        rest = [f"decays {place.function(argument)} {place.function(place.positive(1 / argument))} {place.name}"
+                for argument in place.decaying.values()]  # fmt: skip
+        rest.append("tends")
+    return f"{steps[0]}; [ {first} | {'; '.join([*lines, *rest])} ]"
+
+
+def _text(expression: sp.Expr, place: _Place) -> str:
+    text = term(expression, place.atoms.names)
+    return text if text.startswith("(") or text.isidentifier() else f"({text})"

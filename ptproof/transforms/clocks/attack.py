@@ -1,0 +1,94 @@
+"""Attacking a clock: its two maps and rates at instants of its interval, by an evaluator of the attacker's own."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+import sympy as sp
+from sympy.core.relational import Relational
+
+from ptproof.proof.attack import insist
+from ptproof.proof.claim import Goal
+from ptproof.proof.statement import Relation, every, ge, gt, lt
+
+
+class ChangeOfTime(Protocol):
+    """What is attacked of a clock."""
+
+    @property
+    def t(self) -> sp.Symbol: ...
+
+    @property
+    def tau(self) -> sp.Symbol: ...
+
+    @property
+    def to_tau(self) -> sp.Expr: ...
+
+    @property
+    def to_t(self) -> sp.Expr: ...
+
+    @property
+    def rate(self) -> sp.Expr: ...
+
+    @property
+    def rate_back(self) -> sp.Expr: ...
+
+    @property
+    def start(self) -> sp.Expr: ...
+
+    @property
+    def horizon(self) -> sp.Expr: ...
+
+    @property
+    def name(self) -> str: ...
+
+    @property
+    def conditions(self) -> tuple[Relational, ...]: ...
+
+
+def goals(clock: ChangeOfTime) -> tuple[Goal, ...]:
+    """What a clock promises, as goals: on its interval in t, and on the whole of its half-line in τ.
+
+    Derivatives and compositions stay unevaluated, so that the clock's own are held against others.
+    """
+    t, tau = clock.t, clock.tau
+    given = [Relation(item.lhs, item.rel_op, item.rhs) for item in clock.conditions]
+    in_t = [*given, ge(t, clock.start)]
+    if clock.horizon is not sp.oo:
+        in_t.append(lt(t, clock.start + clock.horizon))
+    forth, back = clock.to_tau, clock.to_t
+    slope = sp.Derivative(forth, t, evaluate=False)
+    there = every(
+        Relation(sp.Subs(back, tau, forth), "=", t),
+        Relation(slope, "=", clock.rate),
+        gt(clock.rate, 0),
+        ge(forth, clock.start),
+    )
+    again = every(
+        Relation(sp.Subs(forth, t, back), "=", tau),
+        Relation(sp.Derivative(back, tau, evaluate=False), "=", clock.rate_back),
+        gt(clock.rate_back, 0),
+        ge(back, clock.start),
+    )
+    at_start = every(
+        Relation(sp.Subs(forth, t, clock.start), "=", clock.start),
+        Relation(sp.Subs(back, tau, clock.start), "=", clock.start),
+    )
+    return (
+        Goal(f"{clock.name} in t", there, tuple(in_t)),
+        Goal(f"{clock.name} in τ", again, (*given, ge(tau, clock.start))),
+        Goal(f"{clock.name} at its start", at_start, tuple(given)),
+    )
+
+
+def unshaken(clock: ChangeOfTime, *, points: int = 12) -> int:
+    """At how many points the clock was attacked in vain.
+
+    Raises
+    ------
+    WrongPromise
+        With exact values at which the maps are no inverse of each other, a rate is not theirs, or one decreases.
+    """
+    return sum(
+        insist(f"the clock {clock.name} is a change of time", goal, points=points).points for goal in goals(clock)
+    )
