@@ -80,9 +80,12 @@ def _improper(evaluator: Valuer, integrand: sp.Expr, variable: Any, low: Any, hi
 
 
 def _gauss(evaluator: Valuer, at: Callable[[Number], Number]) -> Number:
-    """∫₀¹ on one panel, or on four where one is not enough."""
-    whole = _panels(evaluator, at, 1)
-    return whole if whole.error < _SETTLED + max(0.0, size(whole.middle)) else _panels(evaluator, at, 4)
+    """∫₀¹ on one panel, or on two or four where one is not enough."""
+    for panels in (1, 2, 4):
+        found = _panels(evaluator, at, panels)
+        if found.error < _SETTLED + max(0.0, size(found.middle)):
+            break
+    return found
 
 
 def _panels(evaluator: Valuer, at: Callable[[Number], Number], panels: int) -> Ball:
