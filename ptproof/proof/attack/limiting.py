@@ -14,8 +14,8 @@ from ptproof.proof.attack.numbers import Ball, Number, Undefined, Unsure, contex
 from ptproof.proof.attack.scope import Scope, Valuer
 from ptproof.proof.attack.series import ONE, Series, base
 
-_FEW, _MANY = 12, 18
-_SETTLED = -25.0  # the base-2 logarithm of an error that is small enough
+_FEW, _MANY = 14, 20
+_SETTLED = -40.0  # the base-2 logarithm of an error that is small enough
 _STEPS = (8, 12, 16, 20, 24)
 
 
