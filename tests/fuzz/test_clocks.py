@@ -44,7 +44,7 @@ def test_a_clock_that_is_accepted_is_one(forth: Any, back: Any, c: Any, d: Any, 
 
 
 @given(shapes, shapes, factors, factors, horizons, st.booleans(), st.booleans())
-@fuzz(3)
+@fuzz(2)
 def test_a_clock_that_is_made_is_one(
     first: Any, second: Any, c: Any, d: Any, horizon: Any, rate: bool, ends: bool
 ) -> None:
