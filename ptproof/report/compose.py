@@ -76,7 +76,7 @@ def compose(
         versions=tuple(versions),
         figures=tuple(figures),
         appendix=tuple(appendix),
-        notes=tuple(notes),
+        notes=(*_hits(verification), *notes),
     )
 
 
@@ -136,6 +136,12 @@ class _Composer:
         return DefinitionView(
             self.refs[item.id], item.labels, statement_lines(item.statement, self.glyphs), words, item.prose
         )
+
+
+def _hits(verification: Verification) -> tuple[str, ...]:
+    """What the attacker hit although it was shown: the reader has to know it before anything else."""
+    found = ((result.claim.id, result.hit) for result in verification.results)
+    return tuple(f"{id}: {_without_places(hit.detail)}" for id, hit in found if hit is not None)
 
 
 def _same(claim: Claim) -> bool:

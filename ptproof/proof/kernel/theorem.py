@@ -11,7 +11,7 @@ from sympy.core.function import AppliedUndef
 
 from ptproof.proof.claim import Claim
 from ptproof.proof.kernel import declared
-from ptproof.proof.kernel.names import Names, identifiers, plain
+from ptproof.proof.kernel.names import Names, called, identifiers, plain
 from ptproof.proof.kernel.obligations import Part, obligations
 from ptproof.proof.kernel.terms import SIGNS, NoTranslation, term
 from ptproof.proof.statement import (
@@ -115,13 +115,12 @@ def _bound(statements: Iterable[Statement | Assumption]) -> set[sp.Symbol]:
     }
 
 
-def _sorted(items: Iterable[sp.Basic]) -> list[sp.Basic]:
-    def key(item: sp.Basic) -> tuple[str, str]:
+def _sorted(items: Iterable[Any]) -> list[Any]:
+    """By name, and then by what tells items of one name apart."""
+
+    def key(item: Any) -> tuple[str, str, int]:
         own = item._assumptions_orig if isinstance(item, sp.Symbol) else item._kwargs
-        return (
-            getattr(item, "name", None) or item.__name__,
-            str(sorted(own.items())) + str(getattr(item, "dummy_index", "")),
-        )
+        return called(item), str(sorted(own.items())), getattr(item, "dummy_index", 0)
 
     return sorted(items, key=key)
 

@@ -185,7 +185,8 @@ Ltac same_values :=
       end
   end.
 
-Ltac rational := first [ reflexivity | ring | field; sides ].
+Ltac as_reals := lazymatch goal with |- ?x = ?y => change (@eq R x y) end.
+Ltac rational := as_reals; first [ reflexivity | ring | field; sides ].
 
 (* sin and cos become s and c with s^2 + c^2 = 1. *)
 Ltac expand_angles := repeat first [ rewrite cos_minus | rewrite sin_minus | rewrite cos_plus | rewrite sin_plus
@@ -195,7 +196,10 @@ Ltac circle x :=
   pose proof (sin2_cos2 x) as P; unfold Rsqr in P; revert P;
   generalize (sin x) as S; generalize (cos x) as C; intros C S P.
 Ltac circles := repeat match goal with |- context [sin ?x] => circle x | |- context [cos ?x] => circle x end.
-Ltac opaque := repeat match goal with |- context [Derive ?f ?x] => generalize (Derive f x); intro end; repeat match goal with
+Ltac opaque := unfold Rdiv;
+  repeat match goal with |- context [Derive ?f ?x] => generalize (Derive f x); intro end;
+  repeat match goal with |- context [/ ?x] => generalize (/ x); intro end;
+  repeat match goal with
   | |- context [sqrt ?x] => generalize (sqrt x); intro
   | |- context [?f ?x] => is_var f; lazymatch type of (f x) with R => generalize (f x); intro end
   | |- context [?f ?x ?y] => is_var f; lazymatch type of (f x y) with R => generalize (f x y); intro end
@@ -204,18 +208,17 @@ Ltac opaque := repeat match goal with |- context [Derive ?f ?x] => generalize (D
   end.
 Ltac ideal := cbv [Rpow_def.pow] in *; solve [nsatz].
 Ltac angles_of_PI := rewrite ?cos_2PI, ?sin_2PI, ?cos_PI, ?sin_PI, ?cos_PI2, ?sin_PI2, ?cos_0, ?sin_0.
-Ltac trigonometric := expand_angles; angles_of_PI; opaque; circles; opaque; first [ rational | ideal ].
+Ltac trigonometric := expand_angles; angles_of_PI; first [ rational | opaque; circles; first [ rational | ideal ] ].
 
 (* Derivatives of what is written out; those of unknown functions stay as they are. *)
+Ltac head t := lazymatch t with ?g _ => head g | _ => t end.
 Ltac unknown f := idtac;
-  lazymatch f with
-  | fun y => ?g y => is_var g
-  | fun y => ?g y _ => is_var g
-  | fun y => ?g _ y => is_var g
-  | fun y => ?g y _ _ => is_var g
-  | fun y => ?g _ y _ => is_var g
-  | fun y => ?g _ _ y => is_var g
-  | ?g => is_var g
+  match f with
+  | fun y => ?g y => let h := head g in is_var h
+  | fun y => ?g y ?b => let h := head g in is_var h
+  | fun y => ?g y ?b ?c => let h := head g in is_var h
+  | fun y => ?g y ?b ?c ?d => let h := head g in is_var h
+  | _ => let h := head f in is_var h
   end.
 Ltac derivative_sides := repeat match goal with
   | |- _ /\ _ => split
@@ -306,6 +309,14 @@ Ltac inequality :=
   | solve [about_sqrt; about_powers; reciprocals; first [lra | timeout 8 nra]]
   | solve [cases; first [lra | timeout 4 nra | reciprocals; timeout 4 nra]] ].
 
+(* One power of a base by another one. *)
+Ltac logarithms :=
+  repeat first
+  [ rewrite ln_mult in * by sign | rewrite ln_div in * by sign | rewrite ln_Rinv in * by sign
+  | rewrite ln_Rpower in * | rewrite ln_pow in * by sign | rewrite ln_sqrt in * by sign
+  | rewrite ln_exp in * | rewrite ln_1 in * ];
+  rewrite ?INR_IZR_INZ in *; simpl Z.of_nat in *.
+Ltac by_powers := apply ln_eq; [ sign | sign | logarithms; field; sides ].
 Ltac use_equations := repeat match goal with H : ?a = _ |- context [?a] => rewrite H; clear H end.
 Ltac equality :=
   first
@@ -316,6 +327,7 @@ Ltac equality :=
   | solve [same_arguments; rational]
   | solve [same_arguments; trigonometric]
   | solve [derivatives; same_arguments; same_values; rational]
+  | solve [by_powers]
   | solve [subst; same_arguments; same_values; rational]
   | lra
   | solve [about_sqrt; timeout 10 ideal]
@@ -326,6 +338,7 @@ Ltac leaf :=
   cbv beta;
   lazymatch goal with
   | |- True => exact I
+  | |- ex_RInt _ _ _ => match goal with H : forall a b, ex_RInt _ a b |- _ => apply H end
   | |- ex_derive _ _ => first [ solve [derivative_sides] | differentiable ]
   | |- locally _ _ => near
   | |- _ \/ (_ = 0 /\ _) => first [ left; solve [sign] | apply rpow_defined; sign ]
@@ -336,7 +349,8 @@ Ltac leaf :=
   | |- _ => first [ inequality | solve [derivatives; inequality] ]
   end.
 
-Ltac leaf_or_say := first [ leaf | lazymatch goal with |- ?g => fail 1 "at" g end ].
+Ltac integrals := repeat match goal with E : forall a b, RInt ?f a b = _ |- context [RInt ?f _ _] => rewrite E end.
+Ltac leaf_or_say := integrals; first [ leaf | lazymatch goal with |- ?g => fail 1 "at" g end ].
 
 (* A variable replaced: by what it is equal to, or by a bound and what is above the bound. *)
 Ltac replace_by v e :=
@@ -427,14 +441,6 @@ Ltac atom a e :=
   end;
   set (a := e) in *; clearbody a.
 
-(* One power of a base by another one. *)
-Ltac logarithms :=
-  repeat first
-  [ rewrite ln_mult in * by sign | rewrite ln_div in * by sign | rewrite ln_Rinv in * by sign
-  | rewrite ln_Rpower in * | rewrite ln_pow in * by sign | rewrite ln_sqrt in * by sign
-  | rewrite ln_exp in * | rewrite ln_1 in * ];
-  rewrite ?INR_IZR_INZ in *; simpl Z.of_nat in *.
-Ltac by_powers := apply ln_eq; [ sign | sign | logarithms; field; sides ].
 Ltac power_as old new := let E := fresh in assert (E : old = new) by by_powers; rewrite ?E in *; clear E.
 Ltac by_logarithms :=
   lazymatch goal with
@@ -598,3 +604,22 @@ Ltac right_limit :=
   | eapply right_mult; [ right_limit | right_limit | reflexivity ]
   | eapply right_opp; [ right_limit | reflexivity ] ].
 Ltac tends := unfold Rminus, Rdiv in *; eapply right_value; [ right_limit | first [ rational | rewrite ?Rmult_0_r, ?Rmult_0_l; rational ] ].
+
+(* Integrals by an antiderivative F of f, which is differentiated here. *)
+Ltac integral f F :=
+  let D := fresh in let C := fresh in
+  assert (D : forall x : R, is_derive F x (f x))
+    by (intro; auto_derive; [ solve [derivative_sides] | cbv beta; first [ rational | same_values; rational | trigonometric ] ]);
+  assert (C : forall x : R, continuous f x) by (intro; apply (ex_derive_continuous f); differentiable);
+  let E := fresh in let X := fresh in
+  assert (E : forall a b, RInt f a b = F b - F a)
+    by (intros; apply is_RInt_unique; apply (is_RInt_derive F f); intros; [ apply D | apply C ]);
+  assert (X : forall a b, ex_RInt f a b)
+    by (intros a b; exists (F b - F a); apply (is_RInt_derive F f); intros; [ apply D | apply C ]);
+  cbv beta in E; clear D C.
+Ltac integrand f g :=
+  let E := fresh in
+  assert (E : f = g)
+    by (apply FunctionalExtensionality.functional_extensionality; intro; cbv beta; integrals;
+        first [ reflexivity | rational | same_values; rational | trigonometric ]);
+  rewrite E; clear E.
