@@ -47,8 +47,11 @@ class Edit:
         """
         change = {self.old: self.new} | ({self.new: self.old} if self.exchange else {})
         changed = expression.xreplace(change)
-        if not all(limit.args[1].is_Symbol for limit in changed.atoms(sp.Limit)):
-            raise ValueError("the variable of a limit became an expression")  # which SymPy lets pass
+        bound = {node.args[1] for node in changed.atoms(sp.Limit)}.union(
+            *(node.variables for node in changed.atoms(sp.Subs, sp.Derivative))
+        )
+        if not all(variable.is_Symbol for variable in bound):
+            raise ValueError("a bound variable became an expression")  # which SymPy lets pass
         return changed
 
 

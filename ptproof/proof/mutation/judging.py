@@ -32,12 +32,15 @@ class Patience:
         An attack, a proof, or the comparison with the original.
     question
         z3, for one question of a proof.
+    refuted
+        z3, for one question of the proof of what is known to be false.
     attack
         The attacker.
     """
 
     step: float = 8.0
     question: float = 0.8
+    refuted: float = 0.3
     attack: float = 0.3
 
 
@@ -56,12 +59,13 @@ def _judged(mutant: Mutant, patience: Patience, steps: _Steps) -> Outcome:
         why = steps.take("comparison", lambda: implied(mutant), "")
     if not why:
         false = steps.take("attack", lambda: falsity(mutant, patience.attack), None)
-    evidence = steps.take("proof", lambda: run_one(mutant.claim), _NO_ANSWER)
+    with in_haste(patience.refuted if false else patience.question):
+        evidence = steps.take("proof", lambda: run_one(mutant.claim), _NO_ANSWER)
     if false is None:
         false = _by_the_proof(evidence)
     if false is None:
         how = steps.take("comparison", lambda: equivalent(mutant), "")
-        if not how and not restates:
+        if evidence.verdict is Verdict.PROVED and not how and not restates:
             why = steps.take("comparison", lambda: implied(mutant), "")
     if false is not None:
         return _false(mutant, false, evidence, steps.troubles)

@@ -78,6 +78,8 @@ def test_names_that_are_not(name, other):
     assert not similar(name, other)
 
 
-def test_the_variable_of_a_limit_stays_a_symbol():
-    with pytest.raises(ValueError, match="limit"):
-        Edit("exponent", x, x**2).apply(sp.Limit(x, x, 0))
+@pytest.mark.parametrize("expression", [sp.Limit(x, x, 0), sp.Subs(sp.cos(x), x, y), sp.Subs(F(x, y), y, x)])
+def test_a_bound_variable_stays_a_symbol(expression):
+    with pytest.raises(ValueError, match="bound variable"):
+        Edit("exponent", x, x**2).apply(expression)
+        Edit("exponent", y, y**2).apply(expression)
