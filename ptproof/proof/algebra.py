@@ -18,7 +18,7 @@ from typing import Any
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ptproof.proof.powers import exponent_terms, split_powers, symbolic_power
+from ptproof.proof.powers import exponent_terms, fraction, split_masked, symbolic_power
 
 _COMPARISONS = (sp.LessThan, sp.StrictLessThan, sp.GreaterThan, sp.StrictGreaterThan)
 
@@ -86,21 +86,6 @@ def _angle(function: type, argument: sp.Expr) -> sp.Expr:
     return sp.expand_trig(function(sp.Add(*terms)))
 
 
-_standards: dict[Any, sp.Dummy] = {}
-_split_powers = lru_cache(maxsize=4096)(split_powers)
-
-
-def _standard(meaning: sp.Expr, symbol: sp.Symbol) -> sp.Dummy:
-    """One symbol of the same kind for this meaning, known nowhere outside of this module."""
-    kind = tuple(sorted(symbol._assumptions_orig.items()))
-    return _standards.setdefault((meaning, kind), sp.Dummy("s", **dict(kind)))
-
-
-@lru_cache(maxsize=4096)
-def _fraction(exponent: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
-    return sp.fraction(sp.together(exponent))
-
-
 @dataclass
 class Generators:
     """The generators met so far, the symbols that stand for them, and their relations.
@@ -130,7 +115,7 @@ class Generators:
 
     def read(self, expressions: Iterable[sp.Expr]) -> list[sp.Expr]:
         """Prepare the expressions and note each base with all exponents that it carries."""
-        prepared = [self._split(self._mask(prepare(expression))) for expression in expressions]
+        prepared = [split_masked(self._mask(prepare(expression)), self.meaning) for expression in expressions]
         for expression in prepared:
             for node in sp.preorder_traversal(expression):
                 pair = symbolic_power(node)
@@ -143,14 +128,6 @@ class Generators:
             self._choose_roots(base, [*exponents, *itself])
         return prepared
 
-    def _split(self, expression: sp.Expr) -> sp.Expr:
-        """The expression with split powers; done once for all objects, whose symbols differ only by their names."""
-        stands = {
-            symbol: _standard(self.meaning[symbol], symbol) for symbol in expression.free_symbols & {*self.meaning}
-        }
-        split = _split_powers(expression.xreplace(stands))
-        return split.xreplace({standard: symbol for symbol, standard in stands.items()})
-
     def _mask(self, expression: sp.Expr) -> sp.Expr:
         """Put symbols for values and derivatives of undefined functions, before anything can rewrite their insides."""
         nodes = sorted(expression.atoms(AppliedUndef, sp.Derivative, sp.Subs), key=sp.default_sort_key)
@@ -158,7 +135,7 @@ class Generators:
 
     def _choose_roots(self, base: sp.Expr, exponents: Sequence[sp.Expr]) -> None:
         """Find exponents e_j such that every exponent of this base is an integer combination of them."""
-        fractions = [_fraction(exponent) for exponent in exponents]
+        fractions = [fraction(exponent) for exponent in exponents]
         common = sp.Integer(1)
         for _, denominator in fractions:
             common = sp.lcm(common, denominator)
