@@ -49,6 +49,16 @@ class Atoms:
                 return self._power(base, exponent)
         return self._atom(expression)
 
+    def written(self, expression: sp.Basic) -> sp.Symbol:
+        """A symbol for the expression that is written out again for Coq."""
+        if expression.is_Symbol:
+            return expression
+        key = sp.Tuple(expression)
+        if key not in self.made:
+            self.made[key] = sp.Symbol(self.fresh(f"w{len(self.made)}"), real=True)
+            self.names[self.made[key]] = term(expression, self.names)
+        return self.made[key]
+
     def fresh(self, name: str) -> str:
         """An identifier that nothing else has."""
         taken = set(self.names.values())

@@ -25,7 +25,13 @@ def script(said: Proposition) -> str:
     known = list(dict.fromkeys(part.relation for part in said.premises if part.relation is not None and part.limit is None
                                and part.relation.sign != "!=" and not _trivial(part.relation)))  # fmt: skip
     leaves = [_near(part, said) if part.limit is not None else _leaf(part, known, said) for part in said.conclusions]
-    steps = ["intros", "facts", *integrals([part.relation for part in said.conclusions if part.relation], said.names)]
+    # Coq would rename a variable that is called like a constant of its own.
+    steps = [
+        *([f"intros {' '.join(said.binders)}"] if said.binders else []),
+        "intros",
+        "facts",
+        *integrals([part.relation for part in said.conclusions if part.relation], said.names),
+    ]
     return f"{'; '.join(steps)}; pieces; [> {' | '.join(leaves)} ]"
 
 
@@ -130,12 +136,12 @@ def _by_logarithms(relation: Relation, known: list[Relation], said: Proposition)
         if _monomial(item.left) and _monomial(item.right):
             sides = " ".join(_brackets(term(side, said.names)) for side in (item.left, item.right))
             steps.append(f"try (logarithms_of {sides})")
-            facts.append(item.map(_logarithm).map(atoms))
+            facts.append(item.map(lambda side: _logarithm(side, atoms)))
         elif item.left.is_number or item.right.is_number:
             facts.append(item.map(atoms))
     facts += [Relation(sp.Integer(1), "<=", symbol) for symbol in said.names if getattr(symbol, "is_Symbol", False)
               and symbol.is_integer and symbol.is_positive]  # fmt: skip
-    goal = goal.map(_logarithm).map(atoms)
+    goal = goal.map(lambda side: _logarithm(side, atoms))
     gap = sp.factor(sp.together(goal.right - goal.left))
     if hint := _by_products(gap, facts, atoms):
         yield f"solve [ {'; '.join([*steps, 'logarithms', *atoms.lines, hint])} ]"
@@ -144,19 +150,25 @@ def _by_logarithms(relation: Relation, known: list[Relation], said: Proposition)
 def _monomial(expression: sp.Basic) -> bool:
     if expression.is_Mul:
         return all(map(_monomial, expression.args))
+    if isinstance(expression, sp.exp):
+        return True
     if expression.is_Pow:
         return _monomial(expression.base)
     return bool(expression.is_positive and (expression.is_Symbol or expression.is_Rational))
 
 
-def _logarithm(expression: sp.Basic) -> sp.Expr:
+def _logarithm(expression: sp.Basic, atoms: Atoms) -> sp.Expr:
+    """The logarithm of a product of powers as a sum; what an exponential is of is an atom, up to a rational factor."""
     if expression.is_Mul:
-        return sp.Add(*map(_logarithm, expression.args))
+        return sp.Add(*(_logarithm(factor, atoms) for factor in expression.args))
+    if isinstance(expression, sp.exp):
+        constant, rest = sp.factor(expression.args[0]).as_coeff_Mul()
+        return constant * atoms.written(rest)
     if expression.is_Pow:
-        return expression.exp * _logarithm(expression.base)
+        return atoms(expression.exp) * _logarithm(expression.base, atoms)
     if expression.is_Rational and expression.q != 1:
-        return _logarithm(sp.Integer(expression.p)) - _logarithm(sp.Integer(expression.q))
-    return sp.log(expression)
+        return _logarithm(sp.Integer(expression.p), atoms) - _logarithm(sp.Integer(expression.q), atoms)
+    return atoms(sp.log(expression))
 
 
 def slack(facts: list[Relation], atoms: Atoms) -> tuple[dict[sp.Symbol, sp.Expr], list[str]]:

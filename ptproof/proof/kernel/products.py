@@ -11,7 +11,7 @@ import sympy as sp
 
 from ptproof.proof.statement import Relation
 
-_MOST = 1500
+_MOST = 4000
 _SECONDS = 2.0
 Polynomial = dict[tuple[int, ...], float]
 

@@ -111,6 +111,8 @@ with sign_pos :=
     | |- 0 < Rpower _ _ => apply exp_pos
     | |- 0 < rpow _ _ => rewrite rpow_Rpower by sign_pos; apply exp_pos
     | |- 0 < PI => exact PI_RGT_0
+    | |- 0 < Rmax ?a ?b => first [ apply Rlt_le_trans with (2 := Rmax_l a b); sign_pos | apply Rlt_le_trans with (2 := Rmax_r a b); sign_pos ]
+    | |- 0 < Rmin _ _ => apply Rmin_pos; sign_pos
     | |- 0 < _ + _ => first [ apply Rplus_lt_0_compat; sign_pos | apply Rplus_le_lt_0_compat; [sign_nonneg | sign_pos]
                             | apply Rplus_lt_le_0_compat; [sign_pos | sign_nonneg] ]
     end
@@ -172,9 +174,12 @@ Ltac same_arguments :=
 
 (* The same for the functions of the library, whose values at 0 are known. *)
 Ltac same_values :=
+  rewrite ?sin_0, ?cos_0, ?exp_0;
   repeat match goal with
   | |- context [exp ?a] => let E := fresh in assert (E : a = 0) by (field; sides); rewrite E, exp_0; clear E
   | |- context [sin ?a] => let E := fresh in assert (E : a = 0) by (field; sides); rewrite E, sin_0; clear E
+  | |- context [sin ?a] => let E := fresh in assert (E : a = PI / 2) by (field; sides); rewrite E, sin_PI2; clear E
+  | |- context [sin ?a] => let E := fresh in assert (E : a = 3 * (PI / 2)) by (field; sides); rewrite E, sin_3PI2; clear E
   | |- context [cos ?a] => let E := fresh in assert (E : a = 0) by (field; sides); rewrite E, cos_0; clear E
   | |- context [?f ?a] =>
       first [ constr_eq f exp | constr_eq f sin | constr_eq f cos | constr_eq f ln | constr_eq f sqrt ];
@@ -310,11 +315,22 @@ Ltac inequality :=
   | solve [cases; first [lra | timeout 4 nra | reciprocals; timeout 4 nra]] ].
 
 (* One power of a base by another one. *)
+Ltac logarithm a :=
+  lazymatch a with
+  | ?x * ?y => rewrite (ln_mult x y) in * by sign
+  | ?x / ?y => rewrite (ln_div x y) in * by sign
+  | / ?x => rewrite (ln_Rinv x) in * by sign
+  | Rpower ?x ?y => rewrite (ln_Rpower x y) in *
+  | ?x ^ ?n => rewrite (ln_pow x n) in * by sign
+  | sqrt ?x => rewrite (ln_sqrt x) in * by sign
+  | exp ?x => rewrite (ln_exp x) in *
+  | 1 => rewrite ln_1 in *
+  end.
 Ltac logarithms :=
-  repeat first
-  [ rewrite ln_mult in * by sign | rewrite ln_div in * by sign | rewrite ln_Rinv in * by sign
-  | rewrite ln_Rpower in * | rewrite ln_pow in * by sign | rewrite ln_sqrt in * by sign
-  | rewrite ln_exp in * | rewrite ln_1 in * ];
+  repeat match goal with
+  | |- context [ln ?a] => logarithm a
+  | H : context [ln ?a] |- _ => logarithm a
+  end;
   rewrite ?INR_IZR_INZ in *; simpl Z.of_nat in *.
 Ltac by_powers := apply ln_eq; [ sign | sign | logarithms; field; sides ].
 Ltac use_equations := repeat match goal with H : ?a = _ |- context [?a] => rewrite H; clear H end.
@@ -353,15 +369,27 @@ Ltac integrals := repeat match goal with E : forall a b, RInt ?f a b = _ |- cont
 Ltac leaf_or_say := integrals; first [ leaf | lazymatch goal with |- ?g => fail 1 "at" g end ].
 
 (* A variable replaced: by what it is equal to, or by a bound and what is above the bound. *)
+Ltac from_bound :=
+  first
+  [ lra
+  | match goal with
+    | H : ?a < ?b |- 0 < ?d => replace d with (b - a) by rational; lra
+    | H : ?a > ?b |- 0 < ?d => replace d with (a - b) by rational; lra
+    | H : ?a <= ?b |- 0 <= ?d => replace d with (b - a) by rational; lra
+    | H : ?a >= ?b |- 0 <= ?d => replace d with (a - b) by rational; lra
+    | H : ?a = ?b |- ?d = 0 => replace d with (b - a) by rational; lra
+    | H : ?a = ?b |- ?d = 0 => replace d with (a - b) by rational; lra
+    end ].
 Ltac replace_by v e :=
-  let E := fresh in assert (E : v = e) by (first [ lra | field_simplify_eq; [ lra | sides ] ]); subst v.
+  let P := fresh in let E := fresh in
+  assert (P : v - e = 0) by from_bound; assert (E : v = e) by lra; clear P; subst v.
 Ltac at_least v e s :=
   let P := fresh in let E := fresh in
-  pose (s := v - e); assert (P : 0 <= s) by (unfold s; lra); assert (E : v = e + s) by (unfold s; ring);
+  pose (s := v - e); assert (P : 0 <= s) by (unfold s; from_bound); assert (E : v = e + s) by (unfold s; ring);
   clearbody s; subst v.
 Ltac above v e s :=
   let P := fresh in let E := fresh in
-  pose (s := v - e); assert (P : 0 < s) by (unfold s; lra); assert (E : v = e + s) by (unfold s; ring);
+  pose (s := v - e); assert (P : 0 < s) by (unfold s; from_bound); assert (E : v = e + s) by (unfold s; ring);
   clearbody s; subst v.
 
 (* The difference of the two sides is e, whose sign is seen by its structure. *)
