@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import TypeVar
 
-from ptproof.proof.deciding import run_one
+from ptproof.proof.answering import TIME, run_here
 from ptproof.proof.mutation.attacking import Falsity, falsity
 from ptproof.proof.mutation.equivalence import equivalent, implied
 from ptproof.proof.mutation.haste import in_haste
@@ -60,7 +60,9 @@ def _judged(mutant: Mutant, patience: Patience, steps: _Steps) -> Outcome:
     if not why:
         false = steps.take("attack", lambda: falsity(mutant, patience.attack), None)
     with in_haste(patience.refuted if false else patience.question):
-        evidence = steps.take("proof", lambda: run_one(mutant.claim), _NO_ANSWER)
+        evidence = run_here(mutant.claim, patience.step)
+        if evidence.engine == TIME:
+            _wait_for_the_rest()
     if false is None:
         false = _by_the_proof(evidence)
     if false is None:
@@ -100,9 +102,6 @@ def _false(mutant: Mutant, false: Falsity, evidence: Evidence, troubles: list[st
 def unanswered(mutant: Mutant, reason: str) -> Outcome:
     """The outcome of a mutant whose process came to no end, or to a bad one."""
     return Outcome(mutant.kind, mutant.change, "", Word.UNDECIDED, reason)
-
-
-_NO_ANSWER = Evidence("time limit", Verdict.UNDECIDED, "the proof had no answer in time")
 
 
 def _outcome(mutant: Mutant, word: Word, why: str, false: Falsity | None = None) -> Outcome:
