@@ -15,7 +15,7 @@ from ptproof.commands.shown import Shown
 if TYPE_CHECKING:
     from ptproof.proof.load import Derivation
     from ptproof.proof.memory import Memory
-    from ptproof.proof.run import Verification
+    from ptproof.proof.result import Verification
 
 
 @click.command()

@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
+from functools import lru_cache
 from typing import Any
 
 import sympy as sp
@@ -37,6 +38,7 @@ class NotAlgebraic(Exception):
     """The expression contains something that exact algebra has no rule for."""
 
 
+@lru_cache(maxsize=4096, typed=True)
 def prepare(expression: sp.Expr) -> sp.Expr:
     """Carry out derivatives, write tan and hyperbolic functions by sin, cos, exp, and split sums of angles."""
     expression = sp.sympify(expression)
@@ -84,6 +86,21 @@ def _angle(function: type, argument: sp.Expr) -> sp.Expr:
     return sp.expand_trig(function(sp.Add(*terms)))
 
 
+_standards: dict[Any, sp.Dummy] = {}
+_split_powers = lru_cache(maxsize=4096)(split_powers)
+
+
+def _standard(meaning: sp.Expr, symbol: sp.Symbol) -> sp.Dummy:
+    """One symbol of the same kind for this meaning, known nowhere outside of this module."""
+    kind = tuple(sorted(symbol._assumptions_orig.items()))
+    return _standards.setdefault((meaning, kind), sp.Dummy("s", **dict(kind)))
+
+
+@lru_cache(maxsize=4096)
+def _fraction(exponent: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
+    return sp.fraction(sp.together(exponent))
+
+
 @dataclass
 class Generators:
     """The generators met so far, the symbols that stand for them, and their relations.
@@ -113,7 +130,7 @@ class Generators:
 
     def read(self, expressions: Iterable[sp.Expr]) -> list[sp.Expr]:
         """Prepare the expressions and note each base with all exponents that it carries."""
-        prepared = [split_powers(self._mask(prepare(expression))) for expression in expressions]
+        prepared = [self._split(self._mask(prepare(expression))) for expression in expressions]
         for expression in prepared:
             for node in sp.preorder_traversal(expression):
                 pair = symbolic_power(node)
@@ -126,6 +143,14 @@ class Generators:
             self._choose_roots(base, [*exponents, *itself])
         return prepared
 
+    def _split(self, expression: sp.Expr) -> sp.Expr:
+        """The expression with split powers; done once for all objects, whose symbols differ only by their names."""
+        stands = {
+            symbol: _standard(self.meaning[symbol], symbol) for symbol in expression.free_symbols & {*self.meaning}
+        }
+        split = _split_powers(expression.xreplace(stands))
+        return split.xreplace({standard: symbol for symbol, standard in stands.items()})
+
     def _mask(self, expression: sp.Expr) -> sp.Expr:
         """Put symbols for values and derivatives of undefined functions, before anything can rewrite their insides."""
         nodes = sorted(expression.atoms(AppliedUndef, sp.Derivative, sp.Subs), key=sp.default_sort_key)
@@ -133,7 +158,7 @@ class Generators:
 
     def _choose_roots(self, base: sp.Expr, exponents: Sequence[sp.Expr]) -> None:
         """Find exponents e_j such that every exponent of this base is an integer combination of them."""
-        fractions = [sp.fraction(sp.together(exponent)) for exponent in exponents]
+        fractions = [_fraction(exponent) for exponent in exponents]
         common = sp.Integer(1)
         for _, denominator in fractions:
             common = sp.lcm(common, denominator)

@@ -10,7 +10,7 @@ from typing import Any
 
 import sympy as sp
 
-from ptproof.proof.attack.numbers import Ball, Number, Undefined, Unsure, context, size
+from ptproof.proof.attack.numbers import Ball, NotReal, Number, Undefined, Unsure, context, size
 from ptproof.proof.attack.scope import Scope, Valuer
 from ptproof.proof.attack.series import ONE, Series, base
 
@@ -135,7 +135,11 @@ def _approached(evaluator: Valuer, expression: sp.Expr, variable: Any, point: An
         else:
             target = base(evaluator.number(point, scope))
             place = numbers.add([target, Fraction(side, 10**step)])
-        values.append(evaluator.number(expression, scope.with_values({variable: place})))
+        try:
+            values.append(evaluator.number(expression, scope.with_values({variable: place})))
+        except (NotReal, Undefined) as error:
+            # A limit asks nothing of a place that is not near enough, and no place is known to be.
+            raise Unsure("no real value on the way to a limit") from error
     sizes = [size(numbers.ball(numbers.sub(b, a)).middle) for a, b in pairwise(values)]
     last = numbers.ball(values[-1])
     if all(later > earlier + 1 for earlier, later in pairwise(sizes)) and sizes[-1] > 20:

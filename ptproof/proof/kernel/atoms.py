@@ -49,6 +49,16 @@ class Atoms:
                 return self._power(base, exponent)
         return self._atom(expression)
 
+    def written(self, expression: sp.Basic) -> sp.Symbol:
+        """A symbol for the expression that is written out again for Coq."""
+        if expression.is_Symbol:
+            return expression
+        key = sp.Tuple(expression)
+        if key not in self.made:
+            self.made[key] = sp.Symbol(self.fresh(f"w{len(self.made)}"), real=True)
+            self.names[self.made[key]] = term(expression, self.names)
+        return self.made[key]
+
     def fresh(self, name: str) -> str:
         """An identifier that nothing else has."""
         taken = set(self.names.values())
@@ -63,7 +73,7 @@ class Atoms:
                 times, rest = found
                 old, new = (term(base**e, self.names) for e in (exponent, chosen))
                 text = term(base, self.names)
-                factors = [f"({new} ^ {times})" if times > 1 else new]
+                factors = [f"({new} ^ {times})" if times > 1 else new if times == 1 else f"(/ {new})"]
                 if rest:
                     factors.append(f"({text} ^ {rest})" if rest > 0 else f"(/ ({text} ^ {-rest}))")
                 line = f"try (power_as {old} ({' * '.join(factors)}))"
@@ -104,7 +114,7 @@ class Atoms:
 
 def _whole(exponent: sp.Basic, chosen: sp.Basic) -> tuple[int, int] | None:
     """Whole numbers with exponent = times chosen + rest."""
-    for times in (1, 2, 3):
+    for times in (1, 2, 3, -1):
         rest = sp.simplify(exponent - times * chosen)
         if rest.is_Integer and abs(rest) <= 4:
             return times, int(rest)
@@ -115,5 +125,5 @@ def _cost(chosen: sp.Basic, exponents: set[sp.Basic]) -> int:
     cost = 0
     for exponent in exponents:
         found = _whole(exponent, chosen)
-        cost += 10 if found is None else found[0] + (abs(found[1]) if found[1] >= 0 else 5)
+        cost += 10 if found is None else (found[0] if found[0] > 0 else 5) + (found[1] if found[1] >= 0 else 5)
     return cost

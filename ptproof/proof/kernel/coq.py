@@ -1,4 +1,4 @@
-"""Coq as a process: the library that ships here compiled once a run, files of theorems checked, what was printed read."""
+"""Coq as a process: the library that ships here is compiled, files of theorems are checked, what was printed is read."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ AXIOMS: Mapping[str, str] = {
     "Eqdep.Eq_rect_eq.eq_rect_eq": "Flocq below Interval",
     "ClassicalEpsilon.constructive_indefinite_description": "Coquelicot's integrals",
 }
-# The kernel's own machine integers and floats, with which Interval computes: computed by the kernel, not assumed of reals.
+# The kernel's own machine integers and floats, with which Interval computes: nothing is assumed of the reals.
 _MACHINE = re.compile(r"(PrimInt63|Uint63|Uint63Axioms|PrimFloat|FloatAxioms|FloatOps|Sint63)\.\w+|(int|float)")
 _PACKAGES = "coq, libcoq-coquelicot and libcoq-interval (on Debian and Ubuntu: apt install them)"
 

@@ -37,8 +37,8 @@ def of_symbol(symbol: sp.Symbol, name: str) -> tuple[str, ...]:
 def of_functions(applied: Iterable[AppliedUndef], free: set[sp.Symbol], names: Names) -> tuple[str, ...]:
     """Of which sign the functions' values are: everywhere, where a function is applied to a plain real symbol.
 
-    A function whose arguments are declared of some kind has its sign on arguments of that kind; applied to anything else
-    it has it there.
+    A function whose arguments are declared of some kind has its sign on arguments of that kind; applied to anything
+    else it has it there.
     """
     found: list[str] = []
     seen: set[Any] = set()

@@ -93,12 +93,18 @@ def near(part: Part, group: list[Part], names: Names) -> str:
     if part.limit is None or part.relation is None:
         raise NoTranslation("no hint for this part of a limit")
     place = _Place(part.limit, names)
-    followed: list[sp.Expr] = [place.there(other.relation.left) for other in group if other.relation is not None and other.limit == part.limit]
+    followed: list[sp.Expr] = [
+        place.there(other.relation.left) for other in group if other.relation is not None and other.limit == part.limit
+    ]
     lines = place.factors([*followed, *place.decaying.values()])
     if part.domain:
         form = place.positive(place.there(part.relation.left))
-        tactic = f"nonzero_as {_text(form, place)}" if part.relation.sign == "!=" else f"positive_as {_text(form, place)}"
-        return "; ".join(["near_right_of_0", *lines, f"right_at {place.name}", f"first [ sign | {tactic} ]"])
+        tactic = (
+            f"nonzero_as {_text(form, place)}" if part.relation.sign == "!=" else f"positive_as {_text(form, place)}"
+        )
+        return "; ".join(
+            [*place.atoms.lines, "near_right_of_0", *lines, f"right_at {place.name}", f"first [ sign | {tactic} ]"]
+        )
     return _followed(part.relation, place, lines)
 
 
@@ -112,7 +118,7 @@ def _followed(relation: Relation, place: _Place, lines: list[str]) -> str:
         rest = [f"decays {place.function(argument)} {place.function(place.positive(1 / argument))} {place.name}"
                 for argument in place.decaying.values()]  # fmt: skip
         rest.append("tends")
-    return f"{steps[0]}; [ {first} | {'; '.join([*lines, *rest])} ]"
+    return "; ".join([*place.atoms.lines, f"{steps[0]}; [ {first} | {'; '.join([*lines, *rest])} ]"])
 
 
 def _text(expression: sp.Expr, place: _Place) -> str:

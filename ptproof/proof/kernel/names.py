@@ -7,105 +7,16 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 # What a translated statement may say besides its own names: a symbol of such a name would hide it.
-WORDS = frozenset(
-    [
-        "Prop",
-        "Set",
-        "Type",
-        "R",
-        "Rbar",
-        "nat",
-        "Z",
-        "IZR",
-        "INR",
-        "PI",
-        "exp",
-        "ln",
-        "sin",
-        "cos",
-        "tan",
-        "sinh",
-        "cosh",
-        "tanh",
-        "atan",
-        "sqrt",
-        "Rabs",
-        "Rmax",
-        "Rmin",
-        "Rpower",
-        "rpow",
-        "pow",
-        "is_integer",
-        "Rle_dec",
-        "Rlt_dec",
-        "Rge_dec",
-        "Rgt_dec",
-        "Req_EM_T",
-        "Derive",
-        "ex_derive",
-        "is_derive",
-        "RInt",
-        "ex_RInt",
-        "is_RInt_gen",
-        "at_point",
-        "at_left",
-        "at_right",
-        "locally",
-        "filterlim",
-        "Rbar_locally",
-        "p_infty",
-        "m_infty",
-        "Finite",
-        "True",
-        "False",
-        "fun",
-        "forall",
-        "exists",
-    ]
-)
+WORDS = frozenset(re.findall(r"\S+", """
+    Prop Set Type R Rbar nat Z IZR INR PI exp ln sin cos tan sinh cosh tanh atan sqrt Rabs Rmax Rmin Rpower rpow pow
+    is_integer Rle_dec Rlt_dec Rge_dec Rgt_dec Req_EM_T Derive ex_derive is_derive RInt ex_RInt is_RInt_gen at_point
+    at_left at_right locally filterlim Rbar_locally p_infty m_infty Finite True False fun forall exists if then else
+"""))  # fmt: skip
 # The words of Coq's own grammar.
-_GRAMMAR = frozenset(
-    [
-        "_",
-        "as",
-        "at",
-        "cofix",
-        "else",
-        "end",
-        "exists",
-        "exists2",
-        "fix",
-        "for",
-        "forall",
-        "fun",
-        "if",
-        "in",
-        "let",
-        "match",
-        "mod",
-        "return",
-        "SProp",
-        "struct",
-        "then",
-        "using",
-        "where",
-        "with",
-        "by",
-        "IF",
-        "Axiom",
-        "Definition",
-        "Theorem",
-        "Lemma",
-        "Parameter",
-        "Variable",
-        "Hypothesis",
-        "Qed",
-        "Proof",
-        "Fixpoint",
-        "Ltac",
-        "Notation",
-    ]
-)
+_GRAMMAR = frozenset(re.findall(r"\S+", """
+    _ as at cofix else end exists exists2 fix for forall fun if in let match mod return SProp struct then using where
+    with by IF Axiom Definition Theorem Lemma Parameter Variable Hypothesis Qed Proof Fixpoint Ltac Notation
+"""))  # fmt: skip
 
 
 def identifiers(items: Iterable[Any], taken: Iterable[str] = ()) -> dict[Any, str]:
@@ -116,7 +27,7 @@ def identifiers(items: Iterable[Any], taken: Iterable[str] = ()) -> dict[Any, st
     used = {*WORDS, *_GRAMMAR, *taken}
     names: dict[Any, str] = {}
     for item in items:
-        base = plain(getattr(item, "name", None) or item.__name__)
+        base = plain(called(item))
         name, count = base, 1
         while name in used:
             count += 1
@@ -124,6 +35,11 @@ def identifiers(items: Iterable[Any], taken: Iterable[str] = ()) -> dict[Any, st
         used.add(name)
         names[item] = name
     return names
+
+
+def called(item: Any) -> str:
+    """The name of a symbol or of an undefined function."""
+    return str(item.name if hasattr(item, "name") else item.__name__)
 
 
 def plain(text: str) -> str:

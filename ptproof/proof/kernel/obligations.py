@@ -1,4 +1,4 @@
-"""Where an expression is defined, as propositions for Coq; generated apart from the engines' own, as a second opinion."""
+"""Where an expression is defined, as propositions for Coq; apart from the engines' own, as a second opinion."""
 
 from __future__ import annotations
 

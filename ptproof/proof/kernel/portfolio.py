@@ -1,7 +1,7 @@
 """The tactics that are tried on a proposition, with hints that SymPy finds: Coq checks each of them or fails.
 
-A hint is a rearrangement (a difference as a product, a variable as a bound and what is above it) or a product of what is
-not negative. None of them is believed.
+A hint is a rearrangement (a difference as a product, a variable as a bound and what is above it) or a product of what
+is not negative. None of them is believed.
 """
 
 from __future__ import annotations
@@ -11,10 +11,12 @@ from collections.abc import Iterator
 import sympy as sp
 
 from ptproof.proof.kernel.atoms import Atoms
+from ptproof.proof.kernel.integrals import integrals
 from ptproof.proof.kernel.limits import near
+from ptproof.proof.kernel.obligations import Part
 from ptproof.proof.kernel.products import products
 from ptproof.proof.kernel.terms import NoTranslation, term
-from ptproof.proof.kernel.theorem import Part, Proposition
+from ptproof.proof.kernel.theorem import Proposition
 from ptproof.proof.statement import Relation
 
 
@@ -23,12 +25,19 @@ def script(said: Proposition) -> str:
     known = list(dict.fromkeys(part.relation for part in said.premises if part.relation is not None and part.limit is None
                                and part.relation.sign != "!=" and not _trivial(part.relation)))  # fmt: skip
     leaves = [_near(part, said) if part.limit is not None else _leaf(part, known, said) for part in said.conclusions]
-    return f"intros; facts; pieces; [> {' | '.join(leaves)} ]"
+    # Coq would rename a variable that is called like a constant of its own.
+    steps = [
+        *([f"intros {' '.join(said.binders)}"] if said.binders else []),
+        "intros",
+        "facts",
+        *integrals([part.relation for part in said.conclusions if part.relation], said.names),
+    ]
+    return f"{'; '.join(steps)}; pieces; [> {' | '.join(leaves)} ]"
 
 
 def _near(part: Part, said: Proposition) -> str:
     try:
-        return f"first [ {near(part, list(said.conclusions), said.names)} | leaf_or_say ]"
+        return f"try (solve [ {near(part, list(said.conclusions), said.names)} ]); leaf_or_say"
     except (NoTranslation, sp.PolynomialError):
         return "leaf_or_say"
 
@@ -39,8 +48,10 @@ def _trivial(relation: Relation) -> bool:
 
 
 def _leaf(part: Part, known: list[Relation], said: Proposition) -> str:
-    if part.relation is None or part.relation.sign == "=" or _trivial(part.relation):
+    if part.relation is None or _trivial(part.relation):
         return "leaf_or_say"
+    if part.relation.sign == "=":
+        return _equal(part.relation, said)
     tries: list[str] = []
     for way in (_directly, _by_logarithms):
         try:
@@ -49,6 +60,18 @@ def _leaf(part: Part, known: list[Relation], said: Proposition) -> str:
             continue
     quick = "quickly"
     return "; ".join([quick, *(f"try ({hint})" for hint in tries), "leaf_or_say"])
+
+
+def _equal(relation: Relation, said: Proposition) -> str:
+    """Powers of one base by each other, before anything else is tried."""
+    atoms = Atoms.over(said.names)
+    atoms.choose((relation.left, relation.right))
+    try:
+        relation.map(atoms)
+    except NoTranslation:
+        return "leaf_or_say"
+    powers = [line for line in atoms.lines if "power_as" in line]
+    return f"try (solve [ {'; '.join([*powers, 'rational'])} ]); leaf_or_say" if powers else "leaf_or_say"
 
 
 def _directly(relation: Relation, known: list[Relation], said: Proposition) -> Iterator[str]:
@@ -70,13 +93,22 @@ def _directly(relation: Relation, known: list[Relation], said: Proposition) -> I
     if relation.sign == "!=":
         yield f"solve [ {start}nonzero_as {_text(-gap, atoms)} ]"
         return
-    yield f"solve [ {start}difference_as {_text(gap, atoms)} ]"
+    yield f"solve [ {start}difference_as {_text(_upright(gap), atoms)} ]"
     if gap.is_positive or (gap.is_nonnegative and relation.sign in ("<=", ">=")):
         return
     # Here the variables stay as they are: their bounds are facts like any other.
     gap = sp.factor(sp.together(goal.right - goal.left))
     if hint := _by_products(gap, facts, atoms):
         yield f"solve [ {'; '.join([*atoms.lines, hint])} ]"
+
+
+def _upright(product: sp.Expr) -> sp.Expr:
+    """The same product without a minus before it, where one of its factors can take that."""
+    constant, factors = product.as_coeff_mul()
+    turned = next((factor for factor in factors if factor.is_Add and factor.is_nonnegative is None), None)
+    if constant >= 0 or turned is None:
+        return product
+    return sp.Mul(-constant, *(sp.expand(-factor) if factor is turned else factor for factor in factors))
 
 
 def _by_products(gap: sp.Expr, facts: list[Relation], atoms: Atoms) -> str:
@@ -102,15 +134,14 @@ def _by_logarithms(relation: Relation, known: list[Relation], said: Proposition)
     facts = []
     for item in (given.standard() for given in known):
         if _monomial(item.left) and _monomial(item.right):
-            steps.append(
-                f"try (logarithms_of {_brackets(term(item.left, said.names))} {_brackets(term(item.right, said.names))})"
-            )
-            facts.append(item.map(_logarithm).map(atoms))
+            sides = " ".join(_brackets(term(side, said.names)) for side in (item.left, item.right))
+            steps.append(f"try (logarithms_of {sides})")
+            facts.append(item.map(lambda side: _logarithm(side, atoms)))
         elif item.left.is_number or item.right.is_number:
             facts.append(item.map(atoms))
     facts += [Relation(sp.Integer(1), "<=", symbol) for symbol in said.names if getattr(symbol, "is_Symbol", False)
               and symbol.is_integer and symbol.is_positive]  # fmt: skip
-    goal = goal.map(_logarithm).map(atoms)
+    goal = goal.map(lambda side: _logarithm(side, atoms))
     gap = sp.factor(sp.together(goal.right - goal.left))
     if hint := _by_products(gap, facts, atoms):
         yield f"solve [ {'; '.join([*steps, 'logarithms', *atoms.lines, hint])} ]"
@@ -119,23 +150,29 @@ def _by_logarithms(relation: Relation, known: list[Relation], said: Proposition)
 def _monomial(expression: sp.Basic) -> bool:
     if expression.is_Mul:
         return all(map(_monomial, expression.args))
+    if isinstance(expression, sp.exp):
+        return True
     if expression.is_Pow:
         return _monomial(expression.base)
     return bool(expression.is_positive and (expression.is_Symbol or expression.is_Rational))
 
 
-def _logarithm(expression: sp.Basic) -> sp.Expr:
+def _logarithm(expression: sp.Basic, atoms: Atoms) -> sp.Expr:
+    """The logarithm of a product of powers as a sum; what an exponential is of is an atom, up to a rational factor."""
     if expression.is_Mul:
-        return sp.Add(*map(_logarithm, expression.args))
+        return sp.Add(*(_logarithm(factor, atoms) for factor in expression.args))
+    if isinstance(expression, sp.exp):
+        constant, rest = sp.factor(expression.args[0]).as_coeff_Mul()
+        return constant * atoms.written(rest)
     if expression.is_Pow:
-        return expression.exp * _logarithm(expression.base)
+        return atoms(expression.exp) * _logarithm(expression.base, atoms)
     if expression.is_Rational and expression.q != 1:
-        return _logarithm(sp.Integer(expression.p)) - _logarithm(sp.Integer(expression.q))
-    return sp.log(expression)
+        return _logarithm(sp.Integer(expression.p), atoms) - _logarithm(sp.Integer(expression.q), atoms)
+    return atoms(sp.log(expression))
 
 
 def slack(facts: list[Relation], atoms: Atoms) -> tuple[dict[sp.Symbol, sp.Expr], list[str]]:
-    """Variables replaced by what they are equal to, or by a lower bound and what is above it, with the lines for Coq."""
+    """Variables replaced by what they are equal to, or by a lower bound and what is above it; and the lines for Coq."""
     moved: dict[sp.Symbol, sp.Expr] = {}
     lines: list[str] = []
     for relation in facts:

@@ -11,7 +11,7 @@ import sympy as sp
 
 from ptproof.proof.statement import Relation
 
-_MOST = 1500
+_MOST = 4000
 _SECONDS = 2.0
 Polynomial = dict[tuple[int, ...], float]
 
@@ -27,7 +27,7 @@ class Fact:
 
 @dataclass(frozen=True)
 class Sum:
-    """``factor`` times the polynomial is a sum of ``products`` with weights that are not negative; ``facts`` occur there."""
+    """``factor`` times the polynomial is a sum of ``products`` with weights that are not negative; they use ``facts``."""
 
     factor: sp.Expr
     facts: tuple[Fact, ...]

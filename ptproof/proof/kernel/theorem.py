@@ -11,7 +11,7 @@ from sympy.core.function import AppliedUndef
 
 from ptproof.proof.claim import Claim
 from ptproof.proof.kernel import declared
-from ptproof.proof.kernel.names import Names, identifiers, plain
+from ptproof.proof.kernel.names import Names, called, identifiers, plain
 from ptproof.proof.kernel.obligations import Part, obligations
 from ptproof.proof.kernel.terms import SIGNS, NoTranslation, term
 from ptproof.proof.statement import (
@@ -41,6 +41,8 @@ class Proposition:
         The proposition.
     names
         Which symbol or function became which identifier.
+    binders
+        The identifiers of its functions and free symbols, in their order.
     premises, conclusions
         Its parts.
     """
@@ -49,6 +51,7 @@ class Proposition:
     name: str
     text: str
     names: Names
+    binders: tuple[str, ...]
     premises: tuple[Part, ...]
     conclusions: tuple[Part, ...]
 
@@ -78,13 +81,15 @@ def proposition(claim: Claim) -> Proposition:
         premises += domain
     else:
         conclusions = [*domain, *conclusions]
-    return Proposition(claim.id, f"claim_{plain(claim.id)}",
-                       _text(names, _sorted(functions), applied, _sorted(free), premises, conclusions), names,
-                       tuple(premises), tuple(conclusions))  # fmt: skip
+    order = (_sorted(functions), _sorted(free))
+    return Proposition(
+        claim.id, f"claim_{plain(claim.id)}", _text(names, *order, applied, premises, conclusions), names,
+        tuple(names[item] for items in order for item in items), tuple(premises), tuple(conclusions),
+    )  # fmt: skip
 
 
 def _text(
-    names: Names, functions: Sequence[Any], applied: set[AppliedUndef], free: Sequence[sp.Symbol],
+    names: Names, functions: Sequence[Any], free: Sequence[sp.Symbol], applied: set[AppliedUndef],
     premises: Sequence[Part], conclusions: Sequence[Part],
 ) -> str:  # fmt: skip
     lines = [f"forall {names[function]} : {_type(function, applied)},\n  " for function in functions]
@@ -115,13 +120,12 @@ def _bound(statements: Iterable[Statement | Assumption]) -> set[sp.Symbol]:
     }
 
 
-def _sorted(items: Iterable[sp.Basic]) -> list[sp.Basic]:
-    def key(item: sp.Basic) -> tuple[str, str]:
+def _sorted(items: Iterable[Any]) -> list[Any]:
+    """By name, and then by what tells items of one name apart."""
+
+    def key(item: Any) -> tuple[str, str, int]:
         own = item._assumptions_orig if isinstance(item, sp.Symbol) else item._kwargs
-        return (
-            getattr(item, "name", None) or item.__name__,
-            str(sorted(own.items())) + str(getattr(item, "dummy_index", "")),
-        )
+        return called(item), str(sorted(own.items())), getattr(item, "dummy_index", 0)
 
     return sorted(items, key=key)
 

@@ -111,6 +111,8 @@ with sign_pos :=
     | |- 0 < Rpower _ _ => apply exp_pos
     | |- 0 < rpow _ _ => rewrite rpow_Rpower by sign_pos; apply exp_pos
     | |- 0 < PI => exact PI_RGT_0
+    | |- 0 < Rmax ?a ?b => first [ apply Rlt_le_trans with (2 := Rmax_l a b); sign_pos | apply Rlt_le_trans with (2 := Rmax_r a b); sign_pos ]
+    | |- 0 < Rmin _ _ => apply Rmin_pos; sign_pos
     | |- 0 < _ + _ => first [ apply Rplus_lt_0_compat; sign_pos | apply Rplus_le_lt_0_compat; [sign_nonneg | sign_pos]
                             | apply Rplus_lt_le_0_compat; [sign_pos | sign_nonneg] ]
     end
@@ -172,9 +174,12 @@ Ltac same_arguments :=
 
 (* The same for the functions of the library, whose values at 0 are known. *)
 Ltac same_values :=
+  rewrite ?sin_0, ?cos_0, ?exp_0;
   repeat match goal with
   | |- context [exp ?a] => let E := fresh in assert (E : a = 0) by (field; sides); rewrite E, exp_0; clear E
   | |- context [sin ?a] => let E := fresh in assert (E : a = 0) by (field; sides); rewrite E, sin_0; clear E
+  | |- context [sin ?a] => let E := fresh in assert (E : a = PI / 2) by (field; sides); rewrite E, sin_PI2; clear E
+  | |- context [sin ?a] => let E := fresh in assert (E : a = 3 * (PI / 2)) by (field; sides); rewrite E, sin_3PI2; clear E
   | |- context [cos ?a] => let E := fresh in assert (E : a = 0) by (field; sides); rewrite E, cos_0; clear E
   | |- context [?f ?a] =>
       first [ constr_eq f exp | constr_eq f sin | constr_eq f cos | constr_eq f ln | constr_eq f sqrt ];
@@ -185,7 +190,8 @@ Ltac same_values :=
       end
   end.
 
-Ltac rational := first [ reflexivity | ring | field; sides ].
+Ltac as_reals := lazymatch goal with |- ?x = ?y => change (@eq R x y) end.
+Ltac rational := as_reals; first [ reflexivity | ring | field; sides ].
 
 (* sin and cos become s and c with s^2 + c^2 = 1. *)
 Ltac expand_angles := repeat first [ rewrite cos_minus | rewrite sin_minus | rewrite cos_plus | rewrite sin_plus
@@ -195,7 +201,10 @@ Ltac circle x :=
   pose proof (sin2_cos2 x) as P; unfold Rsqr in P; revert P;
   generalize (sin x) as S; generalize (cos x) as C; intros C S P.
 Ltac circles := repeat match goal with |- context [sin ?x] => circle x | |- context [cos ?x] => circle x end.
-Ltac opaque := repeat match goal with |- context [Derive ?f ?x] => generalize (Derive f x); intro end; repeat match goal with
+Ltac opaque := unfold Rdiv;
+  repeat match goal with |- context [Derive ?f ?x] => generalize (Derive f x); intro end;
+  repeat match goal with |- context [/ ?x] => generalize (/ x); intro end;
+  repeat match goal with
   | |- context [sqrt ?x] => generalize (sqrt x); intro
   | |- context [?f ?x] => is_var f; lazymatch type of (f x) with R => generalize (f x); intro end
   | |- context [?f ?x ?y] => is_var f; lazymatch type of (f x y) with R => generalize (f x y); intro end
@@ -204,18 +213,17 @@ Ltac opaque := repeat match goal with |- context [Derive ?f ?x] => generalize (D
   end.
 Ltac ideal := cbv [Rpow_def.pow] in *; solve [nsatz].
 Ltac angles_of_PI := rewrite ?cos_2PI, ?sin_2PI, ?cos_PI, ?sin_PI, ?cos_PI2, ?sin_PI2, ?cos_0, ?sin_0.
-Ltac trigonometric := expand_angles; angles_of_PI; opaque; circles; opaque; first [ rational | ideal ].
+Ltac trigonometric := expand_angles; angles_of_PI; first [ rational | opaque; circles; first [ rational | ideal ] ].
 
 (* Derivatives of what is written out; those of unknown functions stay as they are. *)
+Ltac head t := lazymatch t with ?g _ => head g | _ => t end.
 Ltac unknown f := idtac;
-  lazymatch f with
-  | fun y => ?g y => is_var g
-  | fun y => ?g y _ => is_var g
-  | fun y => ?g _ y => is_var g
-  | fun y => ?g y _ _ => is_var g
-  | fun y => ?g _ y _ => is_var g
-  | fun y => ?g _ _ y => is_var g
-  | ?g => is_var g
+  match f with
+  | fun y => ?g y => let h := head g in is_var h
+  | fun y => ?g y ?b => let h := head g in is_var h
+  | fun y => ?g y ?b ?c => let h := head g in is_var h
+  | fun y => ?g y ?b ?c ?d => let h := head g in is_var h
+  | _ => let h := head f in is_var h
   end.
 Ltac derivative_sides := repeat match goal with
   | |- _ /\ _ => split
@@ -306,6 +314,25 @@ Ltac inequality :=
   | solve [about_sqrt; about_powers; reciprocals; first [lra | timeout 8 nra]]
   | solve [cases; first [lra | timeout 4 nra | reciprocals; timeout 4 nra]] ].
 
+(* One power of a base by another one. *)
+Ltac logarithm a :=
+  lazymatch a with
+  | ?x * ?y => rewrite (ln_mult x y) in * by sign
+  | ?x / ?y => rewrite (ln_div x y) in * by sign
+  | / ?x => rewrite (ln_Rinv x) in * by sign
+  | Rpower ?x ?y => rewrite (ln_Rpower x y) in *
+  | ?x ^ ?n => rewrite (ln_pow x n) in * by sign
+  | sqrt ?x => rewrite (ln_sqrt x) in * by sign
+  | exp ?x => rewrite (ln_exp x) in *
+  | 1 => rewrite ln_1 in *
+  end.
+Ltac logarithms :=
+  repeat match goal with
+  | |- context [ln ?a] => logarithm a
+  | H : context [ln ?a] |- _ => logarithm a
+  end;
+  rewrite ?INR_IZR_INZ in *; simpl Z.of_nat in *.
+Ltac by_powers := apply ln_eq; [ sign | sign | logarithms; field; sides ].
 Ltac use_equations := repeat match goal with H : ?a = _ |- context [?a] => rewrite H; clear H end.
 Ltac equality :=
   first
@@ -316,6 +343,7 @@ Ltac equality :=
   | solve [same_arguments; rational]
   | solve [same_arguments; trigonometric]
   | solve [derivatives; same_arguments; same_values; rational]
+  | solve [by_powers]
   | solve [subst; same_arguments; same_values; rational]
   | lra
   | solve [about_sqrt; timeout 10 ideal]
@@ -326,6 +354,7 @@ Ltac leaf :=
   cbv beta;
   lazymatch goal with
   | |- True => exact I
+  | |- ex_RInt _ _ _ => match goal with H : forall a b, ex_RInt _ a b |- _ => apply H end
   | |- ex_derive _ _ => first [ solve [derivative_sides] | differentiable ]
   | |- locally _ _ => near
   | |- _ \/ (_ = 0 /\ _) => first [ left; solve [sign] | apply rpow_defined; sign ]
@@ -336,18 +365,31 @@ Ltac leaf :=
   | |- _ => first [ inequality | solve [derivatives; inequality] ]
   end.
 
-Ltac leaf_or_say := first [ leaf | lazymatch goal with |- ?g => fail 1 "at" g end ].
+Ltac integrals := repeat match goal with E : forall a b, RInt ?f a b = _ |- context [RInt ?f _ _] => rewrite E end.
+Ltac leaf_or_say := integrals; first [ leaf | lazymatch goal with |- ?g => fail 1 "at" g end ].
 
 (* A variable replaced: by what it is equal to, or by a bound and what is above the bound. *)
+Ltac from_bound :=
+  first
+  [ lra
+  | match goal with
+    | H : ?a < ?b |- 0 < ?d => replace d with (b - a) by rational; lra
+    | H : ?a > ?b |- 0 < ?d => replace d with (a - b) by rational; lra
+    | H : ?a <= ?b |- 0 <= ?d => replace d with (b - a) by rational; lra
+    | H : ?a >= ?b |- 0 <= ?d => replace d with (a - b) by rational; lra
+    | H : ?a = ?b |- ?d = 0 => replace d with (b - a) by rational; lra
+    | H : ?a = ?b |- ?d = 0 => replace d with (a - b) by rational; lra
+    end ].
 Ltac replace_by v e :=
-  let E := fresh in assert (E : v = e) by (first [ lra | field_simplify_eq; [ lra | sides ] ]); subst v.
+  let P := fresh in let E := fresh in
+  assert (P : v - e = 0) by from_bound; assert (E : v = e) by lra; clear P; subst v.
 Ltac at_least v e s :=
   let P := fresh in let E := fresh in
-  pose (s := v - e); assert (P : 0 <= s) by (unfold s; lra); assert (E : v = e + s) by (unfold s; ring);
+  pose (s := v - e); assert (P : 0 <= s) by (unfold s; from_bound); assert (E : v = e + s) by (unfold s; ring);
   clearbody s; subst v.
 Ltac above v e s :=
   let P := fresh in let E := fresh in
-  pose (s := v - e); assert (P : 0 < s) by (unfold s; lra); assert (E : v = e + s) by (unfold s; ring);
+  pose (s := v - e); assert (P : 0 < s) by (unfold s; from_bound); assert (E : v = e + s) by (unfold s; ring);
   clearbody s; subst v.
 
 (* The difference of the two sides is e, whose sign is seen by its structure. *)
@@ -427,14 +469,6 @@ Ltac atom a e :=
   end;
   set (a := e) in *; clearbody a.
 
-(* One power of a base by another one. *)
-Ltac logarithms :=
-  repeat first
-  [ rewrite ln_mult in * by sign | rewrite ln_div in * by sign | rewrite ln_Rinv in * by sign
-  | rewrite ln_Rpower in * | rewrite ln_pow in * by sign | rewrite ln_sqrt in * by sign
-  | rewrite ln_exp in * | rewrite ln_1 in * ];
-  rewrite ?INR_IZR_INZ in *; simpl Z.of_nat in *.
-Ltac by_powers := apply ln_eq; [ sign | sign | logarithms; field; sides ].
 Ltac power_as old new := let E := fresh in assert (E : old = new) by by_powers; rewrite ?E in *; clear E.
 Ltac by_logarithms :=
   lazymatch goal with
@@ -598,3 +632,22 @@ Ltac right_limit :=
   | eapply right_mult; [ right_limit | right_limit | reflexivity ]
   | eapply right_opp; [ right_limit | reflexivity ] ].
 Ltac tends := unfold Rminus, Rdiv in *; eapply right_value; [ right_limit | first [ rational | rewrite ?Rmult_0_r, ?Rmult_0_l; rational ] ].
+
+(* Integrals by an antiderivative F of f, which is differentiated here. *)
+Ltac integral f F :=
+  let D := fresh in let C := fresh in
+  assert (D : forall x : R, is_derive F x (f x))
+    by (intro; auto_derive; [ solve [derivative_sides] | cbv beta; first [ rational | same_values; rational | trigonometric ] ]);
+  assert (C : forall x : R, continuous f x) by (intro; apply (ex_derive_continuous f); differentiable);
+  let E := fresh in let X := fresh in
+  assert (E : forall a b, RInt f a b = F b - F a)
+    by (intros; apply is_RInt_unique; apply (is_RInt_derive F f); intros; [ apply D | apply C ]);
+  assert (X : forall a b, ex_RInt f a b)
+    by (intros a b; exists (F b - F a); apply (is_RInt_derive F f); intros; [ apply D | apply C ]);
+  cbv beta in E; clear D C.
+Ltac integrand f g :=
+  let E := fresh in
+  assert (E : f = g)
+    by (apply FunctionalExtensionality.functional_extensionality; intro; cbv beta; integrals;
+        first [ reflexivity | rational | same_values; rational | trigonometric ]);
+  rewrite E; clear E.

@@ -43,7 +43,7 @@ class ChangeOfTime(Protocol):
 
 
 def goals(clock: ChangeOfTime) -> tuple[Goal, ...]:
-    """What a clock promises, as goals: on its interval in t, and on the whole of its half-line in τ.
+    """What a clock promises, as goals: on its interval in t, and at the times in τ that these lead to.
 
     What is ``given`` of the letters of a capped clock is assumed. Derivatives and compositions stay unevaluated, so
     that the clock's own are held against others.
@@ -73,7 +73,7 @@ def goals(clock: ChangeOfTime) -> tuple[Goal, ...]:
     )
     return (
         Goal(f"{clock.name} in t", there, tuple(in_t)),
-        Goal(f"{clock.name} in τ", again, (*given, ge(tau, clock.start))),
+        Goal(f"{clock.name} in τ", again, (*in_t, Relation(tau, "=", forth))),
         Goal(f"{clock.name} at its start", at_start, tuple(given)),
     )
 

@@ -1,0 +1,104 @@
+"""Claims before Coq's kernel: what is true is confirmed, and its corrupted twin is not."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+import sympy as sp
+
+from ptproof.commands.cli import main
+from ptproof.proof import claim, eq, exact, ge, le, lt
+from ptproof.proof.claim import Claim
+from ptproof.proof.kernel import Confirmation, check, coq, missing
+
+needs_coq = pytest.mark.skipif(bool(missing()), reason=missing() or "coq is there")
+x, y = sp.symbols("x y", real=True)
+lam = sp.Symbol("lambda", positive=True)
+a, b = sp.symbols("a b", positive=True)
+n = sp.Symbol("n", integer=True, positive=True)
+F = sp.Function("F", real=True)
+
+
+def stated(id: str, statement: Any, **options: Any) -> Claim:
+    return claim(id, id, statement, **options)(exact)
+
+
+TRUE = [
+    stated("identity", eq((x + lam) ** 2 / lam, x**2 / lam + 2 * x + lam)),
+    stated("assumed", ge(x**2, y**2), given=[ge(x, y), ge(y, 0)]),
+    stated("circle", eq(sp.sin(x) ** 2 * F(y) + sp.cos(x) ** 2 * F(y), F(y))),
+    stated("derivative", eq(sp.Derivative(sp.exp(-a * x), x), -a * sp.exp(-a * x))),
+    stated("powers", le(a ** (2 * n), b ** (2 * n)), given=[le(a, b)]),
+    stated("root", le(a, sp.sqrt(a**2 + b**2))),
+    stated("limit", eq(sp.Limit(x / (1 + x / a), x, sp.oo), a)),
+]
+NOT_CONFIRMED = [
+    stated("coefficient", eq((x + lam) ** 2 / lam, x**2 / lam + 3 * x + lam)),
+    stated("assumption-dropped", ge(x**2, y**2), given=[ge(x, y)]),
+    stated("undefined-at-0", eq(x * (1 / x + 1), 1 + x)),
+    stated("quotient-by-zero", eq(1 / (x - y), 0), given=[eq(x, y)]),
+    stated("root-of-a-negative", eq(sp.sqrt(-1 - x**2), 0)),
+    stated("power-of-a-negative", ge((-1 - x**2) ** (sp.pi), 0)),
+    stated("logarithm", le(sp.log(x), x)),
+    stated("derivative-of-nothing", eq(sp.Derivative(sp.sqrt(-1 - x**2), x), 0)),
+    stated("wrong-limit", eq(sp.Limit(x / (1 + x / a), x, sp.oo), 2 * a)),
+    stated("strictness", lt(a ** (2 * n), b ** (2 * n)), given=[le(a, b)]),
+]
+
+
+@pytest.fixture(scope="module")
+def answers(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Confirmation]:
+    return check([*TRUE, *NOT_CONFIRMED], timeout=10.0, keep=tmp_path_factory.mktemp("coq"))
+
+
+@needs_coq
+@pytest.mark.parametrize("id", [item.id for item in TRUE])
+def test_what_is_true_is_confirmed(answers: dict[str, Confirmation], id: str) -> None:
+    assert answers[id].confirmed, answers[id].reason
+
+
+@needs_coq
+@pytest.mark.parametrize("id", [item.id for item in NOT_CONFIRMED])
+def test_what_is_false_or_not_defined_is_not_confirmed(answers: dict[str, Confirmation], id: str) -> None:
+    assert not answers[id].confirmed
+    assert answers[id].reason
+
+
+@needs_coq
+def test_an_axiom_of_our_own_is_noticed(tmp_path: Path) -> None:
+    coq.prepare(tmp_path)
+    theorem = coq.Theorem("claim_false", "False", "exact mine")
+    text = coq.source([theorem], 5).replace("Open Scope R_scope.", "Open Scope R_scope.\nAxiom mine : False.")
+    (tmp_path / "claims.v").write_text(text, encoding="utf-8")
+    assert list(coq.heard(coq.run(tmp_path, "claims.v", 60).output, [theorem])) == ["it rests on mine"]
+
+
+@needs_coq
+def test_verify_adds_the_evidence(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    lines = "import sympy as sp; from ptproof.proof import claim, eq, exact; x = sp.Symbol('fun', real=True)"
+    (tmp_path / "claims.py").write_text(f"{lines}; one = claim('sum', 'A sum', eq(x + x, 2 * x))(exact)")
+    kept = tmp_path / "kept"
+    with pytest.raises(SystemExit) as ended:
+        main(["verify", str(tmp_path), "--kernel", "--keep", str(kept), "--json"])
+    assert ended.value.code == 0
+    (entry,) = json.loads(capsys.readouterr().out)["claims"]
+    assert [item["engine"] for item in entry["evidence"]][-1] == "coq"
+    assert "fun_2" in next(kept.glob("claims_*.v")).read_text("utf-8")
+
+
+def test_without_coq_every_claim_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(coq.shutil, "which", lambda name: None)
+    answer = check([TRUE[0]])["identity"]
+    assert not answer.confirmed
+    assert answer.reason.startswith("coq is not installed")
+
+
+def test_without_coq_the_command_refuses(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    monkeypatch.setattr(coq.shutil, "which", lambda name: None)
+    with pytest.raises(SystemExit) as ended:
+        main(["verify", "--kernel"])
+    assert ended.value.code == 2
+    assert "libcoq-interval" in capsys.readouterr().err
