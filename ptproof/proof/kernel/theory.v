@@ -157,7 +157,14 @@ with sign_nonzero :=
         field_simplify_eq in E; [ lra | repeat split; sign_pos ]
     end ].
 
-Ltac sides := repeat split; first [ sign | assumption ].
+(* The same after the polynomial is multiplied out, so that what cancels is gone. *)
+Ltac sign_of_polynomial :=
+  match goal with
+  | |- ?e <> 0 => progress ring_simplify e; sign
+  | |- 0 < ?e => progress ring_simplify e; sign
+  | |- 0 <= ?e => progress ring_simplify e; sign
+  end.
+Ltac sides := repeat split; first [ sign | assumption | sign_of_polynomial ].
 
 (* Equal arguments of one unknown function are made the same. *)
 Ltac same_arguments :=
