@@ -1,4 +1,4 @@
-"""Coq as a process: the library that ships here is compiled, files of theorems are checked, what was printed is read."""
+"""Coq as a process: the library that ships here is compiled, theorems are checked, what was printed is read."""
 
 from __future__ import annotations
 

@@ -13,8 +13,8 @@ from ptproof.proof.statement import Relation
 
 def integrals(relations: Iterable[Relation], names: Names) -> list[str]:
     """The lines for every integral between finite ends in the relations."""
-    found = [part for relation in relations for side in (relation.left, relation.right) for part in sp.preorder_traversal(side)
-             if isinstance(part, sp.Integral)]  # fmt: skip
+    sides = (side for relation in relations for side in (relation.left, relation.right))
+    found = [part for side in sides for part in sp.preorder_traversal(side) if isinstance(part, sp.Integral)]
     lines: dict[str, None] = {}
     for integral in reversed(found):
         try:

@@ -22,8 +22,9 @@ from ptproof.proof.statement import Relation
 
 def script(said: Proposition) -> str:
     """The tactics for the whole proposition, as one sentence for Coq."""
-    known = list(dict.fromkeys(part.relation for part in said.premises if part.relation is not None and part.limit is None
-                               and part.relation.sign != "!=" and not _trivial(part.relation)))  # fmt: skip
+    assumed = (part.relation for part in said.premises if part.limit is None)
+    told = (item for item in assumed if item is not None and item.sign != "!=" and not _trivial(item))
+    known = list(dict.fromkeys(told))
     leaves = [_near(part, said) if part.limit is not None else _leaf(part, known, said) for part in said.conclusions]
     # Coq would rename a variable that is called like a constant of its own.
     steps = [

@@ -27,7 +27,7 @@ class Fact:
 
 @dataclass(frozen=True)
 class Sum:
-    """``factor`` times the polynomial is a sum of ``products`` with weights that are not negative; they use ``facts``."""
+    """``factor`` times the polynomial is a sum of ``products`` with weights that are not negative, of these facts."""
 
     factor: sp.Expr
     facts: tuple[Fact, ...]

@@ -157,7 +157,14 @@ with sign_nonzero :=
         field_simplify_eq in E; [ lra | repeat split; sign_pos ]
     end ].
 
-Ltac sides := repeat split; first [ sign | assumption ].
+(* The same after the polynomial is multiplied out, so that what cancels is gone. *)
+Ltac sign_of_polynomial :=
+  match goal with
+  | |- ?e <> 0 => progress ring_simplify e; sign
+  | |- 0 < ?e => progress ring_simplify e; sign
+  | |- 0 <= ?e => progress ring_simplify e; sign
+  end.
+Ltac sides := repeat split; first [ sign | assumption | sign_of_polynomial ].
 
 (* Equal arguments of one unknown function are made the same. *)
 Ltac same_arguments :=
@@ -286,6 +293,67 @@ Ltac about_angles :=
   | |- context [sin ?x] => note (-1 <= sin x <= 1) ltac:(apply SIN_bound); pose proof (sin2_cos2 x)
   | |- context [cos ?x] => note (-1 <= cos x <= 1) ltac:(apply COS_bound); pose proof (sin2_cos2 x)
   end; unfold Rsqr in *.
+(* Polynomials below and above sin and cos. *)
+(* x -> f x grows on [0, oo) if its derivative is not negative there. *)
+Lemma grows_from_0 : forall f g : R -> R, (forall x, is_derive f x (g x)) -> (forall x, 0 <= x -> 0 <= g x) -> forall x, 0 <= x -> f 0 <= f x.
+Proof.
+  intros f g D P x X.
+  destruct (MVT_gen f 0 x g) as [c [C E]].
+  - intros; apply D.
+  - intros; apply continuity_pt_filterlim. apply (ex_derive_continuous f). eexists; apply D.
+  - rewrite Rmin_left, Rmax_right in C by lra. assert (0 <= g c) by (apply P; lra). nra.
+Qed.
+Lemma sin_below : forall x, 0 <= x -> sin x <= x.
+Proof.
+  intros x X. enough (0 - sin 0 <= x - sin x) by (rewrite sin_0 in *; lra).
+  apply (grows_from_0 (fun x => x - sin x) (fun x => 1 - cos x)); [| |exact X].
+  - intro; auto_derive; [easy | ring].
+  - intros y _; pose proof (COS_bound y); lra.
+Qed.
+Lemma cos_above_half : forall x, 0 <= x -> 1 - x ^ 2 / 2 <= cos x.
+Proof.
+  intros x X. enough (cos 0 + 0 ^ 2 / 2 <= cos x + x ^ 2 / 2) by (rewrite cos_0 in *; lra).
+  apply (grows_from_0 (fun x => cos x + x ^ 2 / 2) (fun x => x - sin x)); [| |exact X].
+  - intro; auto_derive; [easy | field].
+  - intros y Y; pose proof (sin_below y Y); lra.
+Qed.
+Lemma sin_above : forall x, 0 <= x -> x - x ^ 3 / 6 <= sin x.
+Proof.
+  intros x X. enough (sin 0 - 0 + 0 ^ 3 / 6 <= sin x - x + x ^ 3 / 6) by (rewrite sin_0 in *; lra).
+  apply (grows_from_0 (fun x => sin x - x + x ^ 3 / 6) (fun x => cos x - 1 + x ^ 2 / 2)); [| |exact X].
+  - intro; auto_derive; [easy | field].
+  - intros y Y; pose proof (cos_above_half y Y); lra.
+Qed.
+Lemma cos_below_half : forall x, 0 <= x -> cos x <= 1 - x ^ 2 / 2 + x ^ 4 / 24.
+Proof.
+  intros x X. enough (1 - 0 ^ 2 / 2 + 0 ^ 4 / 24 - cos 0 <= 1 - x ^ 2 / 2 + x ^ 4 / 24 - cos x) by (rewrite cos_0 in *; lra).
+  apply (grows_from_0 (fun x => 1 - x ^ 2 / 2 + x ^ 4 / 24 - cos x) (fun x => - x + x ^ 3 / 6 + sin x)); [| |exact X].
+  - intro; auto_derive; [easy | field].
+  - intros y Y; pose proof (sin_above y Y); lra.
+Qed.
+Lemma cos_between : forall x, 1 - x ^ 2 / 2 <= cos x <= 1 - x ^ 2 / 2 + x ^ 4 / 24.
+Proof.
+  intro x. destruct (Rle_dec 0 x).
+  - split; [apply cos_above_half | apply cos_below_half]; assumption.
+  - rewrite <- cos_neg. replace (x ^ 2) with ((- x) ^ 2) by ring. replace (x ^ 4) with ((- x) ^ 4) by ring.
+    split; [apply cos_above_half | apply cos_below_half]; lra.
+Qed.
+Lemma sin_square_below : forall x, sin x ^ 2 <= x ^ 2.
+Proof.
+  intro x. assert (H : forall y, 0 <= y -> sin y ^ 2 <= y ^ 2).
+  { intros y Y. pose proof (sin_below y Y). pose proof (sin_above y Y). pose proof (SIN_bound y).
+    destruct (Rle_dec y 1); [|nra]. assert (0 <= sin y) by (assert (y ^ 3 <= y) by nra; lra). nra. }
+  destruct (Rle_dec 0 x) as [P|P]; [apply H; exact P|].
+  replace (sin x ^ 2) with (sin (- x) ^ 2) by (rewrite sin_neg; ring).
+  replace (x ^ 2) with ((- x) ^ 2) by ring. apply H; lra.
+Qed.
+Ltac about_series :=
+  repeat match goal with
+  | |- context [cos ?x] => note (1 - x ^ 2 / 2 <= cos x <= 1 - x ^ 2 / 2 + x ^ 4 / 24) ltac:(apply cos_between)
+  | |- context [sin ?x] =>
+      note (sin x ^ 2 <= x ^ 2) ltac:(apply sin_square_below);
+      try (assert (x - x ^ 3 / 6 <= sin x <= x) by (split; [apply sin_above | apply sin_below]; lra))
+  end.
 Ltac about_powers :=
   repeat match goal with
   | |- context [Rpower ?x ?y] => note (0 < Rpower x y) ltac:(apply exp_pos)
@@ -310,6 +378,7 @@ Ltac inequality :=
   first
   [ assumption | lra | solve [sign] | timeout 4 nra
   | solve [interval]
+  | solve [about_series; first [lra | timeout 6 nra]]
   | solve [about_sqrt; about_angles; about_powers; first [lra | timeout 4 nra]]
   | solve [about_sqrt; about_powers; reciprocals; first [lra | timeout 8 nra]]
   | solve [cases; first [lra | timeout 4 nra | reciprocals; timeout 4 nra]] ].
