@@ -143,7 +143,7 @@ class _Problem:
             names = ", ".join(sorted(map(str, unknown)))
             raise NotAlgebraic(f"not declared real: {names}")
         told = [Implication((), part) for part in assumptions]
-        told += [Implication(need.given, _relation(need)) for need in _domains(assumptions)]
+        told += [Implication(need.given, _relation(need)) for need in _domains(assumptions) if _necessary(need)]
         for fact in facts:
             where = tuple(_relation(need) for need in _domains(fact.hypotheses) if not need.given)
             told.append(Implication((*fact.hypotheses, *where), fact.conclusion, fact.source))
@@ -222,6 +222,16 @@ def _domains(relations: Sequence[Relation]) -> Iterator[Obligation]:
                 yield need
             elif not isinstance(need.node, sp.Limit | sp.Integral | sp.Sum | sp.Product):
                 raise NotAlgebraic(str(need))
+
+
+def _necessary(need: Obligation) -> bool:
+    """Whether being defined shows it: a power of a negative number or of 0 may be, where its exponent is a letter."""
+    if not isinstance(need.node, sp.Pow):
+        return True
+    exponent = need.node.exp
+    if exponent.is_integer is False:
+        return exponent.is_positive is not None
+    return bool(exponent.is_integer and exponent.is_negative)
 
 
 def _relation(need: Obligation) -> Relation:
