@@ -135,8 +135,12 @@ def _of(node: sp.Basic, place: _Place) -> Iterator[Obligation]:
             yield from _derivative(node, place)
         case sp.Subs():
             yield from _parts(node.point, place)
-            there = tuple(map(eq, node.variables, node.point))
-            yield from _of(node.expr, replace(place, given=(*place.given, *there)))
+            # What the bound variable is declared to be says nothing of the point: a plain real takes its place.
+            fresh = {variable: sp.Dummy(variable.name, real=True) for variable in node.variables}
+            there = tuple(
+                eq(fresh[variable], value) for variable, value in zip(node.variables, node.point, strict=True)
+            )
+            yield from _of(node.expr.xreplace(fresh), replace(place, given=(*place.given, *there)))
         case sp.Integral():
             yield from _integral(node, place)
         case sp.Sum() | sp.Product():

@@ -1,0 +1,28 @@
+"""What a bound variable is declared to be says nothing of the point at which it is taken."""
+
+import pytest
+import sympy as sp
+
+from ptproof.proof import Verdict, claim, exact
+from ptproof.proof.deciding import run_one
+from ptproof.proof.definedness import obligations
+from ptproof.proof.statement import eq
+
+s, y = sp.symbols("s y", real=True)
+T = sp.Symbol("T", positive=True)
+
+
+def test_at_a_point_of_another_kind_it_may_be_undefined():
+    found = run_one(claim("subs", "", eq(sp.Subs(1 - T / s, T, s), 0))(exact))
+    assert found.verdict is Verdict.UNDECIDED
+    assert found.detail.startswith("not shown to be defined")
+
+
+@pytest.mark.parametrize("inside", [1 / T, sp.log(T), sp.sqrt(T), T ** sp.Rational(-1, 2)])
+def test_the_obligation_stands(inside):
+    assert any(not need.settled for need in obligations(sp.Subs(inside, T, y)))
+
+
+def test_at_a_point_of_its_kind_it_is_defined():
+    found = run_one(claim("subs", "", eq(sp.Subs(1 / T, T, sp.exp(y)), sp.exp(-y)))(exact))
+    assert found.verdict is Verdict.PROVED, found.detail
