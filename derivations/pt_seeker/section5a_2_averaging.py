@@ -54,7 +54,7 @@ from .section5a_1_reduction import (
     slow,
     stretch,
     stretch_fast,
-)
+)  # fmt: skip
 
 SECTION = "5.1 Theorem, Steps 1 to 3: the averaged system"
 
@@ -253,9 +253,7 @@ _s = sp.Symbol("s", real=True)
 
 @claim(
     "5/assumption-d-period", "Assumption 1D: the dithers have the period 2π",
-    every(*(
-        eq(sp.Subs(function(_s), _s, phase + 2 * sp.pi), function(phase)) for function in (sp.cos, sp.sin)
-    )),
+    every(*(eq(sp.Subs(wave(_s), _s, phase + 2 * sp.pi), wave(phase)) for wave in (sp.cos, sp.sin))),
     place="Assumption 1D",
 )  # fmt: skip
 def assumption_d_period(goal: Goal) -> Evidence:
@@ -284,8 +282,7 @@ def assumption_e(goal: Goal) -> Evidence:
 
 @claim(
     "5/assumption-f", "Assumption 1F: the quasi-steady state is twice continuously differentiable",
-    Smooth((F,), position, 2, ((F, 2),)), place="Assumption 1F", uses=[quasi_steady_state],
-)  # fmt: skip
+    Smooth((F,), position, 2, ((F, 2),)), place="Assumption 1F", uses=[quasi_steady_state])  # fmt: skip
 def assumption_f(goal: Goal) -> Evidence:
     """l = F; that it is the only one is a claim of Step 2."""
     return smooth(goal)

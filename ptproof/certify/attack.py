@@ -116,9 +116,12 @@ class _Attack:
         nearly = Fraction(999999, 1000000)
         yield from (low / nearly, high * nearly)
         if self.outer is None:
-            yield from (Fraction(1, 100), Fraction(1), Fraction(3), Fraction(100))
+            yield from map(Fraction, ("1/100", "1/2", "1", "3/2", "9/4", "4", "100"))
         else:
-            yield from (low + (high - low) * share for share in (Fraction(1, 50), Fraction(1, 3), Fraction(3, 4)))
+            yield from (
+                low + (high - low) * share
+                for share in (Fraction(1, 50), Fraction(1, 5), Fraction(1, 2), Fraction(3, 4))
+            )
         drawn = Fraction(self.random.uniform(0.02, 0.98)).limit_denominator(1000)
         yield low + ((high if self.outer is not None else Fraction(20)) - low) * drawn
 

@@ -71,10 +71,8 @@ def certify_field(
         n ≥ 1 symbols or their names, the n exact coordinates of x*, and κ, a positive integer; numbers or text.
     radius, annulus
         The ball ‖x − x*‖ ≤ radius, or the annulus (r, R), exact; the whole space if both are left out.
-    rtol
-        The wanted relative width of each enclosure, between 1e-9 and 1.
-    seconds
-        The time after which what is not decided is left undecided.
+    rtol, seconds
+        The wanted relative width, between 1e-9 and 1; the time after which what is not decided is left undecided.
     progress
         Called with a sentence now and then.
 
@@ -99,18 +97,22 @@ def certify_field(
         raise InputError(f"the relative width must be between 1e-9 and 1, but is {rtol}")
     check_seconds(seconds)
     with precision(BITS):
-        if (reason := not_differentiable(field, domain)) is not None:
-            return FieldCertificate(
-                field, domain, Verdict.UNDECIDED, detail=f"the field has no gradient: {reason}", rtol=rtol
-            )
-        try:
-            quotients = Quotients(*_drop(field), field.kappa)
-        except Undefined as error:
-            detail = f"the field cannot be enclosed: {error}"
-            return FieldCertificate(field, domain, Verdict.UNDECIDED, detail=detail, rtol=rtol)
-        prosecutor = Prosecutor(field, quotients, domain)
-        tell = progress or (lambda text: None)
-        return unshaken(_Search(field, domain, quotients, prosecutor, rtol, began, seconds, tell).run(), rays=1)
+        return _begun(field, domain, rtol, began, seconds, progress or (lambda text: None))
+
+
+def _begun(field: Field, domain: Domain, rtol: float, began: float, seconds: float, tell: Progress) -> FieldCertificate:
+    """The search's answer, or why there can be none: a field without a gradient, or without enclosures."""
+    detail = not_differentiable(field, domain)
+    if detail is not None:
+        detail = f"the field has no gradient: {detail}"
+        return FieldCertificate(field, domain, Verdict.UNDECIDED, detail=detail, rtol=rtol)
+    try:
+        quotients = Quotients(*_drop(field), field.kappa)
+    except Undefined as error:
+        detail = f"the field cannot be enclosed: {error}"
+        return FieldCertificate(field, domain, Verdict.UNDECIDED, detail=detail, rtol=rtol)
+    search = _Search(field, domain, quotients, Prosecutor(field, quotients, domain), rtol, began, seconds, tell)
+    return unshaken(search.run(), rays=1)
 
 
 def not_differentiable(field: Field, domain: Domain) -> str | None:

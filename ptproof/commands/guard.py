@@ -39,9 +39,16 @@ def doing(what: str) -> None:
 
 
 def limit() -> None:
-    """From here on this process has no more memory than one that decides a claim, if it is one of its own."""
+    """From here on this process, if it is one of its own, reads nothing, and has no more memory than one for a claim.
+
+    Linear algebra starts no threads in it: of a process with one thread a copy can be made, and each worker has one
+    processor anyway.
+    """
     if _state["guarded"]:
+        streams.nothing_to_read()
         limit_memory(MEMORY)
+        for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
+            os.environ.setdefault(name, "1")
 
 
 def own_interrupt() -> bool:

@@ -20,15 +20,14 @@ def mutate(paths: tuple[str, ...], as_json: bool, jobs: int | None, timeout: flo
     Exit status 1 if one that is false is proved.
     """
     from ptproof.commands.mutation_tables import mutation_progress, mutation_tables
-    from ptproof.proof.load import load
     from ptproof.proof.mutation.running import corruptible
     from ptproof.proof.mutation.running import mutate as run
 
-    derivation = load(paths)
-    with mutation_progress(len(corruptible(derivation.claims, select))) as progress:
-        found = run(derivation, workers=jobs, timeout=timeout, select=select, progress=progress)
-    if as_json:
-        options.print_json(found.to_json())
-    else:
-        mutation_tables(found)
+    with options.loaded(paths) as derivation:
+        with mutation_progress(len(corruptible(derivation.claims, select))) as progress:
+            found = run(derivation, workers=jobs, timeout=timeout, select=select, progress=progress)
+        if as_json:
+            options.print_json(found.to_json())
+        else:
+            mutation_tables(found)
     return 0 if found.sound else 1

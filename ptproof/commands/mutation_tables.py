@@ -10,7 +10,7 @@ from rich.console import Console
 from rich.padding import Padding
 from rich.text import Text
 
-from ptproof.commands.terminal import COLOURS, plain_table, progress, where
+from ptproof.commands.terminal import COLOURS, output, plain_table, progress, where
 
 if TYPE_CHECKING:
     from ptproof.proof.claim import Claim
@@ -37,7 +37,7 @@ def mutation_progress(total: int) -> Iterator[Callable[[Claim, Outcome], None]]:
 
 def mutation_tables(found: Mutation) -> None:
     """The false claims that were proved, the counts of each claim by section, and all of it in a line."""
-    console = Console(soft_wrap=False, highlight=False)
+    console = output(highlight=False)
     for claim, outcome in found.alarms:
         _print_alarm(console, claim, outcome)
     sections: dict[str, list[Claim]] = {}

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 if TYPE_CHECKING:
-    from ptproof.proof.run import Verification
+    from ptproof.proof.result import Verification
 
 kernel = click.option(
     "--kernel", is_flag=True, help="Have Coq's kernel check what is proved, restated for it from the claims themselves."

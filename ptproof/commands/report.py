@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from ptproof.proof.load import Derivation
-    from ptproof.proof.run import Verification
+    from ptproof.proof.result import Verification
     from ptproof.report.content import Figure, Table
 
 

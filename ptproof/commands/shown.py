@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from ptproof.proof.run import Verification
+    from ptproof.proof.result import Verification
 
 
 @dataclass(frozen=True)

@@ -100,13 +100,17 @@ def settle(closed: set[int]) -> Output:
     results = Output(os.dup(1), encoding, "it is closed" if 1 in closed else "")
     private(results.fileno())
     os.dup2(2, 1)
+    sys.stderr = Warnings()
+    sys.stdout = results
+    return results
+
+
+def nothing_to_read() -> None:
+    """From here on there is nothing on standard input: a derivation that asks for something does not wait for it."""
     nothing = os.open(os.devnull, os.O_RDONLY)
     os.dup2(nothing, 0)
     os.close(nothing)
     sys.stdin = open(0, closefd=False)  # noqa: SIM115
-    sys.stderr = Warnings()
-    sys.stdout = results
-    return results
 
 
 def _is_open(number: int) -> bool:

@@ -17,7 +17,7 @@ from ptproof.commands.shown import Shown
 
 if TYPE_CHECKING:
     from ptproof.proof.claim import Claim as DecidedClaim
-    from ptproof.proof.run import Verification
+    from ptproof.proof.result import Verification
     from ptproof.proof.verdict import Evidence
 
 Claim: TypeAlias = Mapping[str, Any]  # as it stands in the JSON

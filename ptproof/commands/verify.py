@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ptproof.commands import opinion, options
+from ptproof.commands import guard, opinion, options
 from ptproof.commands.shown import Shown
 
 if TYPE_CHECKING:
     from ptproof.proof.load import Derivation
     from ptproof.proof.memory import Memory
-    from ptproof.proof.run import Verification
+    from ptproof.proof.result import Verification
 
 
 @click.command()
@@ -46,7 +46,11 @@ def verify(
     with options.loaded(paths, memory) as derivation:
         verification, status = _decided(derivation, memory, select, **how)
         if kernel and status in (0, 1):
-            verification = opinion.confirmed(verification, how["jobs"], keep)
+            try:
+                verification = opinion.confirmed(verification, how["jobs"], keep)
+            except KeyboardInterrupt:
+                click.echo("ptproof: interrupted before Coq had answered", err=True)
+                status = guard.interrupt_status()
         _print(Shown.of(verification), as_json)
     return status
 

@@ -92,7 +92,7 @@ def exact_bound_clipped(data: GainData) -> sp.Expr:
     fade = sp.exp(-h * (STRETCHED - corner))
     rest = input_factor(data.bounds) * data.known("drift_bound")[0] / (cap * h)
     late = early.subs(STRETCHED, corner) * fade + rest * (1 - fade)
-    return sp.Piecewise((early, STRETCHED <= corner), (late, True))
+    return sp.Piecewise((early, corner >= STRETCHED), (late, True))
 
 
 def distance_bound(data: GainData, elapsed: sp.Expr) -> sp.Expr:

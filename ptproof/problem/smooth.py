@@ -39,7 +39,7 @@ def roughness(
     >>> roughness(sp.exp(-(x**2)), [x], 2) is None, roughness(sp.Abs(x) ** 3, [x], 2) is None
     (True, True)
     >>> roughness(sp.sign(x) ** 2, [x], 1)
-    'sign(x)**2 is not shown to be continuously differentiable (not C^1: the value jumps at x = 0)'
+    'sign(x) is not shown to be continuously differentiable (not C^1: the value jumps at x = 0)'
     """
     suspect = (switching_part if covered else _suspect)(expression, frozenset(variables))
     if suspect is None:

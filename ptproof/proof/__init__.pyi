@@ -2,7 +2,6 @@ from . import lemmas as lemmas
 from .claim import Claim as Claim
 from .claim import Definition as Definition
 from .claim import Goal as Goal
-from .claim import Result as Result
 from .claim import cited as cited
 from .claim import claim as claim
 from .claim import definition as definition
@@ -37,7 +36,8 @@ from .load import Derivation as Derivation
 from .load import load as load
 from .mutation.outcomes import Mutation as Mutation
 from .mutation.running import mutate as mutate
-from .run import Verification as Verification
+from .result import Result as Result
+from .result import Verification as Verification
 from .run import decide as decide
 from .run import verify as verify
 from .settling import settle as settle

@@ -12,12 +12,13 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
+from functools import lru_cache
 from typing import Any
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ptproof.proof.powers import exponent_terms, split_powers, symbolic_power
+from ptproof.proof.powers import exponent_terms, fraction, split_masked, symbolic_power
 
 _COMPARISONS = (sp.LessThan, sp.StrictLessThan, sp.GreaterThan, sp.StrictGreaterThan)
 
@@ -37,6 +38,7 @@ class NotAlgebraic(Exception):
     """The expression contains something that exact algebra has no rule for."""
 
 
+@lru_cache(maxsize=4096, typed=True)
 def prepare(expression: sp.Expr) -> sp.Expr:
     """Carry out derivatives, write tan and hyperbolic functions by sin, cos, exp, and split sums of angles."""
     expression = sp.sympify(expression)
@@ -113,7 +115,7 @@ class Generators:
 
     def read(self, expressions: Iterable[sp.Expr]) -> list[sp.Expr]:
         """Prepare the expressions and note each base with all exponents that it carries."""
-        prepared = [split_powers(self._mask(prepare(expression))) for expression in expressions]
+        prepared = [split_masked(self._mask(prepare(expression)), self.meaning) for expression in expressions]
         for expression in prepared:
             for node in sp.preorder_traversal(expression):
                 pair = symbolic_power(node)
@@ -133,7 +135,7 @@ class Generators:
 
     def _choose_roots(self, base: sp.Expr, exponents: Sequence[sp.Expr]) -> None:
         """Find exponents e_j such that every exponent of this base is an integer combination of them."""
-        fractions = [sp.fraction(sp.together(exponent)) for exponent in exponents]
+        fractions = [fraction(exponent) for exponent in exponents]
         common = sp.Integer(1)
         for _, denominator in fractions:
             common = sp.lcm(common, denominator)

@@ -232,7 +232,7 @@ class Certificate:
     """What an engine was asked about and what it said; nobody but :func:`engine` makes one."""
 
     goal: Goal
-    verdict: Verdict
+    says: Evidence
     seal: Any = field(default=None, repr=False, compare=False)
 
     @property
@@ -245,7 +245,7 @@ def engine(proof: Callable[Concatenate[Goal, P], Evidence]) -> Callable[Concaten
     """Mark a function as an engine: its evidence carries the goal that it was asked about, and its verdict.
 
     A claim takes evidence about nothing but its own goal (:func:`ptproof.proof.deciding.run_one`), so that a proof
-    that changes the statement, adds an assumption or rewrites the verdict shows nothing. An engine that stands
+    that changes the statement, adds an assumption or rewrites what the engine said shows nothing. An engine that stands
     outside of this package may observe and cite; it proves and refutes nothing.
     """
 
@@ -255,7 +255,8 @@ def engine(proof: Callable[Concatenate[Goal, P], Evidence]) -> Callable[Concaten
         if found.verdict in (Verdict.PROVED, Verdict.REFUTED) and not proof.__module__.startswith("ptproof.proof."):
             reason = f"{proof.__module__}.{proof.__name__} is no engine of ptproof, which said {found.verdict}"
             found = replace(found, verdict=Verdict.UNDECIDED, detail=f"{reason}: {found.detail}", witness=None)
-        return replace(found, certifies=Certificate(goal, found.verdict, _SEAL))
+        says = replace(found, certifies=None, besides=())
+        return replace(says, certifies=Certificate(goal, says, _SEAL))
 
     # The name of the first parameter is lost in the type of a wrapped function.
     return cast("Callable[Concatenate[Goal, P], Evidence]", certified)
@@ -270,43 +271,3 @@ def cited(reference: str) -> Proof:
 
     prove.__doc__ = f"Taken from the literature: {reference}."
     return prove
-
-
-@dataclass(frozen=True)
-class Result:
-    """A claim with what came out: the verdict after its ancestors were looked at, and all evidence."""
-
-    claim: Claim
-    verdict: Verdict
-    evidence: tuple[Evidence, ...]
-    fully_proved: bool
-    rests_on: tuple[str, ...] = field(default=())
-
-    @property
-    def hit(self) -> Evidence | None:
-        """The attack that met an exact point at which something false was shown, by nothing but what is fully proved:
-        an error of ptproof."""
-        return next(
-            (item for item in self.evidence if (item.engine, item.verdict) == ("attack", Verdict.REFUTED)), None
-        )
-
-    @property
-    def as_expected(self) -> bool:
-        """Whether it came out as its author recorded, and nothing contradicts it."""
-        return self.verdict is self.claim.expected and self.hit is None
-
-    def to_json(self) -> dict[str, Any]:
-        witness = next((item.witness for item in self.evidence if item.witness is not None), None)
-        return {
-            "id": self.claim.id,
-            "labels": list(self.claim.labels),
-            "title": self.claim.title,
-            "kind": self.claim.kind,
-            "statement": str(self.claim.statement),
-            "verdict": str(self.verdict),
-            "expected": str(self.claim.expected),
-            "fully_proved": self.fully_proved,
-            "uses": [used.id for used in self.claim.uses],
-            "evidence": [item.to_json() for item in self.evidence],
-            "witness": None if witness is None else witness.to_json(),
-        }

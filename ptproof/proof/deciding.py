@@ -28,7 +28,7 @@ def _examined(claim: Claim) -> Evidence:
         return Evidence("crash", Verdict.UNDECIDED, f"the proof returned {type(evidence).__name__}, not evidence")
     if reason := _mismatch(claim, evidence):
         return Evidence("mismatch", Verdict.UNDECIDED, reason)
-    return settled(claim.goal(), evidence)
+    return settled(claim.goal(), evidence.certifies.says)
 
 
 def _mismatch(claim: Claim, evidence: Evidence) -> str:
@@ -36,8 +36,8 @@ def _mismatch(claim: Claim, evidence: Evidence) -> str:
     certificate = evidence.certifies
     if not isinstance(certificate, Certificate) or not certificate.genuine:
         return "the evidence does not come from an engine"
-    if certificate.verdict is not evidence.verdict:
-        return f"the engine said {certificate.verdict}, not {evidence.verdict}"
+    if certificate.says != replace(evidence, certifies=None):
+        return f"the engine said {certificate.says.verdict}, {certificate.says.detail}, and the proof rewrote it"
     goal = certificate.goal
     if goal.statement != claim.statement:
         return f"the evidence is about another statement: {goal.statement}"

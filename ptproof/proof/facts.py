@@ -11,18 +11,31 @@ import inspect
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from functools import wraps
-from typing import TYPE_CHECKING, Any, ParamSpec
+from typing import Any, ParamSpec, Protocol
 
 from ptproof.errors import InputError
 from ptproof.proof.definedness import domain_of
 from ptproof.proof.statement import Assumption, Implication, Relation
 
-if TYPE_CHECKING:
-    from ptproof.proof.claim import Goal
-
 P = ParamSpec("P")
 _SEAL = object()
 _LIBRARY = "ptproof.proof."
+
+
+class _Used(Protocol):
+    @property
+    def content(self) -> str: ...
+
+
+class Goal(Protocol):
+    """What facts are used for: a goal with its assumptions and the claims that it may use."""
+
+    @property
+    def id(self) -> str: ...
+    @property
+    def assumptions(self) -> tuple[Assumption, ...]: ...
+    @property
+    def uses(self) -> tuple[Any, ...]: ...
 
 
 @dataclass(frozen=True)
@@ -85,7 +98,7 @@ def resting_on(goal: Goal, says: Implication, claims: Iterable[str] = (), *other
     return Fact(says, rests, assumed, seal=_SEAL)
 
 
-def from_claim(used: Any, says: Implication) -> Fact:
+def from_claim(used: _Used, says: Implication) -> Fact:
     """A fact that a used claim states at its own symbols."""
     _made_here(says)
     return Fact(says, frozenset([used.content]), seal=_SEAL)

@@ -20,7 +20,7 @@ from ptproof.reading.cache import Cache, place
 
 if TYPE_CHECKING:
     from ptproof.proof.claim import Claim
-    from ptproof.proof.run import Verification
+    from ptproof.proof.result import Verification
     from ptproof.proof.verdict import Evidence
 
 _LOOK = 2.0  # between two looks at whether the files are still the same [s]

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import lru_cache
+from typing import Any
 
 import sympy as sp
 
@@ -25,10 +27,33 @@ def exponent_terms(exponent: sp.Expr, common: sp.Expr) -> tuple[tuple[sp.Expr, s
 
 
 @lru_cache(maxsize=4096)
+def fraction(exponent: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
+    """Numerator and denominator of an exponent."""
+    return sp.fraction(sp.together(exponent))
+
+
+@lru_cache(maxsize=4096)
 def _factored(base: sp.Expr) -> sp.Expr:
     return sp.factor(sp.together(base))
 
 
+_standards: dict[Any, sp.Dummy] = {}
+
+
+def _standard(meaning: sp.Expr, symbol: sp.Symbol) -> sp.Dummy:
+    """One symbol of the same kind for this meaning, known nowhere outside of this module."""
+    kind = tuple(sorted(symbol._assumptions_orig.items()))
+    return _standards.setdefault((meaning, kind), sp.Dummy("s", **dict(kind)))
+
+
+def split_masked(expression: sp.Expr, meaning: Mapping[sp.Symbol, sp.Expr]) -> sp.Expr:
+    """:func:`split_powers`, done once for expressions that differ only in the names of symbols with one meaning."""
+    stands = {symbol: _standard(meaning[symbol], symbol) for symbol in expression.free_symbols & {*meaning}}
+    split = split_powers(expression.xreplace(stands))
+    return split.xreplace({standard: symbol for symbol, standard in stands.items()})
+
+
+@lru_cache(maxsize=4096)
 def split_powers(expression: sp.Expr) -> sp.Expr:
     """Give every power a base that is one positive factor where SymPy's assumptions allow to split it."""
 

@@ -5,51 +5,20 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any, TypeAlias
 
 from ptproof.errors import InputError
 from ptproof.proof.answering import INTERRUPTED, Decided, in_workers, on_cluster, run_here
-from ptproof.proof.claim import Claim, Result
+from ptproof.proof.claim import Claim
 from ptproof.proof.load import Derivation, homes_of, with_ancestors
 from ptproof.proof.memory import Memory
+from ptproof.proof.result import Result, Verification
 from ptproof.proof.settling import ATTACK
 from ptproof.proof.verdict import Evidence, Verdict
 
 SECONDS_PER_CLAIM = 60.0
 Progress: TypeAlias = Callable[[Claim, Evidence], None]
-
-
-@dataclass(frozen=True)
-class Verification:
-    """The outcome of every claim, in the order of the derivation; ``remembered`` are those of an earlier run."""
-
-    results: tuple[Result, ...]
-    seconds: float
-    remembered: frozenset[str] = frozenset()
-
-    @property
-    def as_expected(self) -> bool:
-        """Whether every claim came out as its author recorded."""
-        return all(result.as_expected for result in self.results)
-
-    def summary(self) -> dict[str, int]:
-        """How many claims ended in each verdict, are fully proved, not as expected, or proved and yet hit."""
-        counts = {str(verdict): 0 for verdict in Verdict}
-        for result in self.results:
-            counts[str(result.verdict)] += 1
-        counts["total"] = len(self.results)
-        counts["fully_proved"] = sum(result.fully_proved for result in self.results)
-        counts["unexpected"] = sum(not result.as_expected for result in self.results)
-        counts["hit"] = sum(result.hit is not None for result in self.results)
-        return counts
-
-    def to_json(self) -> dict[str, Any]:
-        claims = [result.to_json() for result in self.results]
-        for item in claims:
-            if item["id"] in self.remembered:
-                item["evidence"][0]["remembered"] = True
-        return {"claims": claims, "summary": self.summary()}
 
 
 class Interrupted(KeyboardInterrupt):

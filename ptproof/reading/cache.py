@@ -21,7 +21,7 @@ _DAYS = 60
 def place() -> Path | None:
     """The folder for what is kept: ``PTPROOF_CACHE``, or the user's cache folder; None if the variable is empty."""
     if (chosen := os.environ.get(VARIABLE)) is not None:
-        return Path(chosen).expanduser() if chosen else None
+        return Path(chosen).expanduser().absolute() if chosen else None
     if sys.platform == "win32":
         base = os.environ.get("LOCALAPPDATA") or "~/AppData/Local"
     elif sys.platform == "darwin":
@@ -29,7 +29,7 @@ def place() -> Path | None:
     else:
         base = os.environ.get("XDG_CACHE_HOME") or "~/.cache"
     try:
-        return Path(base).expanduser() / "ptproof"
+        return Path(base).expanduser().absolute() / "ptproof"
     except RuntimeError:  # no home
         return None
 

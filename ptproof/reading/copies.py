@@ -5,9 +5,9 @@
     this process ── host ──┬── keeper ── worker        a host has read what the work needs, once; it only makes copies
                            └── keeper ── worker        a keeper waits for its worker, and ends what that leaves behind
 
-A worker whose state the work has changed (:mod:`ptproof.reading.state`) is replaced, and so is one that died or was
-killed for its time or memory. Keepers and workers have process groups of their own, so that what kills its parent or
-its group does not reach the others.
+What the work has changed in the state of its worker (:mod:`ptproof.reading.state`) is set again; where that is not
+possible the worker is replaced, and so is one that died or was killed for its time or memory. Keepers and workers have
+process groups of their own, so that what kills its parent or its group does not reach the others.
 """
 
 from __future__ import annotations

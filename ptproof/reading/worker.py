@@ -82,7 +82,7 @@ def _work(channel: Any, memory: int, failed: BaseException | None) -> NoReturn:
             answer, last = _answer(payload, memory, failed)
             if os.getpid() != own:  # a copy that the work has made of its process
                 os._exit(0)
-            last = last or bool(before.changed())
+            last = last or _changed(before)
             digest = hashlib.sha256(answer).digest()
             channel.sendall(HEAD.pack(-len(answer) if last else len(answer), digest) + answer)
             if not last:  # a keeper that the work has killed or stopped says nothing, and the worker gets no more
@@ -92,6 +92,13 @@ def _work(channel: Any, memory: int, failed: BaseException | None) -> NoReturn:
         status = CLOSED
     finally:
         os._exit(status)
+
+
+def _changed(before: State) -> bool:
+    """Whether the state of the process is another one, after what can be set again is."""
+    with contextlib.suppress(Exception):
+        before.restore()
+    return bool(before.changed())
 
 
 def _next(channel: Any) -> bytes:

@@ -7,9 +7,9 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from ptproof.proof.claim import Claim, Definition, Result
+from ptproof.proof.claim import Claim, Definition
 from ptproof.proof.load import Derivation
-from ptproof.proof.run import Verification
+from ptproof.proof.result import Result, Verification
 from ptproof.proof.statement import All, Exists, Prose, Relation, relations_of
 from ptproof.report import status
 from ptproof.report.content import Figure, Table
@@ -76,7 +76,7 @@ def compose(
         versions=tuple(versions),
         figures=tuple(figures),
         appendix=tuple(appendix),
-        notes=tuple(notes),
+        notes=(*_hits(verification), *notes),
     )
 
 
@@ -136,6 +136,12 @@ class _Composer:
         return DefinitionView(
             self.refs[item.id], item.labels, statement_lines(item.statement, self.glyphs), words, item.prose
         )
+
+
+def _hits(verification: Verification) -> tuple[str, ...]:
+    """What the attacker hit although it was shown: the reader has to know it before anything else."""
+    found = ((result.claim.id, result.hit) for result in verification.results)
+    return tuple(f"{id}: {_without_places(hit.detail)}" for id, hit in found if hit is not None)
 
 
 def _same(claim: Claim) -> bool:

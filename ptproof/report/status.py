@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from ptproof.proof.claim import Result
+from ptproof.proof.result import Result
 from ptproof.proof.verdict import Verdict
 
 

@@ -9,6 +9,7 @@ import numpy as np
 import sympy as sp
 
 from ptproof.problem import Problem
+from ptproof.problem.smooth import roughness
 from ptproof.simulation.run import simulate
 from ptproof.simulation.settings import Outcome
 from ptproof.simulation.trajectory import Trajectory
@@ -35,6 +36,8 @@ def worst_distance(problem: Problem, distance: sp.Expr, *, starts: int = 64, dra
         return Simulated(None, (), "without a clip no run reaches t0 + T")
     if (n := problem.field.dimension) != 2:
         return Simulated(None, (), f"the seeker moves in the plane, but the field has {n} variable{'s' * (n > 1)}")
+    if (reason := roughness(problem.field.expression, problem.variables, 2)) is not None:
+        return Simulated(None, (), f"there is no average to simulate: {reason}")
     source = np.array([float(value) for value in problem.source])
     names = [symbol.name for symbol in problem.variables]
     runs = []

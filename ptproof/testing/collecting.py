@@ -8,8 +8,9 @@ from pathlib import Path
 
 from ptproof.errors import InputError
 from ptproof.proof.answering import decided, read, run_by_id
-from ptproof.proof.claim import Claim, Result
+from ptproof.proof.claim import Claim
 from ptproof.proof.load import NoClaims, load, twice, with_ancestors
+from ptproof.proof.result import Result
 from ptproof.proof.run import conclude
 from ptproof.proof.verdict import Evidence
 from ptproof.reading.limits import Unanswered, Workers

@@ -15,7 +15,8 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 if TYPE_CHECKING:
-    from ptproof.proof.claim import Claim, Result
+    from ptproof.proof.claim import Claim
+    from ptproof.proof.result import Result
 
 SECONDS_PER_CLAIM = 60.0
 

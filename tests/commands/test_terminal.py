@@ -11,7 +11,8 @@ from ptproof.commands.terminal import verification_table
 from ptproof.proof.claim import Goal, claim
 from ptproof.proof.deciding import run_one
 from ptproof.proof.engines.witnesses import refute
-from ptproof.proof.run import Verification, conclude
+from ptproof.proof.result import Verification
+from ptproof.proof.run import conclude
 from ptproof.proof.statement import Relation, eq, lt
 from ptproof.proof.verdict import Evidence
 

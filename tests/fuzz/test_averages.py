@@ -51,7 +51,7 @@ dithers = st.one_of(
 
 
 @given(st.lists(dithers, min_size=2, max_size=3), st.booleans())
-@fuzz(4)
+@fuzz(2)
 def test_coefficients_are_the_double_integrals(chosen: list[Any], shifted: bool) -> None:
     if shifted:  # so that more have zero mean
         chosen = [u - _mean(u) if not u.free_symbols & {TAU, A} else u for u in chosen]

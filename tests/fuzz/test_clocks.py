@@ -37,14 +37,14 @@ def scaled(shape: Any, at: Any, c: Any, d: Any) -> Any:
 
 
 @given(shapes, shapes, factors, factors, factors, factors, horizons)
-@fuzz(10)
+@fuzz(6)
 def test_a_clock_that_is_accepted_is_one(forth: Any, back: Any, c: Any, d: Any, e: Any, f: Any, horizon: Any) -> None:
     to_tau, to_t = scaled(forth, t, c, d), scaled(back, tau, e, f)
     _check(lambda: Clock(t, tau, to_tau, to_t, sp.S.Zero, horizon))
 
 
 @given(shapes, shapes, factors, factors, horizons, st.booleans(), st.booleans())
-@fuzz(4)
+@fuzz(2)
 def test_a_clock_that_is_made_is_one(
     first: Any, second: Any, c: Any, d: Any, horizon: Any, rate: bool, ends: bool
 ) -> None:

@@ -15,6 +15,7 @@ from ptproof.proof.engines.integrals import integrals
 from ptproof.proof.engines.limits import limit_of
 from ptproof.proof.statement import eq
 from ptproof.proof.verdict import Verdict
+from ptproof.transforms.clocks.made import clock_from_formula
 
 x, y = sp.symbols("x y", real=True)
 p = sp.Symbol("p", positive=True)
@@ -38,7 +39,7 @@ def test_no_limit_from_a_side_on_which_there_is_no_value(expression: Any) -> Non
 
 def test_a_field_with_a_kink_is_undecided() -> None:
     field = sp.Abs(x) * x**2 / 4 - x**2 - y**2 + 3
-    found = certify_field(field, [x, y], [0, 0], 2, annulus=(sp.Rational(1, 2), 3), rtol=0.3, seconds=2)
+    found = certify_field(field, [x, y], [0, 0], 2, annulus=(sp.Rational(1, 2), 3), rtol=0.3, seconds=1)
     assert found.verdict is not Verdict.PROVED
 
 
@@ -46,3 +47,10 @@ def test_a_field_with_a_kink_is_undecided() -> None:
 def test_an_order_beyond_use_is_refused() -> None:
     with pytest.raises(InputError, match="kappa"):
         certify_field("-sqrt(x1**2 + x2**2)", ["x1", "x2"], [0, 0], "10**400", radius="1", seconds=1)
+
+
+def test_a_clock_whose_times_end_is_not_attacked_beyond_them() -> None:
+    t, tau = sp.symbols("t tau", real=True)
+    T, a = sp.symbols("T a", positive=True)
+    found = clock_from_formula(t, tau, T * t / (T + 2 * t), start=sp.S.Zero, horizon=a, prescribed_time=False)
+    assert sp.simplify(found.to_t - T * tau / (T - 2 * tau)) == 0

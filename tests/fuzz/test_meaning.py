@@ -108,7 +108,7 @@ values = st.one_of(
     st.dictionaries(letters, values, min_size=1, max_size=2),
     trees.seeds,
 )
-@fuzz(25)
+@fuzz(10)
 def test_what_is_put_in_has_the_value_of_the_letters(expression: Any, chosen: dict[Any, Any], seed: int) -> None:
     try:
         made = or_nothing(5, lambda: Substitution(chosen).into(expression))
@@ -131,7 +131,7 @@ def test_what_is_put_in_has_the_value_of_the_letters(expression: Any, chosen: di
 
 
 @given(st.builds(lambda a, b: a + b, binding, binding), letters, values, trees.seeds)
-@fuzz(20)
+@fuzz(6)
 def test_equal_values_are_exchanged_without_a_change(expression: Any, letter: Any, value: Any, seed: int) -> None:
     made = or_nothing(5, lambda: replaced(expression, {letter: value}))
     if made is None or letter in value.free_symbols:
@@ -153,7 +153,7 @@ assumptions = st.lists(st.builds(Relation, small, st.sampled_from(["<=", "<", ">
 
 
 @given(st.one_of(relations(), equalities), assumptions, st.sampled_from(["exact", "reals"]), trees.seeds)
-@fuzz(12)
+@fuzz(2)
 def test_a_claim_that_is_proved_is_defined_and_holds(
     statement: Relation, known: list[Relation], engine: str, seed: int
 ) -> None:

@@ -128,7 +128,7 @@ def test_what_was_read_can_be_printed_and_read_again(text: str, shown: Any) -> N
 
 
 @given(trees.expressions((X, Y), undefined=(FIELD,), kinks=True, leaves=8))
-@fuzz(30)
+@fuzz(20)
 def test_a_printed_expression_is_read_as_itself(expression: sp.Expr) -> None:
     if expression.has(sp.Heaviside, sp.DiracDelta, sp.cot, sp.AccumBounds, sp.Derivative):
         return

@@ -102,7 +102,7 @@ def said_to_be_zero(decide: Callable[[Any], Any], expression: Any) -> bool:
 
 
 @given(differences() | trees.expressions(undefined=(trees.F,), kinks=True, symbolic=True), trees.seeds)
-@fuzz(20)
+@fuzz(10)
 def test_what_has_the_normal_form_0_is_0(expression: Any, seed: int) -> None:
     for decide in (is_zero, vanishes):
         if said_to_be_zero(decide, expression):

@@ -11,7 +11,8 @@ import pytest
 import sympy as sp
 
 from ptproof.proof import Verdict, claim, decide, eq, exact, load, verify
-from ptproof.proof.run import Interrupted, Verification
+from ptproof.proof.result import Verification
+from ptproof.proof.run import Interrupted
 from ptproof.reading.system import children
 
 PROLOGUE = """

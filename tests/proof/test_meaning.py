@@ -223,6 +223,10 @@ def test_the_limits_beside_them_are_proved() -> None:
 FORGED: dict[str, Callable[[Goal], Evidence]] = {
     "evidence by hand": lambda goal: Evidence("z3", Verdict.PROVED, "so it is"),
     "a verdict rewritten": lambda goal: replace(reals(goal), verdict=Verdict.PROVED),
+    "what was found elsewhere": lambda goal: replace(reals(goal), engine="exact algebra"),
+    "a second opinion by hand": lambda goal: replace(
+        reals(replace(goal, statement=ge(x**2, 0))), besides=(Evidence("coq", Verdict.PROVED, ""),)
+    ),
     "an implication as a lemma": lambda goal: reals(goal, Implication((), ge(x, 0))),  # type: ignore[arg-type]
     "another statement": lambda goal: reals(replace(goal, statement=ge(x**2, 0))),
     "another assumption": lambda goal: reals(replace(goal, assumptions=(gt(x, 1),))),

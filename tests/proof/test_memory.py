@@ -13,7 +13,8 @@ import sympy as sp
 from ptproof.proof import Evidence, Verdict, claim, eq, exact, load, lt
 from ptproof.proof import memory as module
 from ptproof.proof.memory import Memory, read_evidence, written_evidence
-from ptproof.proof.run import Verification, conclude
+from ptproof.proof.result import Verification
+from ptproof.proof.run import conclude
 from ptproof.proof.verdict import Witness
 from ptproof.reading import hashes
 from ptproof.reading.cache import Cache

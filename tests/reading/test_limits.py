@@ -1,5 +1,6 @@
 """A time limit within this process."""
 
+import mmap
 import os
 import threading
 import time
@@ -52,6 +53,25 @@ def _fill(size):
     return len(bytearray(size))
 
 
+def _share(size):
+    """Memory that counts as shared, which the system's limit leaves out."""
+    blocks = []
+    for _ in range(size // 2**26):
+        blocks.append(mmap.mmap(-1, 2**26))
+        blocks[-1].write(b"x" * 2**26)
+    time.sleep(60)
+
+
+def _by_children(size):
+    """The memory of all processes that the work makes counts together."""
+    for _ in range(3):
+        if os.fork() == 0:
+            block = bytearray(b"x" * (size // 3))
+            time.sleep(60)
+            len(block)
+    time.sleep(60)
+
+
 def _refuse(text):
     raise InputError(text)
 
@@ -59,6 +79,8 @@ def _refuse(text):
 _NO_ANSWER = [
     (_forever, (), Why.TIME, "no answer in 0.3 s"),
     (_fill, (2**30,), Why.MEMORY, "more than 0.5 GiB of memory"),
+    (_share, (3 * 2**28,), Why.MEMORY, "more than 0.5 GiB of memory"),
+    (_by_children, (3 * 2**28,), Why.MEMORY, "more than 0.5 GiB of memory"),
     (os._exit, (3,), Why.DIED, "the process ended"),
     (_refuse, ("too long",), Why.FAILED, "InputError: too long"),
 ]

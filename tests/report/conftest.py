@@ -5,7 +5,8 @@ from dataclasses import replace
 import pytest
 
 from ptproof.proof.load import load
-from ptproof.proof.run import Verification, conclude
+from ptproof.proof.result import Verification
+from ptproof.proof.run import conclude
 from ptproof.proof.settling import with_witness
 from ptproof.report.compose import compose
 from ptproof.report.content import Figure, Table

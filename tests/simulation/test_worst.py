@@ -55,3 +55,12 @@ def test_a_distance_below_what_a_run_resolves_is_not_compared_with_a_bound():
     found = worst_distance(fast, sp.sqrt(8), starts=4)
     assert found.worst is None
     assert "closer than a run can tell" in found.why
+
+
+def test_a_field_that_jumps_has_no_average_to_simulate():
+    base = example("saturated")
+    x, y = base.variables
+    field = dataclasses.replace(base.field, expression=-(x**2 + y**2) * sp.Piecewise((1, y < 1), (2, True)))
+    found = worst_distance(dataclasses.replace(base, field=field), sp.Integer(1))
+    assert found.worst is None
+    assert "no average to simulate: Piecewise((1, x2 < 1), (2, True)) is not shown" in found.why

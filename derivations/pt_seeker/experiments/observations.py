@@ -16,6 +16,7 @@ import numpy as np
 
 from ptproof.problem import Problem, example
 from ptproof.simulation import Ensemble, Outcome, Trajectory, ensemble, hover_radius, simulate
+from ptproof.simulation.engines import installed
 from ptproof.simulation.ensembles import headings
 from ptproof.simulation.plan import Array
 from ptproof.simulation.quantities import field_function
@@ -108,7 +109,7 @@ def oscillates(count: int = HEADINGS // 3) -> Statement:
             "largest field": float(values.max()), "peak": float(problem.peak),
             "smallest x2": float(x2.min()), "largest x2": float(x2.max()),
         },
-        _settings("nonvanishing", "asymptotic", count) | {"until": until},
+        _settings("nonvanishing", "asymptotic", count, runs[0].settings["engine"]) | {"until": until},
     )  # fmt: skip
 
 
@@ -207,6 +208,8 @@ def _ensemble(name: str, seeker: str, count: int) -> Ensemble:
 @lru_cache(maxsize=16)
 def _runs(name: str, seeker: str, count: int, until: float | None) -> tuple[Trajectory, ...]:
     options: Any = {"until": until, "samples": 3000, "rtol": 1e-7}
+    if until is not None and "heyoka" in installed():  # long runs are worth the making of its code
+        options["engine"] = "heyoka"
     return tuple(simulate(name, seeker, initial={"theta": heading}, **options) for heading in headings(count))
 
 

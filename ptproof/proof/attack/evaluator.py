@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 from typing import Any
@@ -21,24 +20,13 @@ from ptproof.proof.attack.elementary import UNARY, fits
 from ptproof.proof.attack.functions import Concrete
 from ptproof.proof.attack.limiting import integral, limit
 from ptproof.proof.attack.numbers import NotReal, Number, Undefined, Unsure
-from ptproof.proof.attack.scope import Scope
+from ptproof.proof.attack.scope import Inadmissible, Scope, Work
 from ptproof.proof.attack.series import ONE, ZERO, Calculus, Series, Value, base
 
 
 @lru_cache(maxsize=4096)
 def _rational(node: sp.Rational) -> Fraction:
     return Fraction(int(node.p), int(node.q))
-
-
-class Inadmissible(Exception):
-    """A concrete function takes a value that the function was not declared to take."""
-
-
-@dataclass
-class Work:
-    """How many nodes have been evaluated: the measure of what an attack costs, the same on every machine."""
-
-    steps: int = 0
 
 
 class Evaluator:
@@ -53,10 +41,6 @@ class Evaluator:
         self._depth = 0
         self._integrals: dict[Any, Number] = {}
 
-    @property
-    def digits(self) -> int:
-        return self.calculus.numbers.digits
-
     def number(self, expression: sp.Expr, scope: Scope) -> Number:
         """The value where no derivative is taken."""
         value = self.value(expression, scope)
@@ -68,6 +52,8 @@ class Evaluator:
         found = scope.known.get(expression)
         if found is None:
             self.work.steps += 1
+            if self.work.steps > self.work.limit:
+                raise Unsure("too much work")
             found = scope.known[expression] = self._value(expression, scope)
         return found
 

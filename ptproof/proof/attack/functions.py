@@ -173,7 +173,7 @@ def _closed_forms(right: sp.Expr, value: sp.Symbol, time: sp.Symbol) -> list[sp.
             found.append(-free / rates + START * sp.exp(rates * time))
     if free == 0 and (whole := antiderivative(rates, time)) is not None:
         if exponent == 1:
-            found.append(START * sp.exp(whole))
+            found += [START * sp.exp(times * whole) for times in (1, 2, 6)]
         else:
             found.append((START + (1 - exponent) * whole) ** (1 / (1 - exponent)))
     return found

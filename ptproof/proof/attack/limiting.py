@@ -10,12 +10,12 @@ from typing import Any
 
 import sympy as sp
 
-from ptproof.proof.attack.numbers import Ball, Number, Undefined, Unsure, context, size
+from ptproof.proof.attack.numbers import Ball, NotReal, Number, Undefined, Unsure, context, size
 from ptproof.proof.attack.scope import Scope, Valuer
 from ptproof.proof.attack.series import ONE, Series, base
 
-_FEW, _MANY = 12, 18
-_SETTLED = -25.0  # the base-2 logarithm of an error that is small enough
+_FEW, _MANY = 14, 20
+_SETTLED = -40.0  # the base-2 logarithm of an error that is small enough
 _STEPS = (8, 12, 16, 20, 24)
 
 
@@ -80,9 +80,12 @@ def _improper(evaluator: Valuer, integrand: sp.Expr, variable: Any, low: Any, hi
 
 
 def _gauss(evaluator: Valuer, at: Callable[[Number], Number]) -> Number:
-    """∫₀¹ on one panel, or on four where one is not enough."""
-    whole = _panels(evaluator, at, 1)
-    return whole if whole.error < _SETTLED + max(0.0, size(whole.middle)) else _panels(evaluator, at, 4)
+    """∫₀¹ on one panel, or on two or four where one is not enough."""
+    for panels in (1, 2, 4):
+        found = _panels(evaluator, at, panels)
+        if found.error < _SETTLED + max(0.0, size(found.middle)):
+            break
+    return found
 
 
 def _panels(evaluator: Valuer, at: Callable[[Number], Number], panels: int) -> Ball:
@@ -132,7 +135,11 @@ def _approached(evaluator: Valuer, expression: sp.Expr, variable: Any, point: An
         else:
             target = base(evaluator.number(point, scope))
             place = numbers.add([target, Fraction(side, 10**step)])
-        values.append(evaluator.number(expression, scope.with_values({variable: place})))
+        try:
+            values.append(evaluator.number(expression, scope.with_values({variable: place})))
+        except (NotReal, Undefined) as error:
+            # A limit asks nothing of a place that is not near enough, and no place is known to be.
+            raise Unsure("no real value on the way to a limit") from error
     sizes = [size(numbers.ball(numbers.sub(b, a)).middle) for a, b in pairwise(values)]
     last = numbers.ball(values[-1])
     if all(later > earlier + 1 for earlier, later in pairwise(sizes)) and sizes[-1] > 20:

@@ -13,7 +13,10 @@ from ptproof.proof.attack.numbers import NotReal, Number, Undefined
 from ptproof.proof.attack.scope import Scope
 from ptproof.proof.statement import ForAll, Relation
 
+_NARROWING = 40
 _SHARES = tuple(Fraction(k, 6) for k in range(7))
+_NEAR = tuple(Fraction(1, 10**k) for k in (2, 3, 4, 6, 8, 12, 20, 30))
+_CLOSE = tuple(sorted({*(Fraction(k, 40) for k in range(41)), *_NEAR, *(1 - share for share in _NEAR)}))
 _OFFSETS = tuple(Fraction(text) for text in ("0", "1/100", "1/3", "1", "3", "10", "100", "100000", "100000000"))
 _PLACES = tuple(Fraction(text) for text in ("-10", "-1", "-1/3", "0", "1/7", "1", "5"))
 
@@ -32,6 +35,39 @@ def _holds(item: ForAll, evaluator: Evaluator, dense: bool) -> bool:
         for part in item.relation.components():
             if not holds(part, evaluator, scope):
                 return False
+    return (
+        not dense
+        or len(axes) != 1
+        or all(_holds_between(item, part, axes[0], evaluator) for part in item.relation.components())
+    )
+
+
+def _holds_between(item: ForAll, part: Relation, places: list[Number], evaluator: Evaluator) -> bool:
+    """Whether an inequality holds also where it is tightest between the places of the grid."""
+    if part.sign not in ("<=", "<", ">=", ">") or len(places) < 3:
+        return True
+    numbers, (variable,), part = evaluator.calculus.numbers, item.variables, part.standard()
+
+    def scope_at(place: Number) -> Scope:
+        return evaluator.point.with_values({variable: place})
+
+    def slack(place: Number) -> Any:
+        scope = scope_at(place)
+        return numbers.ball(numbers.sub(*(evaluator.number(side, scope) for side in (part.right, part.left)))).middle
+
+    heights = [slack(place) for place in places]
+    for k in range(1, len(places) - 1):
+        if heights[k] > min(heights[k - 1], heights[k + 1]):
+            continue
+        low, high = places[k - 1], places[k + 1]
+        for _ in range(_NARROWING):
+            third = numbers.mul(Fraction(1, 3), numbers.sub(high, low))
+            left, right = numbers.add([low, third]), numbers.sub(high, third)
+            for place in (left, right):
+                scope = scope_at(place)
+                if all(_inside(where, evaluator, scope) for where in item.domain) and not holds(part, evaluator, scope):
+                    return False
+            low, high = (low, right) if slack(left) < slack(right) else (left, high)
     return True
 
 
@@ -58,7 +94,7 @@ def _axis(variable: Any, domain: Iterable[Relation], evaluator: Evaluator, dense
                 high = end
     if low is not None and high is not None:
         width = numbers.sub(high, low)
-        shares = tuple(Fraction(k, 40) for k in range(41)) if dense else _SHARES
+        shares = _CLOSE if dense else _SHARES
         found = [numbers.add([low, numbers.mul(width, share)]) for share in shares]
     elif low is not None:
         found = [numbers.add([low, offset]) for offset in _more(_OFFSETS, dense)]
@@ -72,9 +108,8 @@ def _axis(variable: Any, domain: Iterable[Relation], evaluator: Evaluator, dense
 def _more(places: tuple[Fraction, ...], dense: bool) -> tuple[Fraction, ...]:
     if not dense:
         return places
-    return tuple(
-        sorted({*places, *(place * Fraction(17, 10) for place in places), *(Fraction(k, 4) for k in range(1, 20))})
-    )
+    between = (place * Fraction(17, 10) for place in places)
+    return tuple(sorted({*places, *between, *_NEAR, *(Fraction(k, 4) for k in range(1, 20))}))
 
 
 def _turned(sign: str) -> str:

@@ -7,6 +7,7 @@ that grow without bound, or tend to different values from different sides, are n
 from __future__ import annotations
 
 import itertools
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
@@ -15,15 +16,16 @@ from typing import Any
 
 import sympy as sp
 
-from ptproof.proof.attack.evaluator import Evaluator, Inadmissible
+from ptproof.proof.attack.evaluator import Evaluator
 from ptproof.proof.attack.kinds import fits_kind, holds
-from ptproof.proof.attack.numbers import NotReal, Number, Undefined, Unsure
+from ptproof.proof.attack.numbers import NotReal, Undefined, Unsure
 from ptproof.proof.attack.preparation import Prepared
 from ptproof.proof.attack.sampling import Point
+from ptproof.proof.attack.scope import Inadmissible
 from ptproof.proof.attack.series import ONE, ZERO, Series, base
 from ptproof.proof.statement import Smooth
 
-_STEPS = tuple(Fraction(1, 10**k) for k in (6, 10, 14, 18))
+_STEPS = tuple(Fraction(1, 10**k) for k in (6, 11, 16))
 _BOUNDED, _APART = 1e3, 200.0
 
 
@@ -39,18 +41,25 @@ def rough(statement: Smooth, ready: Prepared, point: Point, digits: int) -> str:
             return f"{error} at the point itself"
         except Unsure:
             pass
-        for along, order in itertools.product(directions, range(int(statement.order) + 1)):
-            limits: list[tuple[float, float]] = []
-            for towards, side in itertools.product(directions, (1, -1)):
-                values = _approached(expression, along, order, towards, side, ready, point, digits)
-                if values is None:
-                    continue
-                if _grows(values):
-                    return f"derivative {order} is not bounded"
-                limits.append((values[-1], 2 * abs(values[-1] - values[-2])))
-            for (a, e), (b, f) in itertools.combinations(limits, 2):
-                if abs(a - b) > _APART * (e + f) + 1e-9 * (abs(a) + abs(b)):
-                    return f"derivative {order} jumps"
+        for along in directions:
+            sides = [
+                _approached(expression, along, int(statement.order), towards, side, ready, point, digits)
+                for towards, side in itertools.product(directions, (1, -1))
+            ]
+            for order, values in enumerate(zip(*(side for side in sides if side), strict=True)):
+                if reason := _torn(values):
+                    return f"derivative {order} {reason}"
+    return ""
+
+
+def _torn(sides: Sequence[Sequence[float]]) -> str:
+    """What is wrong with a derivative that takes these values towards a point, from each of its sides."""
+    if any(map(_grows, sides)):
+        return "is not bounded"
+    limits = [(values[-1], 2 * abs(values[-1] - values[-2])) for values in sides]
+    for (a, e), (b, f) in itertools.combinations(limits, 2):
+        if abs(a - b) > _APART * (e + f) + 1e-9 * (abs(a) + abs(b)):
+            return "jumps"
     return ""
 
 
@@ -71,8 +80,11 @@ def _approached(
     ready: Prepared,
     point: Point,
     digits: int,
-) -> list[float] | None:
-    """The derivative along a line at places that approach the point; None where the claim does not speak of them."""
+) -> list[list[float]] | None:
+    """The derivatives along a line, up to an order, at places that approach the point: for each order its values.
+
+    None where the claim does not speak of these places.
+    """
     found = []
     for step in _STEPS:
         values = {atom: value + side * step * towards.get(atom, ZERO) for atom, value in point.values.items()}
@@ -80,13 +92,13 @@ def _approached(
             return None
         try:
             # A function with a kink at the point must not move along with the place.
-            evaluator = replace(point, values=values, functions=_fixed(point)).evaluator(digits)
+            evaluator = Point(values, point.defined, _fixed(point), point.work).evaluator(digits)
             if not all(holds(bound.relation, evaluator) for bound in ready.bounds):
                 return None
-            found.append(_derivative(expression, along, order, evaluator))
+            found.append(_derivatives(expression, along, order, evaluator))
         except (Unsure, Inadmissible):
             return None
-    return found
+    return [list(values) for values in zip(*found, strict=True)]
 
 
 def _fixed(point: Point) -> Mapping[Any, Any]:
@@ -97,23 +109,21 @@ def _fixed(point: Point) -> Mapping[Any, Any]:
     }
 
 
-def _derivative(expression: sp.Expr, along: Mapping[Any, Fraction], order: int, evaluator: Evaluator) -> float:
+def _derivatives(expression: sp.Expr, along: Mapping[Any, Fraction], order: int, evaluator: Evaluator) -> list[float]:
     scope = evaluator.point
     if order:
         rest = (ZERO,) * (order - 1)
         moving = {atom: Series(0, (base(scope.symbols[atom]), slope, *rest)) for atom, slope in along.items()}
         scope = scope.with_values(moving)
     value = evaluator.value(expression, scope)
-    if isinstance(value, Series):
-        value = value.terms[order]
-    elif order:
-        value = ZERO
-    number: Number = base(value)
-    found = float(number if isinstance(number, Fraction) else number.middle)
-    if not isinstance(number, Fraction) and number.error > max(-60.0, evaluator.calculus.numbers.negligible / 4):
-        raise Unsure("a derivative is not known well enough")
-    for factor in range(2, order + 1):
-        found *= factor
+    terms = value.terms if isinstance(value, Series) else (value, *((ZERO,) * order))
+    evaluator.work.steps += 5 * order**2
+    found = []
+    for k, term in enumerate(terms):
+        number = base(term)
+        if not isinstance(number, Fraction) and number.error > max(-60.0, evaluator.calculus.numbers.negligible / 4):
+            raise Unsure("a derivative is not known well enough")
+        found.append(math.factorial(k) * float(number if isinstance(number, Fraction) else number.middle))
     return found
 
 

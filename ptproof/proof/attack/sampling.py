@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
 
@@ -12,17 +12,18 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from ptproof.proof.attack.elementary import fits
-from ptproof.proof.attack.evaluator import Evaluator, Inadmissible, Work
+from ptproof.proof.attack.evaluator import Evaluator
 from ptproof.proof.attack.functions import START, Concrete, drawn
 from ptproof.proof.attack.kinds import fits_kind, holds
 from ptproof.proof.attack.numbers import NotReal, Number, Undefined, Unsure
 from ptproof.proof.attack.preparation import Bound, Prepared
 from ptproof.proof.attack.quantified import satisfied
-from ptproof.proof.attack.scope import Scope
+from ptproof.proof.attack.scope import Inadmissible, Scope, Work
 from ptproof.proof.attack.values import Drawer
 
 MISSES = (Unsure, Undefined, NotReal, Inadmissible, OverflowError, ZeroDivisionError, ValueError, RecursionError)
 _SWEEPS = 5
+_LIMIT = 200_000  # nodes that are evaluated at most, also within one point
 _POOL = 30  # functions for each undefined one
 
 
@@ -34,9 +35,16 @@ class Point:
     defined: tuple[tuple[Any, sp.Expr], ...] = ()
     functions: Mapping[Any, Concrete] = field(default_factory=dict)
     work: Work = field(default_factory=Work, compare=False)
+    made: dict[int, Evaluator] = field(default_factory=dict, compare=False, repr=False)
+
+    def changed(self, atom: Any, value: Fraction) -> Point:
+        """The point with another value of one symbol."""
+        return Point({**self.values, atom: value}, self.defined, self.functions, self.work)
 
     def evaluator(self, digits: int) -> Evaluator:
         """An evaluator at this point; raises what evaluating a value that is defined may raise."""
+        if digits in self.made:
+            return self.made[digits]
         evaluator = Evaluator(digits, self.functions, self.work)
         evaluator.point = Scope(dict(self.values))
         for atom, expression in self.defined:
@@ -44,6 +52,7 @@ class Point:
             if not fits(atom, value, evaluator.calculus):
                 raise Inadmissible(f"{atom} is {value}")
             evaluator.point = evaluator.point.with_values({atom: value})
+        self.made[digits] = evaluator
         return evaluator
 
 
@@ -55,7 +64,7 @@ class Sampler:
         self.random = random.Random(seed)
         self.drawer = Drawer(goal.atoms, goal.parts, self.random, moderate=_needs_moderation(goal))
         self.attempt = 0
-        self.work = Work()
+        self.work = Work(limit=_LIMIT)
         self.pool: dict[tuple[Any, int], Concrete] = {}
 
     def points(self) -> Iterator[Point | None]:
@@ -135,7 +144,7 @@ class Sampler:
         for atom in atoms:
             value = self._within(atom, evaluator)
             if value is not None:
-                return replace(point, values={**point.values, atom: value})
+                return point.changed(atom, value)
         rest = sorted((atom for atom in bound.atoms if atom in point.values), key=str)
         return self._tried(point, bound, rest)
 
@@ -164,7 +173,7 @@ class Sampler:
         """The first of some other values of one atom at which the assumption holds."""
         for atom in self.random.sample(atoms, min(3, len(atoms))):
             for value in self.drawer.others(atom, point.values[atom]):
-                changed = replace(point, values={**point.values, atom: value})
+                changed = point.changed(atom, value)
                 try:
                     if holds(bound.relation, changed.evaluator(50)):
                         return changed

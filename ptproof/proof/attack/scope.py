@@ -32,3 +32,15 @@ class Valuer(Protocol):
     def number(self, expression: sp.Expr, scope: Scope) -> Number:
         """The value where no derivative is taken."""
         ...
+
+
+@dataclass
+class Work:
+    """How many nodes have been evaluated: what an attack costs, the same on every machine."""
+
+    steps: int = 0
+    limit: int = 10**9
+
+
+class Inadmissible(Exception):
+    """A concrete function takes a value that the function was not declared to take."""

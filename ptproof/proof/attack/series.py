@@ -6,17 +6,15 @@ another derivative keeps its own variable.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from fractions import Fraction
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from ptproof.proof.attack.numbers import Arithmetic, NotReal, Number, Undefined, Unsure, size
 
 ZERO, ONE = Fraction(0), Fraction(1)
 
 
-@dataclass(frozen=True, slots=True)
-class Series:
+class Series(NamedTuple):
     """Σ ``terms[k]`` εᵏ in the variable ε of ``tag``, up to the power ``len(terms) - 1``."""
 
     tag: int

@@ -8,10 +8,10 @@ from typing import Any
 
 import sympy as sp
 
-from ptproof.proof.attack.evaluator import Evaluator, Inadmissible
+from ptproof.proof.attack.evaluator import Evaluator
 from ptproof.proof.attack.functions import Concrete
 from ptproof.proof.attack.numbers import Ball, NotReal, Number, Undefined, Unsure, context
-from ptproof.proof.attack.scope import Scope
+from ptproof.proof.attack.scope import Inadmissible, Scope
 from ptproof.proof.attack.series import Calculus
 
 NO_VALUE = (NotReal, Undefined)

@@ -7,9 +7,10 @@ from dataclasses import replace
 from pathlib import Path
 
 from ptproof.errors import InputError
-from ptproof.proof.claim import Claim, Result
+from ptproof.proof.claim import Claim
 from ptproof.proof.kernel.check import Confirmation, check
 from ptproof.proof.kernel.coq import missing
+from ptproof.proof.result import Result
 from ptproof.proof.verdict import Evidence, Verdict
 
 

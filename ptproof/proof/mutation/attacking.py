@@ -18,7 +18,7 @@ from ptproof.proof.substitution import Substitution
 from ptproof.proof.verdict import Witness
 
 _FALSE = eq(0, 1)
-_POINTS = 20
+_POINTS = 16
 
 
 @dataclass(frozen=True)
@@ -29,7 +29,7 @@ class Falsity:
     how: str
 
 
-def falsity(mutant: Mutant, seconds: float, *, seed: int = 0) -> Falsity | None:
+def falsity(mutant: Mutant, seconds: float) -> Falsity | None:
     """How the mutant is seen to be false, or None; where an assumption is weaker, what was excluded is tried first."""
     goal = mutant.claim.goal()
     if isinstance(goal.statement, Exists):
@@ -40,10 +40,10 @@ def falsity(mutant: Mutant, seconds: float, *, seed: int = 0) -> Falsity | None:
         if given not in goal.assumptions and isinstance(given, Relation):
             for part in given.components():
                 outside = replace(goal, assumptions=(*goal.assumptions, part.negation()))
-                hit = attack(outside, seed=seed, points=_POINTS, seconds=seconds).hit
+                hit = attack(outside, points=_POINTS, seconds=seconds).hit
                 if hit is not None:
                     return _looked_at(goal, hit, seconds)
-    hit = attack(goal, seed=seed, points=_POINTS, seconds=seconds).hit
+    hit = attack(goal, points=_POINTS, seconds=seconds).hit
     return None if hit is None else _looked_at(goal, hit, seconds)
 
 

@@ -33,6 +33,10 @@ class Edit:
             return f"{short(self.old)} → {short(self.new)}"
         return self.how.format(short(self.part))
 
+    def said(self, before: str) -> str:
+        """The words, with others before them."""
+        return before + self.words
+
     def apply(self, expression: sp.Expr) -> sp.Expr:
         """The changed expression; an exchange puts each of the two where the other stands.
 
@@ -42,7 +46,13 @@ class Edit:
             If SymPy cannot build it, such as an integral whose bound variable became a number.
         """
         change = {self.old: self.new} | ({self.new: self.old} if self.exchange else {})
-        return expression.xreplace(change)
+        changed = expression.xreplace(change)
+        bound = {node.args[1] for node in changed.atoms(sp.Limit)}.union(
+            *(node.variables for node in changed.atoms(sp.Subs, sp.Derivative))
+        )
+        if not all(variable.is_Symbol for variable in bound):
+            raise ValueError("a bound variable became an expression")  # which SymPy lets pass
+        return changed
 
 
 Letters: TypeAlias = Sequence[sp.Expr]

@@ -10,8 +10,8 @@ import sympy as sp
 
 from ptproof.proof.claim import Claim
 from ptproof.proof.declarations import declared
-from ptproof.proof.mutation.mutant import Candidate
-from ptproof.proof.mutation.statements import letters_of, relation_changes
+from ptproof.proof.mutation.mutant import Candidate, letters_of
+from ptproof.proof.mutation.statements import relation_changes
 from ptproof.proof.statement import All, Assumption, Exists, ForAll, Relation, RelationSign, Smooth, Statement
 
 _OPENED: dict[str, RelationSign] = {"<": "<=", ">": ">="}
@@ -42,13 +42,13 @@ def _assumptions(claim: Claim) -> Iterator[Candidate]:
         for kind, changed in weakened(given):
             yield Candidate(kind, row, partial("{} → {}".format, given, changed), partial(put, changed))
         relation = given.relation if isinstance(given, ForAll) else given
-        for _, _, words, make in relation_changes(relation, letters_of(claim)):
+        for change in relation_changes(relation, letters_of(claim)):
+            make = partial(_with_relation, put, given, change.make)
+            yield Candidate("assumption changed", row, partial(change.said, "in an assumption, "), make)
 
-            def put_changed(given: Assumption = given, put=put, make=make) -> Claim:
-                return put(replace(given, relation=make()) if isinstance(given, ForAll) else make())
 
-            said = lambda words=words: f"in an assumption, {words()}"  # noqa: E731
-            yield Candidate("assumption changed", row, said, put_changed)
+def _with_relation(put: Callable[[Assumption], Claim], given: Assumption, make: Callable[[], Relation]) -> Claim:
+    return put(replace(given, relation=make()) if isinstance(given, ForAll) else make())
 
 
 def weakened(given: Assumption) -> Iterator[tuple[str, Assumption]]:

@@ -8,12 +8,13 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import TypeVar
 
-from ptproof.proof.deciding import run_one
+from ptproof.proof.answering import TIME, run_here
 from ptproof.proof.mutation.attacking import Falsity, falsity
 from ptproof.proof.mutation.equivalence import equivalent, implied
 from ptproof.proof.mutation.haste import in_haste
 from ptproof.proof.mutation.mutant import Mutant
 from ptproof.proof.mutation.outcomes import Outcome, Word
+from ptproof.proof.settling import ATTACK
 from ptproof.proof.verdict import Evidence, Verdict
 from ptproof.reading.limits import OutOfTime, within
 
@@ -31,12 +32,15 @@ class Patience:
         An attack, a proof, or the comparison with the original.
     question
         z3, for one question of a proof.
+    refuted
+        z3, for one question of the proof of what is known to be false.
     attack
-        The attacker; three times that before it counts as proved and not known to be false.
+        The attacker.
     """
 
     step: float = 8.0
     question: float = 0.8
+    refuted: float = 0.3
     attack: float = 0.3
 
 
@@ -55,28 +59,40 @@ def _judged(mutant: Mutant, patience: Patience, steps: _Steps) -> Outcome:
         why = steps.take("comparison", lambda: implied(mutant), "")
     if not why:
         false = steps.take("attack", lambda: falsity(mutant, patience.attack), None)
-    evidence = steps.take("proof", lambda: run_one(mutant.claim), _NO_ANSWER)
-    proved = evidence.verdict is Verdict.PROVED
-    if false is None and evidence.verdict is Verdict.REFUTED:
-        false = Falsity(evidence.witness, evidence.detail)
+    with in_haste(patience.refuted if false else patience.question):
+        evidence = run_here(mutant.claim, patience.step)
+        if evidence.engine == TIME:
+            _wait_for_the_rest()
+    if false is None:
+        false = _by_the_proof(evidence)
     if false is None:
         how = steps.take("comparison", lambda: equivalent(mutant), "")
-        if not how and not restates:
+        if evidence.verdict is Verdict.PROVED and not how and not restates:
             why = steps.take("comparison", lambda: implied(mutant), "")
-    if false is None and proved and not how and not why:
-        false = steps.take("attack", lambda: falsity(mutant, 3 * patience.attack, seed=1), None)
     if false is not None:
         return _false(mutant, false, evidence, steps.troubles)
     if how:
         return _outcome(mutant, Word.EQUIVALENT, how)
-    if proved:
+    if evidence.verdict is Verdict.PROVED:
         return _outcome(mutant, Word.PROVED, why or evidence.detail)
     return _outcome(mutant, Word.UNDECIDED, "; ".join(filter(None, [why, evidence.detail, *steps.troubles])))
 
 
+def _by_the_proof(evidence: Evidence) -> Falsity | None:
+    """What an engine refuted, or what the attack met before something was to count as proved."""
+    if evidence.verdict is Verdict.REFUTED:
+        return Falsity(evidence.witness, evidence.detail)
+    return Falsity(None, evidence.detail) if _shows_what_is_false(evidence) else None
+
+
+def _shows_what_is_false(evidence: Evidence) -> bool:
+    """Whether an engine proved it, and only the attacker kept it from counting."""
+    return any(item.engine == ATTACK and item.verdict is Verdict.REFUTED for item in evidence.besides)
+
+
 def _false(mutant: Mutant, false: Falsity, evidence: Evidence, troubles: list[str]) -> Outcome:
     """The outcome of a mutant that is false; only exact values refute it."""
-    if evidence.verdict is Verdict.PROVED:
+    if evidence.verdict is Verdict.PROVED or _shows_what_is_false(evidence):
         return _outcome(mutant, Word.PROVED, f"{false.how}; {evidence.engine}: {evidence.detail}", false)
     if false.witness is None and evidence.verdict is not Verdict.REFUTED:
         return _outcome(mutant, Word.UNDECIDED, "; ".join([false.how, evidence.detail, *troubles]), false)
@@ -86,9 +102,6 @@ def _false(mutant: Mutant, false: Falsity, evidence: Evidence, troubles: list[st
 def unanswered(mutant: Mutant, reason: str) -> Outcome:
     """The outcome of a mutant whose process came to no end, or to a bad one."""
     return Outcome(mutant.kind, mutant.change, "", Word.UNDECIDED, reason)
-
-
-_NO_ANSWER = Evidence("time limit", Verdict.UNDECIDED, "the proof had no answer in time")
 
 
 def _outcome(mutant: Mutant, word: Word, why: str, false: Falsity | None = None) -> Outcome:

@@ -11,7 +11,7 @@ from ptproof.proof.mutation.hypotheses import changed_hypotheses
 from ptproof.proof.mutation.mutant import Candidate, Mutant, Place
 from ptproof.proof.mutation.statements import changed_statements
 
-PER_CLAIM = 22
+PER_CLAIM = 21
 
 
 def mutants(claim: Claim, others: Sequence[Claim] = (), *, count: int = PER_CLAIM, seed: int = 0) -> list[Mutant]:

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 from ptproof.proof.claim import Claim
+from ptproof.proof.mutation.edits import Letters
+from ptproof.proof.statement import free_symbols, undefined_functions
 
 Place: TypeAlias = tuple[str | int, ...]
 
@@ -44,3 +46,9 @@ class Candidate:
     row: Place
     words: Callable[[], str]
     make: Callable[[], Claim]
+
+
+def letters_of(claim: Claim) -> Letters:
+    """The symbols and undefined functions that the claim speaks of, in the order of their names."""
+    spoken_of = [claim.statement, *claim.assumptions]
+    return sorted([*free_symbols(spoken_of), *undefined_functions(spoken_of)], key=str)

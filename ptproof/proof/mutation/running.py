@@ -6,6 +6,7 @@ import os
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import TypeAlias
 
 from ptproof.errors import InputError
@@ -18,7 +19,8 @@ from ptproof.proof.mutation.outcomes import Mutation, Outcome
 from ptproof.proof.verdict import Verdict
 from ptproof.reading.limits import Answered, Workers, check_seconds
 
-_PATIENCE = 40  # steps that the mutants of one claim may take to their limit before each is tried on its own
+SHARES = 4  # of the mutants of a claim, so that no process is left with much at the end
+_PATIENCE = 12  # steps that a share may take to their limit before each mutant is tried on its own
 Progress: TypeAlias = Callable[[Claim, Outcome], None]
 
 
@@ -112,14 +114,8 @@ def corruptible(claims: Iterable[Claim], select: str = "") -> tuple[Claim, ...]:
 
 def _here(claims: Sequence[Claim], setting: Setting) -> Iterator[tuple[Claim, int, Outcome]]:
     for claim, others in neighbours(claims):
-        for place, outcome in enumerate(_judged(claim, others, setting)):
-            yield claim, place, outcome
-
-
-def _judged(claim: Claim, others: Sequence[Claim], setting: Setting, only: int | None = None) -> Iterator[Outcome]:
-    for place, mutant in enumerate(_made(claim, others, setting)):
-        if only is None or place == only:
-            yield judge(mutant, Patience(setting.timeout))
+        for place, mutant in enumerate(_made(claim, others, setting)):
+            yield claim, place, judge(mutant, Patience(setting.timeout))
 
 
 def _made(claim: Claim, others: Sequence[Claim], setting: Setting) -> list[Mutant]:
@@ -129,27 +125,32 @@ def _made(claim: Claim, others: Sequence[Claim], setting: Setting) -> list[Mutan
 def _in_workers(
     claims: Sequence[Claim], derivation: Derivation, workers: int, setting: Setting
 ) -> Iterator[tuple[Claim, int, Outcome]]:
-    """The mutants of one claim at a time in each process; where it dies or hangs, each of them again on its own."""
+    """A share of the mutants of a claim at a time in each process; where it dies or hangs, each of them on its own."""
     near = {claim.id: others for claim, others in neighbours(claims)}
     by_id = {claim.id: claim for claim in claims}
     files = tuple(sorted({derivation.homes[claim.id] for claim in claims if claim.id in derivation.homes}))
-    tasks = {id: (id, tuple(other.id for other in others), setting) for id, others in near.items()}
     # What assumes most takes longest, and shall not be what is waited for at the end.
-    tasks = dict(sorted(tasks.items(), key=lambda item: -len(by_id[item[0]].assumptions)))
-    with Workers(min(workers, max(len(claims), 1)), start=read, arguments=(files,)) as processes:
+    order = sorted(claims, key=lambda claim: -len(claim.assumptions))
+    named = {claim.id: tuple(other.id for other in near[claim.id]) for claim in claims}
+    tasks = {
+        (claim.id, share): (claim.id, named[claim.id], setting, share, SHARES)
+        for claim in order for share in range(SHARES)
+    }  # fmt: skip
+    with Workers(min(workers, len(tasks)), start=read, arguments=(files,)) as processes:
         lost = []
-        for id, outcome in processes.each(_PATIENCE * setting.timeout, judge_claim, tasks):
+        for (id, share), outcome in processes.each(_PATIENCE * setting.timeout, judge_share, tasks):
             if isinstance(outcome, Answered):
-                for place, item in enumerate(outcome.answer):
+                for place, item in outcome.answer:
                     yield by_id[id], place, item
             else:
-                lost.append(id)
-        for id in lost:
+                lost.append((id, share))
+        for id, share in lost:
             made = _made(by_id[id], near[id], setting)
-            single = {place: (*tasks[id], place) for place in range(len(made))}
-            for place, answer in processes.each(2 * STEPS * setting.timeout, judge_one, single):
+            places = range(share, len(made), SHARES)
+            single = {place: (id, named[id], setting, place, len(made)) for place in places}
+            for place, answer in processes.each(STEPS * setting.timeout, judge_share, single):
                 if isinstance(answer, Answered):
-                    yield by_id[id], place, answer.answer
+                    yield by_id[id], place, answer.answer[0][1]
                 else:
                     yield by_id[id], place, unanswered(made[place], answer.reason)
 
@@ -162,11 +163,14 @@ def read(files: Sequence[str]) -> None:
     _read.update(claims_in(files))
 
 
-def judge_claim(id: str, others: Sequence[str], setting: Setting) -> list[Outcome]:
-    """In a worker: what comes of each mutant of a claim that was read."""
-    return list(_judged(_read[id], [_read[other] for other in others], setting))
+def judge_share(
+    id: str, others: tuple[str, ...], setting: Setting, first: int, every: int
+) -> list[tuple[int, Outcome]]:
+    """In a worker: what comes of some mutants of a claim that was read, from the first one every so many."""
+    made = _remembered(id, others, setting)
+    return [(place, judge(made[place], Patience(setting.timeout))) for place in range(first, len(made), every)]
 
 
-def judge_one(id: str, others: Sequence[str], setting: Setting, place: int) -> Outcome:
-    """In a worker: what comes of one mutant of a claim that was read."""
-    return next(_judged(_read[id], [_read[other] for other in others], setting, only=place))
+@lru_cache(maxsize=2)
+def _remembered(id: str, others: tuple[str, ...], setting: Setting) -> list[Mutant]:
+    return _made(_read[id], [_read[other] for other in others], setting)

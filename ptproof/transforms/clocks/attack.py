@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Protocol
 
 import sympy as sp
-from sympy.core.relational import Relational
 
 from ptproof.proof.attack import insist
 from ptproof.proof.claim import Goal
@@ -42,17 +41,15 @@ class ChangeOfTime(Protocol):
     @property
     def name(self) -> str: ...
 
-    @property
-    def conditions(self) -> tuple[Relational, ...]: ...
-
 
 def goals(clock: ChangeOfTime) -> tuple[Goal, ...]:
-    """What a clock promises, as goals: on its interval in t, and on the whole of its half-line in τ.
+    """What a clock promises, as goals: on its interval in t, and at the times in τ that these lead to.
 
-    Derivatives and compositions stay unevaluated, so that the clock's own are held against others.
+    What is ``given`` of the letters of a capped clock is assumed. Derivatives and compositions stay unevaluated, so
+    that the clock's own are held against others.
     """
     t, tau = clock.t, clock.tau
-    given = [Relation(item.lhs, item.rel_op, item.rhs) for item in clock.conditions]
+    given = list(getattr(clock, "given", ()))
     in_t = [*given, ge(t, clock.start)]
     if clock.horizon is not sp.oo:
         in_t.append(lt(t, clock.start + clock.horizon))
@@ -76,7 +73,7 @@ def goals(clock: ChangeOfTime) -> tuple[Goal, ...]:
     )
     return (
         Goal(f"{clock.name} in t", there, tuple(in_t)),
-        Goal(f"{clock.name} in τ", again, (*given, ge(tau, clock.start))),
+        Goal(f"{clock.name} in τ", again, (*in_t, Relation(tau, "=", forth))),
         Goal(f"{clock.name} at its start", at_start, tuple(given)),
     )
 

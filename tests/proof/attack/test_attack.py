@@ -7,7 +7,7 @@ import sympy as sp
 
 from ptproof.proof import Goal, eq, ge, gt, le, lt
 from ptproof.proof.attack import attack, points_of
-from ptproof.proof.statement import Assumption, Statement, every
+from ptproof.proof.statement import Assumption, ForAll, Statement, every
 
 x, y, z = sp.symbols("x y z", real=True)
 p, q = sp.symbols("p q", positive=True)
@@ -83,3 +83,12 @@ def test_a_seed_gives_the_same_points() -> None:
     first, second = ([*points_of(goal, seed=5, points=8)] for _ in range(2))
     assert first == second
     assert first != [*points_of(goal, seed=6, points=8)]
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_an_assumption_that_fails_between_the_places_of_a_grid_is_no_assumption_that_holds(seed: int) -> None:
+    """With a large rate a function that vanishes at the start breaks its inequality on a short stretch only."""
+    V, rate = sp.Function("V", nonnegative=True), sp.Symbol("rate", positive=True)
+    grows = ForAll((s,), le(sp.Derivative(V(s), s), rate * V(s)), (ge(s, 0), le(s, t)))
+    goal = Goal("growth", le(V(t), V(0) * sp.exp(rate * t)), (grows, ge(t, 0), ge(rate, 1000)))
+    assert attack(goal, seed=seed).hit is None
