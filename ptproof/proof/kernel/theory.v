@@ -210,7 +210,11 @@ Ltac circle x :=
 Ltac circles := repeat match goal with |- context [sin ?x] => circle x | |- context [cos ?x] => circle x end.
 Ltac opaque := unfold Rdiv;
   repeat match goal with |- context [Derive ?f ?x] => generalize (Derive f x); intro end;
-  repeat match goal with |- context [/ ?x] => generalize (/ x); intro end;
+  repeat match goal with
+  | |- context [/ ?x] =>
+      let H := fresh in
+      first [ assert (H : x * / x = 1) by (apply Rinv_r; sign); revert H; generalize (/ x); intros ? ? | generalize (/ x); intro ]
+  end;
   repeat match goal with
   | |- context [sqrt ?x] => generalize (sqrt x); intro
   | |- context [?f ?x] => is_var f; lazymatch type of (f x) with R => generalize (f x); intro end
@@ -220,7 +224,7 @@ Ltac opaque := unfold Rdiv;
   end.
 Ltac ideal := cbv [Rpow_def.pow] in *; solve [nsatz].
 Ltac angles_of_PI := rewrite ?cos_2PI, ?sin_2PI, ?cos_PI, ?sin_PI, ?cos_PI2, ?sin_PI2, ?cos_0, ?sin_0.
-Ltac trigonometric := expand_angles; angles_of_PI; first [ rational | opaque; circles; first [ rational | ideal ] ].
+Ltac trigonometric := as_reals; expand_angles; angles_of_PI; first [ rational | opaque; circles; first [ rational | ideal ] ].
 
 (* Derivatives of what is written out; those of unknown functions stay as they are. *)
 Ltac head t := lazymatch t with ?g _ => head g | _ => t end.
