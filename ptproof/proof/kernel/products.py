@@ -110,7 +110,8 @@ def _candidates(
     extra: int,
 ) -> list[_Candidate]:
     """The bases times monomials of what is not negative, of no higher degree than the target, and a little more."""
-    degrees = [max((m[i] for m in target), default=0) + extra for i in range(len(generators))]
+    single = [target, *(poly for factors, poly in bases if len(factors) == 1)]
+    degrees = [max((m[i] for poly in single for m in poly), default=0) + extra for i in range(len(generators))]
     total = max(map(sum, target), default=0) + extra
     found: list[_Candidate] = []
     for factors, poly in bases:

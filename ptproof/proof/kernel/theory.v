@@ -210,7 +210,11 @@ Ltac circle x :=
 Ltac circles := repeat match goal with |- context [sin ?x] => circle x | |- context [cos ?x] => circle x end.
 Ltac opaque := unfold Rdiv;
   repeat match goal with |- context [Derive ?f ?x] => generalize (Derive f x); intro end;
-  repeat match goal with |- context [/ ?x] => generalize (/ x); intro end;
+  repeat match goal with
+  | |- context [/ ?x] =>
+      let H := fresh in
+      first [ assert (H : x * / x = 1) by (apply Rinv_r; sign); revert H; generalize (/ x); intros ? ? | generalize (/ x); intro ]
+  end;
   repeat match goal with
   | |- context [sqrt ?x] => generalize (sqrt x); intro
   | |- context [?f ?x] => is_var f; lazymatch type of (f x) with R => generalize (f x); intro end
@@ -220,7 +224,7 @@ Ltac opaque := unfold Rdiv;
   end.
 Ltac ideal := cbv [Rpow_def.pow] in *; solve [nsatz].
 Ltac angles_of_PI := rewrite ?cos_2PI, ?sin_2PI, ?cos_PI, ?sin_PI, ?cos_PI2, ?sin_PI2, ?cos_0, ?sin_0.
-Ltac trigonometric := expand_angles; angles_of_PI; first [ rational | opaque; circles; first [ rational | ideal ] ].
+Ltac trigonometric := as_reals; expand_angles; angles_of_PI; first [ rational | opaque; circles; first [ rational | ideal ] ].
 
 (* Derivatives of what is written out; those of unknown functions stay as they are. *)
 Ltac head t := lazymatch t with ?g _ => head g | _ => t end.
@@ -374,10 +378,39 @@ Ltac reciprocals :=
   | H : context [/ ?d] |- _ => reciprocal d
   end.
 
+(* Two norms in the plane. *)
+Lemma cauchy_schwarz : forall a b c d, a * c + b * d <= sqrt (a ^ 2 + b ^ 2) * sqrt (c ^ 2 + d ^ 2).
+Proof.
+  intros. rewrite <- sqrt_mult by nra. apply Rle_trans with (Rabs (a * c + b * d)); [apply Rle_abs|].
+  rewrite <- sqrt_Rsqr_abs. apply sqrt_le_1_alt. unfold Rsqr.
+  pose proof (pow2_ge_0 (a * d - b * c)). lra.
+Qed.
+Lemma cauchy_schwarz_below : forall a b c d, - (a * c + b * d) <= sqrt (a ^ 2 + b ^ 2) * sqrt (c ^ 2 + d ^ 2).
+Proof.
+  intros. replace (- (a * c + b * d)) with ((- a) * c + (- b) * d) by ring.
+  replace (a ^ 2) with ((- a) ^ 2) by ring. replace (b ^ 2) with ((- b) ^ 2) by ring. apply cauchy_schwarz.
+Qed.
+Ltac norms e f := lazymatch e with sqrt (?a ^ 2 + ?b ^ 2) => lazymatch f with sqrt (?c ^ 2 + ?d ^ 2) =>
+  pose proof (cauchy_schwarz a b c d); pose proof (cauchy_schwarz_below a b c d) end end.
+Ltac about_norms :=
+  match goal with
+  | |- context [?e * ?f] => norms e f
+  | H : ?x = sqrt (?a ^ 2 + ?b ^ 2), K : ?y = sqrt (?c ^ 2 + ?d ^ 2) |- _ =>
+      assert_fails (constr_eq x y);
+      pose proof (cauchy_schwarz a b c d); pose proof (cauchy_schwarz_below a b c d);
+      assert (x * x = a ^ 2 + b ^ 2) by (rewrite H; apply sqrt_sqrt; nra);
+      assert (y * y = c ^ 2 + d ^ 2) by (rewrite K; apply sqrt_sqrt; nra);
+      rewrite <- ?H, <- ?K in *; clear H K
+  end.
+Ltac squares := repeat match goal with
+  | E : ?x * ?x = ?y |- context [?x ^ 2] => replace (x ^ 2) with y by (rewrite <- E; ring)
+  end.
+
 Ltac inequality :=
   first
   [ assumption | lra | solve [sign] | timeout 4 nra
   | solve [interval]
+  | solve [same_arguments; about_norms; squares; first [lra | timeout 4 nra]]
   | solve [about_series; first [lra | timeout 6 nra]]
   | solve [about_sqrt; about_angles; about_powers; first [lra | timeout 4 nra]]
   | solve [about_sqrt; about_powers; reciprocals; first [lra | timeout 8 nra]]
@@ -416,6 +449,7 @@ Ltac equality :=
   | solve [subst; same_arguments; same_values; rational]
   | lra
   | solve [about_sqrt; timeout 10 ideal]
+  | solve [about_sqrt; field_simplify_eq; [ timeout 10 ideal | sides ]]
   | solve [about_sqrt; reciprocals; timeout 10 ideal]
   | solve [cases; first [rational | lra | timeout 4 nra]] ].
 
