@@ -42,6 +42,23 @@ class Obligation:
     relation: Relation | None
     given: tuple[Relation, ...] = ()
     why: str = ""
+    under_binder: bool = False
+
+    @property
+    def necessary(self) -> bool:
+        """Whether ``node`` being defined shows the relation; otherwise it is only enough.
+
+        A power of 0 or of a negative number may be defined where its exponent is a letter, and so may a derivative at
+        a place where two branches meet smoothly, or an integral over an integrand that is not everywhere.
+        """
+        if self.relation is None or self.under_binder:
+            return False
+        if not isinstance(self.node, sp.Pow):
+            return True
+        exponent = self.node.exp
+        if exponent.is_integer is False:
+            return exponent.is_positive is not None
+        return bool(exponent.is_integer and exponent.is_negative)
 
     @property
     def settled(self) -> bool:
@@ -75,7 +92,7 @@ class _Place:
     shown: Collection[sp.Basic] = ()
 
     def needs(self, node: sp.Basic, relation: Relation) -> Obligation:
-        return Obligation(node, relation, self.given)
+        return Obligation(node, relation, self.given, under_binder=self.whole or bool(self.moving))
 
     def moves(self, node: sp.Basic) -> bool:
         return bool(self.moving & node.free_symbols)

@@ -17,6 +17,7 @@ from ptproof.proof import (
     ForAll,
     Goal,
     Implication,
+    Relation,
     Verdict,
     claim,
     comparison,
@@ -325,3 +326,20 @@ def test_a_sabotaged_engine_is_caught_by_the_attack(monkeypatch: pytest.MonkeyPa
     assert results[0].verdict is Verdict.UNDECIDED
     assert results[0].hit is not None
     assert not results[0].as_expected
+
+
+p = sp.Symbol("p", real=True)
+
+
+@pytest.mark.parametrize("assumed", [
+    ge(x**p, 1), eq(y, x**p), ge(x**n, 1), ge(x ** (2 * p), 1),
+])  # fmt: skip
+def test_that_an_assumption_is_defined_shows_no_more_than_it_needs(assumed: Any) -> None:
+    for statement in (gt(x, 0), ge(x, 0), Relation(x, "!=", sp.S.Zero)):
+        assert verdict(statement, reals, assumed) is not Verdict.PROVED
+
+
+def test_where_it_is_defined_is_not_only_where_that_is_plain() -> None:
+    assert verdict(ge(x**p * 0 + sp.Abs(x**p), x**p), reals, where_defined=True) is not Verdict.REFUTED
+    assert verdict(ge(x**n * x, 0), reals, where_defined=True) is not Verdict.PROVED
+    assert verdict(ge(x ** (2 * p) * x, 0), reals, where_defined=True) is not Verdict.PROVED

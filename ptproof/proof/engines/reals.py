@@ -78,7 +78,7 @@ def follows(
     known = list(assumptions)
     needs = list(domain_of(conclusion))
     if where_defined:
-        known += [need.relation for need in needs if need.relation is not None and not need.given]
+        known += [_relation(need) for need in needs if need.necessary and not need.given]
     elif not (defined := are_met(needs, known, facts, seconds=min(seconds, _SECONDS_TO_BE_DEFINED))).shown:
         return defined
     if facts:
@@ -143,7 +143,7 @@ class _Problem:
             names = ", ".join(sorted(map(str, unknown)))
             raise NotAlgebraic(f"not declared real: {names}")
         told = [Implication((), part) for part in assumptions]
-        told += [Implication(need.given, _relation(need)) for need in _domains(assumptions) if _necessary(need)]
+        told += [Implication(need.given, _relation(need)) for need in _domains(assumptions) if need.necessary]
         for fact in facts:
             where = tuple(_relation(need) for need in _domains(fact.hypotheses) if not need.given)
             told.append(Implication((*fact.hypotheses, *where), fact.conclusion, fact.source))
@@ -222,16 +222,6 @@ def _domains(relations: Sequence[Relation]) -> Iterator[Obligation]:
                 yield need
             elif not isinstance(need.node, sp.Limit | sp.Integral | sp.Sum | sp.Product):
                 raise NotAlgebraic(str(need))
-
-
-def _necessary(need: Obligation) -> bool:
-    """Whether being defined shows it: a power of a negative number or of 0 may be, where its exponent is a letter."""
-    if not isinstance(need.node, sp.Pow):
-        return True
-    exponent = need.node.exp
-    if exponent.is_integer is False:
-        return exponent.is_positive is not None
-    return bool(exponent.is_integer and exponent.is_negative)
 
 
 def _relation(need: Obligation) -> Relation:
