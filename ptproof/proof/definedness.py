@@ -154,9 +154,7 @@ def _of(node: sp.Basic, place: _Place) -> Iterator[Obligation]:
             yield from _parts(node.point, place)
             # What the bound variable is declared to be says nothing of the point: a plain real takes its place.
             fresh = {variable: sp.Dummy(variable.name, real=True) for variable in node.variables}
-            there = tuple(
-                eq(fresh[variable], value) for variable, value in zip(node.variables, node.point, strict=True)
-            )
+            there = (eq(fresh[letter], value) for letter, value in zip(node.variables, node.point, strict=True))
             yield from _of(node.expr.xreplace(fresh), replace(place, given=(*place.given, *there)))
         case sp.Integral():
             yield from _integral(node, place)
@@ -235,10 +233,9 @@ def _derivative(node: sp.Derivative, place: _Place) -> Iterator[Obligation]:
 def covers(variable: sp.Symbol, low: sp.Expr, high: sp.Expr) -> bool:
     """Whether a variable of integration may have every value between the ends: what SymPy simplified is then right."""
     kind = {name for name in declared(variable) if name != "finite"}
-    if kind == {"real"}:
-        return True
     above = all(end is sp.oo or end.is_nonnegative for end in (low, high))
-    return kind in ({"positive"}, {"nonnegative"}) and all(declared(variable).values()) and above
+    one_sided = above and kind in ({"positive"}, {"nonnegative"})
+    return all(declared(variable).values()) and (kind == {"real"} or one_sided)
 
 
 def _integral(node: sp.Integral, place: _Place) -> Iterator[Obligation]:
