@@ -144,6 +144,8 @@ class _Attack:
             drop = numbers.sub(place.value(self.field.peak), place.value(self.field.expression))
             parts = [place.value(sp.Derivative(self.field.expression, v, evaluate=False)) for v in self.field.variables]
         except NO_VALUE as error:
+            if self.certificate.verdict is not Verdict.PROVED:
+                return None  # an end that is known so far says nothing of places without a value
             raise self._wrong("the field has a value there", place, str(error)) from None
         slope = numbers.power(numbers.add([numbers.mul(part, part) for part in parts]), Fraction(1, 2))
         kappa = int(self.field.kappa)

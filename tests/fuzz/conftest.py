@@ -33,6 +33,8 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         if item.path.parent == Path(__file__).parent:
             # Hypothesis writes out its strategies when a draw is filtered, and then warns that they are long.
             item.add_marker(pytest.mark.filterwarnings("ignore:Generating overly large repr"))
+            # The limit of an example may strike where Python swallows exceptions, such as while an object dies.
+            item.add_marker(pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning"))
     if sizes.chosen is not None:
         for item in items:
             item.add_marker(pytest.mark.timeout(0))
