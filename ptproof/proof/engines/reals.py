@@ -106,7 +106,7 @@ def are_met(
             return Answer(False, f"{need} is not shown, without which {need.node} is not defined: {answer.how}")
         if not need.given:
             known.append(need.relation)
-    return Answer(True, ", ".join(map(str, needs)))
+    return Answer(True, ", ".join(dict.fromkeys(map(str, needs))))
 
 
 def _follows(
