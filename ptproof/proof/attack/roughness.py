@@ -27,6 +27,7 @@ from ptproof.proof.statement import Smooth
 
 _STEPS = tuple(Fraction(1, 10**k) for k in (6, 11, 16))
 _BOUNDED, _APART = 1e3, 200.0
+_NOISE = 1e-20  # what is smaller may be rounding where a value is 0, and is no jump
 
 
 def rough(statement: Smooth, ready: Prepared, point: Point, digits: int) -> str:
@@ -58,7 +59,7 @@ def _torn(sides: Sequence[Sequence[float]]) -> str:
         return "is not bounded"
     limits = [(values[-1], 2 * abs(values[-1] - values[-2])) for values in sides]
     for (a, e), (b, f) in itertools.combinations(limits, 2):
-        if abs(a - b) > _APART * (e + f) + 1e-9 * (abs(a) + abs(b)):
+        if abs(a - b) > _APART * (e + f) + 1e-9 * (abs(a) + abs(b)) + _NOISE:
             return "jumps"
     return ""
 
