@@ -12,6 +12,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+# The files of the library, each after those that it builds upon.
+LIBRARY = ("Base",)
 # What a theorem may rest on, and what needs it. Nothing else may be assumed.
 AXIOMS: Mapping[str, str] = {
     "ClassicalDedekindReals.sig_forall_dec": "Coq's real numbers",
@@ -79,11 +81,12 @@ def prepare(folder: Path) -> None:
     RuntimeError
         If Coq refuses it: it is another version than the one that this was written for.
     """
-    text = Path(__file__).with_name("theory.v").read_text(encoding="utf-8")
-    (folder / "Theory.v").write_text(text, encoding="utf-8")
-    done = run(folder, "Theory.v", 300)
-    if done.error or done.late:
-        raise RuntimeError(f"Coq refuses the library of tactics: {done.error.strip() or 'time limit'}")
+    for name in LIBRARY:
+        text = (Path(__file__).parent / "theory" / f"{name}.v").read_text(encoding="utf-8")
+        (folder / f"{name}.v").write_text(text, encoding="utf-8")
+        done = run(folder, f"{name}.v", 300)
+        if done.error or done.late:
+            raise RuntimeError(f"Coq refuses {name}.v, of the library of tactics: {done.error.strip() or 'time limit'}")
 
 
 def run(folder: Path, file: str, seconds: float) -> Printed:
@@ -109,7 +112,7 @@ def run(folder: Path, file: str, seconds: float) -> Printed:
 def source(theorems: Sequence[Theorem], seconds: float) -> str:
     """A file in which each theorem states its proposition, proves it and prints what it says and what it rests on."""
     lines = ["From Coq Require Import Reals Lra Psatz Nsatz.", "From Coquelicot Require Import Coquelicot.",
-             "From Ptproof Require Import Theory.", "Open Scope R_scope.", ""]  # fmt: skip
+             f"From Ptproof Require Import {' '.join(LIBRARY)}.", "Open Scope R_scope.", ""]  # fmt: skip
     for theorem in theorems:
         lines += [
             f"Definition {theorem.name} : Prop :=\n  {theorem.text}.\n",
