@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -26,8 +27,9 @@ from ptproof.proof.statement import Exists, Prose, Relation, Smooth, expressions
 FAILS = "the relation fails"
 UNDEFINED = "a side is undefined"
 NOT_REAL = "a side is not real"
+POINTS = 40
 _MISSES_IN_A_ROW = 300
-_WORK = 40_000  # evaluated nodes: less than half a second
+_WORK = 24_000  # evaluated nodes: about a third of a second
 _SMOOTH_POINTS = 8
 _CONFIRMING = 400_000  # evaluated nodes more, for a suspected failure
 _FEW = 12  # points, with which a third of the work is enough
@@ -72,8 +74,12 @@ class Attack:
     detail: str
 
 
-def attack(goal: Goal, *, seed: int = 0, points: int = 60, seconds: float = 2.0) -> Attack:
+def attack(goal: Goal, *, seed: int = 0, points: int = POINTS, seconds: float = math.inf) -> Attack:
     """Try the goal at up to ``points`` points that its assumptions allow, for at most about ``seconds``.
+
+    Without a limit of time the work is limited: the same points are tried on every machine. Of 171 mutants that were
+    hit within 60 points, none was hit after the fortieth, and of 237 that were hit at all, 95 in a hundred were before
+    a sixth of the work was done.
 
     A hit is certain: all assumptions hold there, and at 50, 100 and 200 digits the two sides are apart by more than
     the error, or one of them has no real value. No hit proves nothing.
@@ -100,7 +106,9 @@ def attack(goal: Goal, *, seed: int = 0, points: int = 60, seconds: float = 2.0)
     return Attack(count, tried, None, f"attacked at {count} points")
 
 
-def points_of(goal: Goal, *, seed: int = 0, points: int = 60, seconds: float = 2.0) -> Iterator[dict[Any, Any]]:
+def points_of(
+    goal: Goal, *, seed: int = 0, points: int = POINTS, seconds: float = math.inf
+) -> Iterator[dict[Any, Any]]:
     """Points that the declarations and assumptions of the goal allow, with exact values; the same ones for a seed."""
     ready = prepared(goal)
     found = 0
@@ -113,7 +121,7 @@ def points_of(goal: Goal, *, seed: int = 0, points: int = 60, seconds: float = 2
 
 
 def _candidates(ready: Prepared, goal: Goal, seed: int, end: float) -> Iterator[Point | None]:
-    """Points and misses, until the work is done: the same number of them on every machine that is not too slow."""
+    """Points and misses, until the work is done: the same number of them on every machine, where ``end`` is not met."""
     misses, found = 0, 0
     sampler = Sampler(ready, f"{goal.id}:{seed}")
     for point in sampler.points():

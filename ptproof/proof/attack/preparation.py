@@ -194,6 +194,8 @@ def _bound(relation: Relation, atoms: tuple[Any, ...]) -> Bound:
 def _roots(difference: sp.Expr, atoms: Iterable[Any]) -> tuple[tuple[Any, sp.Expr], ...]:
     found: list[tuple[Any, sp.Expr]] = []
     for atom in sorted(atoms, key=str):
+        if not _polynomial(difference, atom):
+            continue
         letter = sp.Dummy()
         polynomial = difference.xreplace({atom: letter}).as_poly(letter)
         if polynomial is None or polynomial.degree() != 2:
@@ -202,6 +204,15 @@ def _roots(difference: sp.Expr, atoms: Iterable[Any]) -> tuple[tuple[Any, sp.Exp
         root = sp.sqrt(b**2 - 4 * a * c)
         found += [(atom, (-b + root) / (2 * a)), (atom, (-b - root) / (2 * a))]
     return tuple(found)
+
+
+def _polynomial(expression: sp.Expr, atom: Any) -> bool:
+    """Whether it is a polynomial in the atom as it is written: SymPy would rebuild the rest to find that out."""
+    if expression == atom or not expression.has(atom):
+        return True
+    if isinstance(expression, sp.Pow) and not (expression.exp.is_Integer and expression.exp.is_positive):
+        return False
+    return isinstance(expression, sp.Add | sp.Mul | sp.Pow) and all(_polynomial(part, atom) for part in expression.args)
 
 
 def _isolated(difference: sp.Expr, atom: Any) -> Isolated | None:
@@ -228,16 +239,19 @@ def _special(parts: Iterable[Relation], atoms: tuple[Any, ...]) -> Iterable[tupl
     seen: set[sp.Expr] = set()
     for part in parts:
         sides = (part.left, part.right)
-        inside = [node for side in sides for node in sp.preorder_traversal(side)]
-        for expression in (part.left - part.right, *itertools.chain.from_iterable(map(_critical, inside))):
+        nodes = dict.fromkeys(node for side in sides for node in sp.preorder_traversal(side))
+        for expression in (part.left - part.right, *itertools.chain.from_iterable(map(_critical, nodes))):
             if expression in seen or expression.is_number or len(seen) > 40:
                 continue
             seen.add(expression)
-            expanded = sp.expand(expression) if expression.count_ops() < 80 else expression
-            for atom in atoms:
-                one = _isolated(expanded, atom) if expanded.has(atom) else None
+            inside = [atom for atom in atoms if expression.has(atom)]
+            found = [_isolated(expression, atom) for atom in inside]
+            if None in found and expression.count_ops() < 80:
+                expanded = sp.expand_mul(expression)
+                found = [one or _isolated(expanded, atom) for one, atom in zip(found, inside, strict=True)]
+            for one in found:
                 if one is not None:
-                    yield atom, one.bound
+                    yield one.atom, one.bound
 
 
 def _critical(node: sp.Basic) -> Iterable[sp.Expr]:

@@ -24,7 +24,7 @@ from ptproof.proof.attack.values import Drawer
 MISSES = (Unsure, Undefined, NotReal, Inadmissible, OverflowError, ZeroDivisionError, ValueError, RecursionError)
 _SWEEPS = 5
 _LIMIT = 200_000  # nodes that are evaluated at most, also within one point
-_POOL = 30  # functions for each undefined one
+_POOL = 15  # functions for each undefined one
 
 
 @dataclass(frozen=True)

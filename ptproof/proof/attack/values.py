@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import Any
 
 from ptproof.proof.attack.kinds import fits_kind
-from ptproof.proof.attack.numbers import Ball, Number
+from ptproof.proof.attack.numbers import Ball, Number, Unsure, size
 
 _PLAIN = ("1", "2", "0", "1/2", "-1", "3", "-2", "-1/2", "3/2", "5")
 _SMALL = ("1/1000", "1/1000000000", "1/1000000000000000000000000000000", "-1/1000000000")
@@ -16,6 +16,7 @@ _LARGE = ("10", "100", "1000000", "100000000000000000000", "-1000000")
 _HALVES = ("5/2", "-3/2", "1/3", "-2/3", "7/4", "9/10", "11/10")
 AWKWARD = tuple(Fraction(text) for text in (*_PLAIN, *_HALVES, *_LARGE, *_SMALL))
 MODERATE = tuple(Fraction(text) for text in (*_PLAIN, *_HALVES, "10", "1/10"))
+_LONGEST = 400  # bits
 
 
 class Drawer:
@@ -110,8 +111,13 @@ class Drawer:
 
 def _rational(end: Number) -> Fraction:
     """A rational close to the end, of a length that is fit for further work."""
-    if isinstance(end, Ball):
-        sign, mantissa, exponent, _ = end.middle._mpf_
-        exact = Fraction((-1) ** sign * int(mantissa)) * Fraction(2) ** exponent
-        return exact.limit_denominator(10**24) if exact else exact
-    return end
+    if not isinstance(end, Ball):
+        return end
+    bits = size(end.middle)
+    if bits > _LONGEST:
+        raise Unsure("an end is too large for further work")
+    if bits < -_LONGEST:
+        return Fraction(0)
+    sign, mantissa, exponent, _ = end.middle._mpf_
+    exact = Fraction((-1) ** sign * int(mantissa)) * Fraction(2) ** exponent
+    return exact.limit_denominator(10**24)
