@@ -15,6 +15,7 @@ from ptproof.proof.kernel.integrals import integrals
 from ptproof.proof.kernel.limits import near
 from ptproof.proof.kernel.obligations import Part
 from ptproof.proof.kernel.products import products
+from ptproof.proof.kernel.smooth import script as smoothness
 from ptproof.proof.kernel.terms import NoTranslation, term
 from ptproof.proof.kernel.theorem import Proposition
 from ptproof.proof.statement import Relation
@@ -26,6 +27,9 @@ def script(said: Proposition) -> str:
     told = (item for item in assumed if item is not None and item.sign != "!=" and not _trivial(item))
     known = list(dict.fromkeys(told))
     leaves = [_near(part, said) if part.limit is not None else _leaf(part, known, said) for part in said.conclusions]
+    shown = [f"try (assert ({part.text}) by (solve [ {leaf} ]))"
+             for part, leaf in zip(said.conclusions, leaves, strict=True) if part.relation is not None]  # fmt: skip
+    leaves = [smoothness(part, shown) or leaf for part, leaf in zip(said.conclusions, leaves, strict=True)]
     # Coq would rename a variable that is called like a constant of its own.
     steps = [
         *([f"intros {' '.join(said.binders)}"] if said.binders else []),
