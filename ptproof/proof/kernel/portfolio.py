@@ -68,7 +68,9 @@ def _leaf(part: Part, known: list[Relation], said: Proposition) -> str:
 
 
 def _equal(relation: Relation, said: Proposition) -> str:
-    """Powers of one base by each other, before anything else is tried."""
+    """Powers of one base by each other, and angles at the ends of integrals, before anything else is tried."""
+    if relation.has(sp.Integral) and relation.has(sp.sin, sp.cos):
+        return "try (solve [ at_multiples_of_PI; rational ]); leaf_or_say"
     atoms = Atoms.over(said.names)
     atoms.choose((relation.left, relation.right))
     try:
