@@ -63,8 +63,15 @@ def _leaf(part: Part, known: list[Relation], said: Proposition) -> str:
             tries += way(part.relation, known, said)
         except (NoTranslation, sp.PolynomialError):
             continue
+    if part.relation.sign != "!=" and _powers(part.relation):
+        tries.append("solve [ by_growth ]")
     quick = "quickly"
     return "; ".join([quick, *(f"try ({hint})" for hint in tries), "leaf_or_say"])
+
+
+def _powers(relation: Relation) -> bool:
+    """Whether a power with an exponent that is no number stands in the relation."""
+    return any(not power.exp.is_number for side in (relation.left, relation.right) for power in side.atoms(sp.Pow))
 
 
 def _equal(relation: Relation, said: Proposition) -> str:

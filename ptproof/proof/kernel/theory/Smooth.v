@@ -1,4 +1,4 @@
-(* Powers of a base that may be 0, smoothness, and tactics that do not lose themselves in definitions. *)
+(* Tactics that do not lose themselves in definitions, and smoothness. Everything here is proved. *)
 From Coq Require Import Reals Lra Lia Psatz Nsatz FunctionalExtensionality.
 From Coquelicot Require Import Coquelicot.
 From Ptproof Require Import Base.
