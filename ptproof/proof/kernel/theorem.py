@@ -196,7 +196,7 @@ def _limit(limit: sp.Limit, value: sp.Basic, names: Names) -> tuple[tuple[Part, 
     target = infinite.get(value) or f"(locally {term(value, names)})"
     domain = [] if place in infinite else list(obligations(place, names))
     domain += [] if value in infinite else list(obligations(value, names))
-    domain += [Part(f"{where} (fun {name} => {part.text})", part.relation, limit, True)
+    domain += [Part(f"{where} (fun {name} => {part.text})", part.relation, limit, True, part.base)
                for part in obligations(expression, names)]  # fmt: skip
     said = f"filterlim (fun {name} => {term(expression, names)}) {where} {target}"
     return tuple(domain), Part(said, Relation(expression, "=", value), limit)

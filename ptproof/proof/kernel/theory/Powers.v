@@ -63,11 +63,17 @@ Ltac plain_powers := repeat match goal with
   | |- context [rpow 1 ?y] => rewrite (rpow_1 y)
   | |- context [rpow ?x ?y] => rewrite (rpow_Rpower x y) by sign
   end.
+Lemma negative : forall x, 0 < x -> - x < 0.
+Proof. intros; lra. Qed.
+Lemma nonpositive : forall x, 0 <= x -> - x <= 0.
+Proof. intros; lra. Qed.
 Ltac grows_by_structure :=
   first
   [ lra
   | lazymatch goal with
     | |- ?x <= ?x => apply Rle_refl
+    | |- - _ < 0 => apply negative; sign
+    | |- - _ <= 0 => apply nonpositive; sign
     | |- ?a * _ <= ?a * _ => apply Rmult_le_compat_l; [ sign | grows_by_structure ]
     | |- _ * ?a <= _ * ?a => apply Rmult_le_compat_r; [ sign | grows_by_structure ]
     | |- _ / ?a <= _ / ?a => apply Rmult_le_compat_r; [ left; apply Rinv_0_lt_compat; sign | grows_by_structure ]
@@ -108,3 +114,73 @@ Ltac by_growth :=
   first
   [ solve [ grows_by_structure ]
   | without_roots; plain_powers; powers_grow; unfold Rdiv; first [ lra | timeout 5 nra ] ].
+
+(* Limits of powers, from the right of 0. *)
+Lemma right_power_of_0 : forall (B : R -> R) q, filterlim B (at_right 0) (locally 0) -> at_right 0 (fun d => 0 <= B d) ->
+  0 < q -> filterlim (fun d => rpow (B d) q) (at_right 0) (locally 0).
+Proof.
+  intros B q L S Q. apply filterlim_locally. intro e.
+  assert (P : 0 < Rpower e (/ q)) by apply exp_pos.
+  generalize (filter_and _ _ S (proj1 (filterlim_locally B 0) L (mkposreal _ P))). apply filter_imp. intros d [N H].
+  unfold ball in *; simpl in *; unfold AbsRing_ball, abs, minus, plus, opp in *; simpl in *.
+  rewrite Ropp_0, Rplus_0_r, Rabs_pos_eq in * by (try apply rpow_nonneg; exact N).
+  destruct N as [N|N].
+  - rewrite rpow_Rpower by exact N. replace (pos e) with (Rpower (Rpower e (/ q)) q).
+    + apply Rpower_grows; [exact Q | lra].
+    + rewrite Rpower_mult. replace (/ q * q) with 1 by (field; lra). apply Rpower_1, cond_pos.
+  - rewrite rpow_zero by lra. apply cond_pos.
+Qed.
+Lemma right_power_of_infinity : forall (B : R -> R) q, filterlim B (at_right 0) (Rbar_locally p_infty) -> q < 0 ->
+  filterlim (fun d => Rpower (B d) q) (at_right 0) (locally 0).
+Proof.
+  intros B q L Q. unfold Rpower.
+  apply (filterlim_comp _ _ _ (fun d => q * ln (B d)) exp (at_right 0) (Rbar_locally m_infty)); [|exact is_lim_exp_m].
+  apply (filterlim_ext (fun d => - (- q * ln (B d)))); [intro; ring|].
+  apply (filterlim_comp _ _ _ (fun d => - q * ln (B d)) Ropp (at_right 0) (Rbar_locally p_infty));
+    [|exact (filterlim_Rbar_opp p_infty)].
+  apply (filterlim_comp _ _ _ (fun d => ln (B d)) (fun y => - q * y) (at_right 0) (Rbar_locally p_infty)).
+  - apply (filterlim_comp _ _ _ B ln (at_right 0) (Rbar_locally p_infty)); [exact L | exact is_lim_ln_p].
+  - pose proof (filterlim_Rbar_mult_l (- q) p_infty) as M. simpl in M.
+    destruct (Rle_dec 0 (- q)) as [P|P]; [|lra]. destruct (Rle_lt_or_eq_dec 0 (- q) P); [exact M | lra].
+Qed.
+Lemma right_rpow_of_infinity : forall (B : R -> R) q, filterlim B (at_right 0) (Rbar_locally p_infty) -> q < 0 ->
+  filterlim (fun d => rpow (B d) q) (at_right 0) (locally 0).
+Proof.
+  intros B q L Q. apply (filterlim_ext_loc (fun d => Rpower (B d) q)); [|apply right_power_of_infinity; assumption].
+  assert (P : Rbar_locally p_infty (fun y => 0 < y)) by (exists 0; auto).
+  assert (K : at_right 0 (fun d => 0 < B d)) by exact (L _ P).
+  revert K. apply filter_imp. intros d H. symmetry. apply rpow_Rpower, H.
+Qed.
+Lemma right_root_of_infinity : forall (B : R -> R) q, filterlim B (at_right 0) (Rbar_locally p_infty) -> 0 < q ->
+  filterlim (fun d => / Rpower (B d) q) (at_right 0) (locally 0).
+Proof.
+  intros B q L Q. apply (filterlim_ext (fun d => Rpower (B d) (- q))); [intro; apply Rpower_Ropp|].
+  apply right_power_of_infinity; [exact L | lra].
+Qed.
+
+Ltac same_powers := repeat match goal with
+  | |- context [Rpower ?a ?y] => match goal with |- context [Rpower ?b y] =>
+      assert_fails (constr_eq a b); let E := fresh in assert (E : a = b) by (field; sides); rewrite E; clear E end
+  | |- context [rpow ?a ?y] => match goal with |- context [rpow ?b y] =>
+      assert_fails (constr_eq a b); let E := fresh in assert (E : a = b) by (field; sides); rewrite E; clear E end
+  end.
+Ltac same_powers_at d := right_at d; same_powers; rational.
+Ltac negative_exponent q e := assert (q < 0) by (enough (0 < e) by (replace q with (- e) by (field; sides); lra); sign).
+(* What the power falls from: a base B that tends to 0, or to infinity as 1/h does. *)
+Ltac falls_with_base B q d :=
+  let H := fresh in
+  assert (H : filterlim (fun d => rpow (B d) q) (at_right 0) (locally 0))
+    by (apply right_power_of_0; [ apply right_continuous; [ differentiable | cbv beta; rational ] | right_at d; sign | sign ]);
+  cbv beta in H.
+Ltac falls_in_base P B h q e d :=
+  let H := fresh in
+  assert (H : filterlim (fun d => P (B d) q) (at_right 0) (locally 0))
+    by (negative_exponent q e;
+        first [ apply (right_rpow_of_infinity B) | apply (right_power_of_infinity B) ]; [ grows h d | assumption ]);
+  cbv beta in H.
+Ltac falls_by_root B h q d :=
+  let H := fresh in
+  assert (H : filterlim (fun d => / Rpower (B d) q) (at_right 0) (locally 0))
+    by (apply (right_root_of_infinity B); [ grows h d | sign ]);
+  cbv beta in H.
+Ltac base_as form := first [ left; positive_as form | apply rpow_defined; [ positive_as form | sign ] ].
