@@ -63,26 +63,27 @@ class _Place:
         """A symbol for what tends to 0: the power, or one divided by it. How it does is a line for Coq."""
         if power not in self.falling:
             base = self.positive(self.there(power.base))
-            at_0 = [part.subs(self.d, 0) for part in sp.fraction(base)]
-            word = "Rpower" if positive_base(power) else "rpow"
-            where, exponent = self.function(base), term(power.exp, self.atoms.names)
-            text = f"({word} {term(base, self.atoms.names)} {exponent})"
-            end, inverse = f"{exponent} {self.name}", self.function(self.positive(1 / base))
-            grown = False
-            if at_0[0] == 0 != at_0[1] and power.exp.is_positive and word == "rpow":
-                self.falls.append(f"falls_with_base {where} {end}")
-            elif at_0[1] == 0 != at_0[0] and power.exp.is_negative:
-                opposite = term(-power.exp, self.atoms.names)
-                self.falls.append(f"falls_in_base {word} {where} {inverse} {exponent} {opposite} {self.name}")
-            elif at_0[1] == 0 != at_0[0] and power.exp.is_positive and word == "Rpower":
-                self.falls.append(f"falls_by_root {where} {inverse} {end}")
-                grown = True
+            ends = [part.subs(self.d, 0) == 0 for part in sp.fraction(base)]
+            where, inverse = self.function(base), self.function(self.positive(1 / base))
+            below = positive_base(power) and power.exp.is_negative
+            exponent = -power.exp if below else power.exp
+            written = term(exponent, self.atoms.names)
+            text = f"({'Rpower' if positive_base(power) else 'rpow'} {term(base, self.atoms.names)} {written})"
+            if ends == [False, True] and positive_base(power) and exponent.is_positive:
+                self.falls.append(f"falls_by_root {where} {inverse} {written} {self.name}")
+                text = f"(/ {text})"
+            elif ends == [False, True] and not positive_base(power) and exponent.is_negative:
+                opposite = term(-exponent, self.atoms.names)
+                self.falls.append(f"falls_in_base {where} {inverse} {written} {opposite} {self.name}")
+            elif ends == [True, False] and not positive_base(power) and exponent.is_positive:
+                self.falls.append(f"falls_with_base {where} {written} {self.name}")
             else:
                 raise NoTranslation("no hint for the limit of such a power")
             symbol = sp.Symbol(self.atoms.fresh(f"p{len(self.falling)}"), positive=True)
-            self.atoms.names[symbol] = f"(/ {text})" if grown else text
+            self.atoms.names[symbol] = text
+            grows = positive_base(power) and not below
+            self.falling[power] = 1 / symbol if grows else symbol
             self.bases.append(base)
-            self.falling[power] = 1 / symbol if grown else symbol
         return self.falling[power]
 
     def positive(self, expression: sp.Expr) -> sp.Expr:

@@ -172,11 +172,11 @@ Ltac falls_with_base B q d :=
   assert (H : filterlim (fun d => rpow (B d) q) (at_right 0) (locally 0))
     by (apply right_power_of_0; [ apply right_continuous; [ differentiable | cbv beta; rational ] | right_at d; sign | sign ]);
   cbv beta in H.
-Ltac falls_in_base P B h q e d :=
+Ltac falls_in_base B h q e d :=
   let H := fresh in
-  assert (H : filterlim (fun d => P (B d) q) (at_right 0) (locally 0))
+  assert (H : filterlim (fun d => rpow (B d) q) (at_right 0) (locally 0))
     by (negative_exponent q e;
-        first [ apply (right_rpow_of_infinity B) | apply (right_power_of_infinity B) ]; [ grows h d | assumption ]);
+        apply (right_rpow_of_infinity B); [ grows h d | assumption ]);
   cbv beta in H.
 Ltac falls_by_root B h q d :=
   let H := fresh in
