@@ -13,6 +13,7 @@ import sympy as sp
 from ptproof.proof.kernel.atoms import Atoms
 from ptproof.proof.kernel.integrals import integrals
 from ptproof.proof.kernel.limits import near
+from ptproof.proof.kernel.norms import norms
 from ptproof.proof.kernel.obligations import Part
 from ptproof.proof.kernel.products import products
 from ptproof.proof.kernel.smooth import script as smoothness
@@ -58,7 +59,7 @@ def _leaf(part: Part, known: list[Relation], said: Proposition) -> str:
     if part.relation.sign == "=":
         return _equal(part.relation, said)
     tries: list[str] = []
-    for way in (_directly, _by_logarithms):
+    for way in (_by_norms, _directly, _by_logarithms):
         try:
             tries += way(part.relation, known, said)
         except (NoTranslation, sp.PolynomialError):
@@ -114,6 +115,12 @@ def _directly(relation: Relation, known: list[Relation], said: Proposition) -> I
     gap = sp.factor(sp.together(goal.right - goal.left))
     if hint := _by_products(gap, facts, atoms):
         yield f"solve [ {'; '.join([*atoms.lines, hint])} ]"
+
+
+def _by_norms(relation: Relation, known: list[Relation], said: Proposition) -> Iterator[str]:
+    if relation.sign != "!=" and (found := norms(relation, known, said.names)) is not None:
+        goal, others, lines = found
+        yield from (f"solve [ {'; '.join([*lines, hint])} ]" for hint in _directly(goal, others, said))
 
 
 def _upright(product: sp.Expr) -> sp.Expr:

@@ -364,3 +364,8 @@ Ltac at_multiples_of_PI :=
   | |- context [cos ?a] =>
       let E := fresh in assert (E : cos a = -1) by (multiple_of_PI a; rewrite cos_multiple; cbn [pow]; ring); rewrite E; clear E
   end.
+
+(* Norms: equal calls of an unknown function are made the same, and squares of roots are gone. *)
+Ltac same_call old new :=
+  let E := fresh in assert (E : old = new) by (f_equal; field; sides); rewrite ?E in *; clear E.
+Ltac without_squared_roots := rewrite ?pow2_sqrt by sign.
