@@ -1,4 +1,4 @@
-"""Hints for norms in the plane: what they are put in, equal calls made the same, and Cauchy's inequality for each two."""
+"""Hints for norms in the plane: equal calls made the same, and Cauchy's inequality for each two norms."""
 
 from __future__ import annotations
 
@@ -13,7 +13,9 @@ from ptproof.proof.kernel.terms import term
 from ptproof.proof.statement import Relation
 
 
-def norms(relation: Relation, known: Iterable[Relation], names: Names) -> tuple[Relation, list[Relation], list[str]] | None:
+def norms(
+    relation: Relation, known: Iterable[Relation], names: Names
+) -> tuple[Relation, list[Relation], list[str]] | None:
     """The relation and what is known with norms instead of their letters, and the lines by which Coq follows.
 
     Nothing where no two norms are multiplied.

@@ -95,6 +95,12 @@ Ltac raised e r := lazymatch goal with
       apply (proj2 (quotients_of_roots a b p q r e ltac:(sign) ltac:(sign) ltac:(sign) ltac:(sign) ltac:(sign) ltac:(field; sides)))
   end.
 Ltac without_roots :=
+  repeat match goal with
+  | |- / ?x <= ?y => replace (/ x) with (1 / x) by apply Rmult_1_l
+  | |- ?y <= / ?x => replace (/ x) with (1 / x) by apply Rmult_1_l
+  | |- / ?x < ?y => replace (/ x) with (1 / x) by apply Rmult_1_l
+  | |- ?y < / ?x => replace (/ x) with (1 / x) by apply Rmult_1_l
+  end;
   try first [ apply quotients_le; [ sign | sign | sign | ] | apply quotients_lt; [ sign | sign | sign | ] ];
   match goal with
   | |- context [_ / Rpower _ ?r] =>
