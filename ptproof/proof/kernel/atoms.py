@@ -99,6 +99,13 @@ class Atoms:
                 self.powers.setdefault(base, []).append(best)
                 left = {e for e in left if e != best and _whole(e, best) is None}
 
+    def _before(self, expression: sp.Basic) -> int:
+        """Where the line for an atom stands: before those of the atoms in it, which would change its text."""
+        inside = tuple(f"try (atom {symbol} " for part, symbol in self.made.items() if expression.has(part))
+        own = f"try (atom {self.made[expression]} "
+        places = (i for i, line in enumerate(self.lines) if line.startswith(inside) and not line.startswith(own))
+        return next(places, len(self.lines))
+
     def _atom(self, expression: sp.Basic) -> sp.Symbol:
         if expression not in self.made:
             text = term(expression, self.names)
@@ -108,7 +115,7 @@ class Atoms:
             symbol = sp.Symbol(name, real=True, **sign)
             self.made[expression] = symbol
             self.names[symbol] = name
-            self.lines.append(f"try (atom {name} {text})")
+            self.lines.insert(self._before(expression), f"try (atom {name} {text})")
         return self.made[expression]
 
 

@@ -9,7 +9,7 @@ import sympy as sp
 from ptproof.proof.kernel.atoms import Atoms
 from ptproof.proof.kernel.names import Names
 from ptproof.proof.kernel.obligations import Part
-from ptproof.proof.kernel.terms import NoTranslation, term
+from ptproof.proof.kernel.terms import NoTranslation, positive_base, term
 from ptproof.proof.statement import Relation
 
 
@@ -29,6 +29,9 @@ class _Place:
         else:
             raise NoTranslation("no hint for a limit at this place")
         self.decaying: dict[sp.Symbol, sp.Expr] = {}
+        self.falling: dict[sp.Basic, sp.Expr] = {}
+        self.bases: list[sp.Expr] = []
+        self.falls: list[str] = []
 
     def there(self, expression: sp.Basic) -> sp.Expr:
         """The expression in d, rational in d, in what does not move, and in exponentials."""
@@ -42,6 +45,8 @@ class _Place:
             return self.there(expression.base) ** expression.exp
         if isinstance(expression, sp.exp):
             return self._exponential(self.there(expression.args[0]))
+        if isinstance(expression, sp.Pow) and not expression.exp.has(self.variable):
+            return self._power(expression)
         raise NoTranslation("no hint for the limit of such a function")
 
     def _exponential(self, argument: sp.Expr) -> sp.Expr:
@@ -53,6 +58,33 @@ class _Place:
         self.atoms.names[symbol] = f"(exp (- {text}))"
         self.decaying[symbol] = speed
         return symbol
+
+    def _power(self, power: sp.Pow) -> sp.Expr:
+        """A symbol for what tends to 0: the power, or one divided by it. How it does is a line for Coq."""
+        if power not in self.falling:
+            base = self.positive(self.there(power.base))
+            ends = [part.subs(self.d, 0) == 0 for part in sp.fraction(base)]
+            where, inverse = self.function(base), self.function(self.positive(1 / base))
+            below = positive_base(power) and power.exp.is_negative
+            exponent = -power.exp if below else power.exp
+            written = term(exponent, self.atoms.names)
+            text = f"({'Rpower' if positive_base(power) else 'rpow'} {term(base, self.atoms.names)} {written})"
+            if ends == [False, True] and positive_base(power) and exponent.is_positive:
+                self.falls.append(f"falls_by_root {where} {inverse} {written} {self.name}")
+                text = f"(/ {text})"
+            elif ends == [False, True] and not positive_base(power) and exponent.is_negative:
+                opposite = term(-exponent, self.atoms.names)
+                self.falls.append(f"falls_in_base {where} {inverse} {written} {opposite} {self.name}")
+            elif ends == [True, False] and not positive_base(power) and exponent.is_positive:
+                self.falls.append(f"falls_with_base {where} {written} {self.name}")
+            else:
+                raise NoTranslation("no hint for the limit of such a power")
+            symbol = sp.Symbol(self.atoms.fresh(f"p{len(self.falling)}"), positive=True)
+            self.atoms.names[symbol] = text
+            grows = positive_base(power) and not below
+            self.falling[power] = 1 / symbol if grows else symbol
+            self.bases.append(base)
+        return self.falling[power]
 
     def positive(self, expression: sp.Expr) -> sp.Expr:
         """As a product of factors, each with the sign that makes it positive close to 0, where that is plain."""
@@ -90,13 +122,19 @@ def near(part: Part, group: list[Part], names: Names) -> str:
     NoTranslation
         If there is no hint for it.
     """
-    if part.limit is None or part.relation is None:
+    if part.limit is None or (part.relation is None and part.base is None):
         raise NoTranslation("no hint for this part of a limit")
     place = _Place(part.limit, names)
     followed: list[sp.Expr] = [
         place.there(other.relation.left) for other in group if other.relation is not None and other.limit == part.limit
     ]
-    lines = place.factors([*followed, *place.decaying.values()])
+    lines = place.factors([*followed, *place.decaying.values(), *place.bases])
+    if part.base is not None:
+        form = place.positive(place.there(part.base))
+        steps = ["near_right_of_0", *lines, f"right_at {place.name}", f"base_as {_text(form, place)}"]
+        return "; ".join([*place.atoms.lines, *steps])
+    if part.relation is None:
+        raise NoTranslation("no hint for this part of a limit")
     if part.domain:
         form = place.positive(place.there(part.relation.left))
         tactic = (
@@ -111,13 +149,13 @@ def near(part: Part, group: list[Part], names: Names) -> str:
 def _followed(relation: Relation, place: _Place, lines: list[str]) -> str:
     form = place.positive(place.there(relation.left))
     steps = [f"limit_at {place.function(form)}"]
-    first = "; ".join([*lines, f"same_at {place.name}"])
+    first = "; ".join([*lines, f"{'same_powers_at' if place.falling else 'same_at'} {place.name}"])
     if relation.right is sp.oo:
         rest = [f"grows {place.function(place.positive(1 / form))} {place.name}"]
     else:
         rest = [f"decays {place.function(argument)} {place.function(place.positive(1 / argument))} {place.name}"
                 for argument in place.decaying.values()]  # fmt: skip
-        rest.append("tends")
+        rest += [*place.falls, "tends"]
     return "; ".join([*place.atoms.lines, f"{steps[0]}; [ {first} | {'; '.join([*lines, *rest])} ]"])
 
 

@@ -11,6 +11,7 @@ WORDS = frozenset(re.findall(r"\S+", """
     Prop Set Type R Rbar nat Z IZR INR PI exp ln sin cos tan sinh cosh tanh atan sqrt Rabs Rmax Rmin Rpower rpow pow
     is_integer Rle_dec Rlt_dec Rge_dec Rgt_dec Req_EM_T Derive ex_derive is_derive RInt ex_RInt is_RInt_gen at_point
     at_left at_right locally filterlim Rbar_locally p_infty m_infty Finite True False fun forall exists if then else
+    smooth_at fst snd
 """))  # fmt: skip
 # The words of Coq's own grammar.
 _GRAMMAR = frozenset(re.findall(r"\S+", """

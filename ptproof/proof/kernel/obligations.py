@@ -18,13 +18,15 @@ class Part:
     """One proposition: as text for Coq and, for whoever looks for hints, as a relation.
 
     With a ``limit`` the relation holds near its place: ``domain`` says whether it is what has to be defined there, or
-    what the function tends to.
+    what the function tends to. A ``base`` is that of a power which is defined where the base is positive, or where it
+    is 0 and the exponent is positive.
     """
 
     text: str
     relation: Relation | None = field(default=None, compare=False)
     limit: sp.Limit | None = field(default=None, compare=False)
     domain: bool = field(default=False, compare=False)
+    base: sp.Basic | None = field(default=None, compare=False)
 
 
 def obligations(expression: sp.Basic, names: Names) -> tuple[Part, ...]:
@@ -86,7 +88,7 @@ def _power(power: sp.Pow, names: Names) -> list[Part]:
     if positive_base(power):
         return [_signed(base, ">", names)]
     text = term(base, names)
-    return [Part(f"(0 < {text} \\/ ({text} = 0 /\\ 0 < {term(exponent, names)}))")]
+    return [Part(f"(0 < {text} \\/ ({text} = 0 /\\ 0 < {term(exponent, names)}))", base=base)]
 
 
 def _branches(expression: sp.Piecewise, names: Names) -> list[Part]:

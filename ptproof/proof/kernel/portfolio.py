@@ -13,8 +13,10 @@ import sympy as sp
 from ptproof.proof.kernel.atoms import Atoms
 from ptproof.proof.kernel.integrals import integrals
 from ptproof.proof.kernel.limits import near
+from ptproof.proof.kernel.norms import norms
 from ptproof.proof.kernel.obligations import Part
 from ptproof.proof.kernel.products import products
+from ptproof.proof.kernel.smooth import script as smoothness
 from ptproof.proof.kernel.terms import NoTranslation, term
 from ptproof.proof.kernel.theorem import Proposition
 from ptproof.proof.statement import Relation
@@ -26,6 +28,9 @@ def script(said: Proposition) -> str:
     told = (item for item in assumed if item is not None and item.sign != "!=" and not _trivial(item))
     known = list(dict.fromkeys(told))
     leaves = [_near(part, said) if part.limit is not None else _leaf(part, known, said) for part in said.conclusions]
+    shown = [f"try (assert ({part.text}) by (solve [ {leaf} ]))"
+             for part, leaf in zip(said.conclusions, leaves, strict=True) if part.relation is not None]  # fmt: skip
+    leaves = [smoothness(part, shown) or leaf for part, leaf in zip(said.conclusions, leaves, strict=True)]
     # Coq would rename a variable that is called like a constant of its own.
     steps = [
         *([f"intros {' '.join(said.binders)}"] if said.binders else []),
@@ -54,17 +59,26 @@ def _leaf(part: Part, known: list[Relation], said: Proposition) -> str:
     if part.relation.sign == "=":
         return _equal(part.relation, said)
     tries: list[str] = []
-    for way in (_directly, _by_logarithms):
+    for way in (_by_norms, _directly, _by_logarithms):
         try:
             tries += way(part.relation, known, said)
         except (NoTranslation, sp.PolynomialError):
             continue
+    if part.relation.sign != "!=" and _powers(part.relation):
+        tries.append("solve [ by_growth ]")
     quick = "quickly"
     return "; ".join([quick, *(f"try ({hint})" for hint in tries), "leaf_or_say"])
 
 
+def _powers(relation: Relation) -> bool:
+    """Whether a power with an exponent that is no number stands in the relation."""
+    return any(not power.exp.is_number for side in (relation.left, relation.right) for power in side.atoms(sp.Pow))
+
+
 def _equal(relation: Relation, said: Proposition) -> str:
-    """Powers of one base by each other, before anything else is tried."""
+    """Powers of one base by each other, and angles at the ends of integrals, before anything else is tried."""
+    if relation.has(sp.Integral) and relation.has(sp.sin, sp.cos):
+        return "try (solve [ at_multiples_of_PI; rational ]); leaf_or_say"
     atoms = Atoms.over(said.names)
     atoms.choose((relation.left, relation.right))
     try:
@@ -101,6 +115,12 @@ def _directly(relation: Relation, known: list[Relation], said: Proposition) -> I
     gap = sp.factor(sp.together(goal.right - goal.left))
     if hint := _by_products(gap, facts, atoms):
         yield f"solve [ {'; '.join([*atoms.lines, hint])} ]"
+
+
+def _by_norms(relation: Relation, known: list[Relation], said: Proposition) -> Iterator[str]:
+    if relation.sign != "!=" and (found := norms(relation, known, said.names)) is not None:
+        goal, others, lines = found
+        yield from (f"solve [ {'; '.join([*lines, hint])} ]" for hint in _directly(goal, others, said))
 
 
 def _upright(product: sp.Expr) -> sp.Expr:

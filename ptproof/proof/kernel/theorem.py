@@ -10,7 +10,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from ptproof.proof.claim import Claim
-from ptproof.proof.kernel import declared
+from ptproof.proof.kernel import declared, smooth
 from ptproof.proof.kernel.names import Names, called, identifiers, plain
 from ptproof.proof.kernel.obligations import Part, obligations
 from ptproof.proof.kernel.terms import SIGNS, NoTranslation, term
@@ -20,6 +20,7 @@ from ptproof.proof.statement import (
     Exists,
     ForAll,
     Relation,
+    Smooth,
     Statement,
     expressions_of,
     free_symbols,
@@ -74,6 +75,8 @@ def proposition(claim: Claim) -> Proposition:
     premises += map(Part, declared.of_functions(applied, free, names))
     derivatives = {part for expression in expressions_of(statements) for part in expression.atoms(sp.Derivative)}
     premises += map(Part, declared.of_derivatives(derivatives, names))
+    if isinstance(claim.statement, Smooth):
+        premises += smooth.premises(claim.statement, functions, names)
     for item in claim.assumptions:
         premises += _given(item, names)
     conclusions, domain = _said(claim.statement, names)
@@ -107,6 +110,8 @@ def _free(claim: Claim) -> set[sp.Symbol]:
                 free |= free_symbols([item]) - set(variables)
             case Exists(variables=variables, over=over):
                 free |= free_symbols([item]) - {*variables, *over}
+            case Smooth(variables=variables):
+                free |= free_symbols([item]) | set(variables)
             case Relation() | All():
                 free |= free_symbols([item])
             case _:
@@ -115,9 +120,11 @@ def _free(claim: Claim) -> set[sp.Symbol]:
 
 
 def _bound(statements: Iterable[Statement | Assumption]) -> set[sp.Symbol]:
-    return {symbol for item in statements if isinstance(item, ForAll | Exists) for symbol in item.variables} | {
-        symbol for item in statements if isinstance(item, Exists) for symbol in item.over
-    }
+    return (
+        {symbol for item in statements if isinstance(item, ForAll | Exists) for symbol in item.variables}
+        | {symbol for item in statements if isinstance(item, Exists) for symbol in item.over}
+        | {symbol for item in statements if isinstance(item, Smooth) for symbol in smooth.symbols(item)}
+    )
 
 
 def _sorted(items: Iterable[Any]) -> list[Any]:
@@ -189,7 +196,7 @@ def _limit(limit: sp.Limit, value: sp.Basic, names: Names) -> tuple[tuple[Part, 
     target = infinite.get(value) or f"(locally {term(value, names)})"
     domain = [] if place in infinite else list(obligations(place, names))
     domain += [] if value in infinite else list(obligations(value, names))
-    domain += [Part(f"{where} (fun {name} => {part.text})", part.relation, limit, True)
+    domain += [Part(f"{where} (fun {name} => {part.text})", part.relation, limit, True, part.base)
                for part in obligations(expression, names)]  # fmt: skip
     said = f"filterlim (fun {name} => {term(expression, names)}) {where} {target}"
     return tuple(domain), Part(said, Relation(expression, "=", value), limit)
@@ -218,6 +225,8 @@ def _said(statement: Statement, names: Names) -> tuple[list[Part], list[Part]]:
             parts = [component for part in every for component in part.components()]
         case Exists():
             return [Part(_exists(statement, names))], []
+        case Smooth():
+            return smooth.conclusions(statement, names), []
         case _:
             raise NoTranslation(f"no translation for a statement of the kind {type(statement).__name__.lower()}")
     said = [_sides(part, names) for part in parts]
