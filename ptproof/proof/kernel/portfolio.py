@@ -7,14 +7,17 @@ is not negative. None of them is believed.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import sympy as sp
 
 from ptproof.proof.kernel.atoms import Atoms
+from ptproof.proof.kernel.goals import Goal
 from ptproof.proof.kernel.integrals import integrals
 from ptproof.proof.kernel.limits import near
 from ptproof.proof.kernel.obligations import Part
 from ptproof.proof.kernel.products import products
+from ptproof.proof.kernel.search import by_steps
 from ptproof.proof.kernel.terms import NoTranslation, term
 from ptproof.proof.kernel.theorem import Proposition
 from ptproof.proof.statement import Relation
@@ -52,18 +55,29 @@ def _leaf(part: Part, known: list[Relation], said: Proposition) -> str:
     if part.relation is None or _trivial(part.relation):
         return "leaf_or_say"
     if part.relation.sign == "=":
-        return _equal(part.relation, said)
+        return _equal(part.relation, known, said)
     tries: list[str] = []
     for way in (_directly, _by_logarithms):
         try:
             tries += way(part.relation, known, said)
         except (NoTranslation, sp.PolynomialError):
             continue
+    tries += _by_steps(part.relation, known, said)
     quick = "quickly"
     return "; ".join([quick, *(f"try ({hint})" for hint in tries), "leaf_or_say"])
 
 
-def _equal(relation: Relation, said: Proposition) -> str:
+def _by_steps(relation: Relation, known: list[Relation], said: Proposition) -> Iterator[str]:
+    """After what is quick; the ways of this module close what the steps leave."""
+
+    def directly(goal: Goal) -> Iterator[str]:
+        return _directly(goal.relation, list(goal.known), replace(said, names=goal.names))
+
+    for hint in by_steps(Goal(relation, tuple(known), said.names), [directly]):
+        yield f"solve [ {hint} ]"
+
+
+def _equal(relation: Relation, known: list[Relation], said: Proposition) -> str:
     """Powers of one base by each other, before anything else is tried."""
     atoms = Atoms.over(said.names)
     atoms.choose((relation.left, relation.right))
@@ -72,7 +86,15 @@ def _equal(relation: Relation, said: Proposition) -> str:
     except NoTranslation:
         return "leaf_or_say"
     powers = [line for line in atoms.lines if "power_as" in line]
-    return f"try (solve [ {'; '.join([*powers, 'rational'])} ]); leaf_or_say" if powers else "leaf_or_say"
+    tries = [f"solve [ {'; '.join([*powers, 'rational'])} ]"] if powers else []
+    if _is_by_cases(relation, known):
+        tries += _by_steps(relation, known, said)
+    return "; ".join([*(f"try ({hint})" for hint in tries), "leaf_or_say"])
+
+
+def _is_by_cases(relation: Relation, known: list[Relation]) -> bool:
+    return any(side.has(sp.Max, sp.Min, sp.Abs, sp.Piecewise) for item in (relation, *known)
+               for side in (item.left, item.right))  # fmt: skip
 
 
 def _directly(relation: Relation, known: list[Relation], said: Proposition) -> Iterator[str]:

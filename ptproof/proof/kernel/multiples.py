@@ -1,0 +1,186 @@
+"""A difference as a sum: multiples of what is known, and a rest of plain sign. SymPy finds it, and Coq multiplies out."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import sympy as sp
+
+from ptproof.proof.kernel.atoms import Atoms
+from ptproof.proof.kernel.goals import Goal, brackets, is_shown
+from ptproof.proof.kernel.terms import term
+from ptproof.proof.statement import Relation
+
+_MOST_OPERATIONS = 400
+_MOST_FACTS = 12
+
+
+@dataclass(frozen=True)
+class _Fact:
+    """``top`` is not negative (positive, where strict). The line says how Coq has it from a hypothesis."""
+
+    top: sp.Expr
+    strict: bool
+    line: str
+
+
+@dataclass(frozen=True)
+class _Sum:
+    """``factor`` times the polynomial is the sum of ``weights`` times facts and a rest."""
+
+    factor: sp.Expr
+    weights: tuple[tuple[sp.Expr, _Fact], ...]
+    rest: sp.Expr
+
+
+def by_multiples(goal: Goal) -> Iterator[str]:
+    """The goal's difference from multiples of at most two facts, after every variable with a bound is moved there."""
+    relation = goal.relation.standard()
+    if relation.sign not in ("<", "<="):
+        return
+    atoms = Atoms.over(goal.names)
+    atoms.choose(side for item in goal.relations() for side in (item.left, item.right))
+    wanted = relation.map(atoms)
+    facts = [item.standard().map(atoms) for item in goal.known]
+    for depth, moving in ((1, True), (1, False), (2, True)):
+        names = dict(atoms.names)
+        moved, lines = loosen(facts, names) if moving else ({}, [])
+        gap = sp.factor(sp.together((wanted.right - wanted.left).xreplace(moved)))
+        start = [*atoms.lines, *lines]
+        if is_shown(gap, relation.sign == "<"):
+            yield "; ".join([*start, f"difference_as {_text(gap, names)}"])
+            return
+        top, bottom = sp.fraction(gap)
+        if sp.count_ops(top) > _MOST_OPERATIONS:
+            continue
+        useful = list(_facts([fact.map(lambda side, by=moved: side.xreplace(by)) for fact in facts], names))
+        found = _search(sp.expand(top), useful[:_MOST_FACTS], depth)
+        if found is not None:
+            yield "; ".join([*start, *_lines(found, top, bottom, names)])
+            return
+
+
+def _lines(found: _Sum, top: sp.Expr, bottom: sp.Expr, names: dict[sp.Basic, str]) -> Iterator[str]:
+    yield f"top_of {_text(top, names)} {_text(bottom, names)}"
+    if found.factor != 1:
+        yield f"multiply_by {_text(found.factor, names)}"
+    for _, fact in found.weights:
+        yield fact.line
+    parts = [f"{_text(weight, names)} * {_text(fact.top, names)}" for weight, fact in found.weights]
+    yield f"sum_as ({' + '.join([*parts, *([_text(found.rest, names)] if found.rest != 0 else [])])})"
+
+
+def _facts(relations: Sequence[Relation], names: dict[sp.Basic, str]) -> Iterator[_Fact]:
+    for relation in relations:
+        top, bottom = sp.fraction(sp.factor(sp.together(relation.right - relation.left)))
+        top, bottom = sp.expand(top), sp.factor(bottom)
+        if not top.free_symbols or relation.sign == "!=" or sp.count_ops(top) > _MOST_OPERATIONS:
+            continue
+        if is_shown(bottom, strictly=True):
+            for sign in (1, -1) if relation.sign == "=" else (1,):
+                own = sp.expand(sign * top)
+                if not (own.is_Symbol and is_shown(own)):
+                    line = f"fact_from {_text(bottom, names)} {_text(own, names)}"
+                    yield _Fact(own, relation.sign == "<", line)
+        elif relation.sign != "=":
+            whole = sp.factor(top * bottom)
+            line = f"fact_by_square {_text(bottom, names)} {_text(top, names)} {_text(whole, names)}"
+            yield _Fact(whole, relation.sign == "<", line)
+
+
+def _search(top: sp.Expr, facts: Sequence[_Fact], depth: int) -> _Sum | None:
+    for fact in facts:
+        for factor, weight in _weights(top, fact.top):
+            rest = sp.factor(sp.expand(factor * top - weight * fact.top))
+            if is_shown(rest):
+                return _Sum(factor, ((weight, fact),), rest)
+            if depth > 1 and sp.count_ops(rest) < _MOST_OPERATIONS:
+                others = [other for other in facts if other is not fact]
+                inner = _search(sp.expand(rest), others, depth - 1)
+                if inner is not None:
+                    own = (sp.factor(inner.factor * weight), fact)
+                    return _Sum(sp.factor(inner.factor * factor), (own, *inner.weights), inner.rest)
+    return None
+
+
+def _weights(top: sp.Expr, fact: sp.Expr) -> Iterator[tuple[sp.Expr, sp.Expr]]:
+    """A factor and a weight, both positive, such that factor top - weight fact has a term fewer in some symbol."""
+    seen: set[tuple[sp.Expr, sp.Expr]] = set()
+    for ratio in _ratios(top, sp.expand(fact)):
+        weight, factor = sp.fraction(sp.factor(sp.cancel(ratio)))
+        if not is_shown(factor, strictly=True) and is_shown(-factor, strictly=True):
+            weight, factor = -weight, -factor
+        if not is_shown(weight) or not is_shown(factor, strictly=True) or (factor, weight) in seen or weight == 0:
+            continue
+        seen.add((factor, weight))
+        yield factor, weight
+
+
+def _ratios(top: sp.Expr, fact: sp.Expr) -> Iterator[sp.Expr]:
+    yield top / fact
+    for symbol in sorted(fact.free_symbols, key=str):
+        above = sp.Poly(top, symbol).as_dict()
+        below = sp.Poly(fact, symbol).as_dict()
+        if len(above) * len(below) > 12:
+            continue
+        for ((i,), a), ((j,), b) in itertools.product(sorted(above.items()), sorted(below.items())):
+            if i >= j:
+                yield a / b * symbol ** (i - j)
+
+
+def loosen(facts: Sequence[Relation], names: dict[sp.Basic, str]) -> tuple[dict[sp.Symbol, sp.Expr], list[str]]:
+    """Variables replaced by what they equal, or by a bound and what is above it; and the lines for Coq.
+
+    The variable may have a factor of positive sign in the fact. ``names`` gets the names of what is above.
+    """
+    moved: dict[sp.Symbol, sp.Expr] = {}
+    lines: list[str] = []
+    for relation in facts:
+        if relation.sign == "!=":
+            continue
+        gap = sp.expand((relation.right - relation.left).xreplace(moved))
+        found = _solvable(gap, relation.sign)
+        if found is None:
+            continue
+        symbol, factor = found
+        bound = sp.factor(symbol - gap / factor)
+        text = f"{_text(bound, names)}"
+        if relation.sign == "=":
+            value = bound
+            lines.append(f"replace_by {names[symbol]} {text}")
+        else:
+            strict = relation.sign == "<"
+            name = f"above{len(lines)}"
+            while name in names.values():
+                name += "_"
+            above = sp.Symbol(name, **{"positive" if strict else "nonnegative": True})
+            names[above] = name
+            value = bound + above
+            word = ("above" if strict else "at_least") + ("" if factor == 1 else "_by")
+            scale = "" if factor == 1 else f"{_text(factor, names)} "
+            lines.append(f"{word} {scale}{names[symbol]} {text} {name}")
+        moved = {old: new.xreplace({symbol: value}) for old, new in moved.items()} | {symbol: value}
+    return moved, lines
+
+
+def _solvable(gap: sp.Expr, sign: str) -> tuple[sp.Symbol, sp.Expr] | None:
+    """A symbol that the gap holds in one term with a positive factor; for an equation with a factor 1 or -1."""
+    found: list[tuple[sp.Symbol, sp.Expr]] = []
+    for symbol in gap.free_symbols:
+        factor = gap.coeff(symbol)
+        if factor == 0 or (gap - sp.expand(factor * symbol)).has(symbol) or factor.has(symbol):
+            continue
+        if factor in (1, -1) if sign == "=" else is_shown(factor, strictly=True):
+            found.append((symbol, factor))
+
+    def order(item: tuple[sp.Symbol, sp.Expr]) -> tuple[bool, bool, bool, str]:
+        symbol, factor = item
+        return factor not in (1, -1), symbol.name.startswith("above"), symbol.is_nonnegative is True, symbol.name
+
+    return min(found, key=order, default=None)
+
+
+def _text(expression: sp.Basic, names: dict[sp.Basic, str]) -> str:
+    return brackets(term(expression, names))

@@ -1,0 +1,34 @@
+"""Variables that an equation gives are replaced by what they are equal to."""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from ptproof.proof.kernel.goals import Goal
+from ptproof.proof.statement import Relation
+
+
+def substituted(goal: Goal) -> tuple[list[str], Goal]:
+    """Every equation that is linear in a variable, with a number as its factor, is solved for it."""
+    lines: list[str] = []
+    for _ in goal.known:
+        found = next((pair for item in goal.known if item.sign == "=" and (pair := _solved(item))), None)
+        if found is None:
+            break
+        symbol, value = found
+        lines.append(f"replace_by {goal.names[symbol]} {goal.text(value)}")
+        roots = {part.base for part in goal.atoms(sp.Pow) if part.base == symbol and not part.exp.is_Integer}
+        goal = goal.map(lambda side, old=symbol, new=value: side.xreplace({old: new}))
+        if roots and not isinstance(sp.sqrt(value), sp.Pow) and not value.is_Symbol:
+            lines.append(f"try (root_is {goal.text(value)} {goal.text(sp.sqrt(value))})")
+    return lines, goal
+
+
+def _solved(relation: Relation) -> tuple[sp.Symbol, sp.Expr] | None:
+    gap = sp.expand(relation.right - relation.left)
+    for symbol in sorted(gap.free_symbols, key=lambda s: s.name):
+        factor = gap.coeff(symbol)
+        rest = sp.expand(gap - factor * symbol)
+        if factor.is_Rational and factor != 0 and not rest.has(symbol):
+            return symbol, sp.factor(-rest / factor)
+    return None
