@@ -49,6 +49,9 @@ def by_multiples(goal: Goal) -> Iterator[str]:
         moved, lines = loosen(facts, names) if moving else ({}, [])
         gap = sp.factor(sp.together((wanted.right - wanted.left).xreplace(moved)))
         start = [*atoms.lines, *lines]
+        if line := _contradiction([fact.map(lambda side, by=moved: side.xreplace(by)) for fact in facts], names):
+            yield "; ".join([*start, line])
+            return
         if is_shown(gap, relation.sign == "<"):
             yield "; ".join([*start, f"difference_as {_text(gap, names)}"])
             return
@@ -88,6 +91,16 @@ def _facts(relations: Sequence[Relation], names: dict[sp.Basic, str]) -> Iterato
             whole = sp.factor(top * bottom)
             line = f"fact_by_square {_text(bottom, names)} {_text(top, names)} {_text(whole, names)}"
             yield _Fact(whole, relation.sign == "<", line)
+
+
+def _contradiction(relations: Sequence[Relation], names: dict[sp.Basic, str]) -> str:
+    """The line for a fact that cannot hold."""
+    for relation in relations:
+        top, bottom = sp.fraction(sp.factor(sp.together(relation.right - relation.left)))
+        strict = relation.sign == "<"
+        if relation.sign in ("<", "<=") and is_shown(bottom, strictly=True) and is_shown(-top, strictly=not strict):
+            return f"contradicts {' '.join(_text(part, names) for part in (bottom, top, sp.factor(-top)))}"
+    return ""
 
 
 def _search(top: sp.Expr, facts: Sequence[_Fact], depth: int) -> _Sum | None:
@@ -141,6 +154,10 @@ def loosen(facts: Sequence[Relation], names: dict[sp.Basic, str]) -> tuple[dict[
         if relation.sign == "!=":
             continue
         gap = sp.expand((relation.right - relation.left).xreplace(moved))
+        if nothing := _vanishing(gap, relation.sign):
+            lines.append(f"vanishes {names[nothing]}")
+            moved = {old: new.xreplace({nothing: 0}) for old, new in moved.items()} | {nothing: sp.Integer(0)}
+            continue
         found = _solvable(gap, relation.sign)
         if found is None:
             continue
@@ -163,6 +180,15 @@ def loosen(facts: Sequence[Relation], names: dict[sp.Basic, str]) -> tuple[dict[
             lines.append(f"{word} {scale}{names[symbol]} {text} {name}")
         moved = {old: new.xreplace({symbol: value}) for old, new in moved.items()} | {symbol: value}
     return moved, lines
+
+
+def _vanishing(gap: sp.Expr, sign: str) -> sp.Symbol | None:
+    """The symbol that is 0 because it is not negative and the gap, a negative multiple of it, is not either."""
+    top, bottom = sp.fraction(sp.factor(gap))
+    factors = [part for part in sp.Mul.make_args(-top) if not is_shown(part, strictly=True)]
+    if sign == "<=" and is_shown(bottom, strictly=True) and len(factors) == 1 and factors[0].is_Symbol:
+        return factors[0] if is_shown(factors[0]) else None
+    return None
 
 
 def _solvable(gap: sp.Expr, sign: str) -> tuple[sp.Symbol, sp.Expr] | None:

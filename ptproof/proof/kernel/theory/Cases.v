@@ -27,7 +27,7 @@ Lemma dominated : forall p q r s, 0 <= p -> q ^ 2 = s -> p ^ 2 = r -> s <= r -> 
 Proof. intros p q r s P Q R L. subst. destruct (Rle_dec 0 (p + q)); [assumption|]. exfalso. nra. Qed.
 Lemma dominated_strictly : forall p q r s, 0 <= p -> q ^ 2 = s -> p ^ 2 = r -> s < r -> 0 < p + q.
 Proof. intros p q r s P Q R L. subst. destruct (Rlt_dec 0 (p + q)); [assumption|]. exfalso. nra. Qed.
-Ltac squared := as_reals; rewrite ?Rpow_mult_distr; rewrite ?pow2_sqrt by sign; rational.
+Ltac squared := as_reals; unfold Rdiv; rewrite ?Rpow_mult_distr; rewrite ?pow2_sqrt by sign; rational.
 Ltac dominated_by p q r s :=
   to_difference;
   lazymatch goal with
@@ -228,3 +228,15 @@ Ltac factor_is_zero p q ::=
   match goal with
   | H : ?a = ?b |- _ => let F := fresh in assert (F : p = 0) by (apply (other_factor a b p q H); [ is_not_zero | rational ])
   end.
+
+(* A fact that says less than 0 of what is not negative; or that this is 0. *)
+Ltac contradicts bottom top below :=
+  exfalso; fact_from bottom top;
+  assert (0 < below) by sign || assert (0 <= below) by sign;
+  assert (top = - (below)) by ring; lra.
+Ltac vanishes v :=
+  let E := fresh in assert (E : v = 0) by (apply Rle_antisym; [ | assumption ];
+    match goal with
+    | H : ?a <= ?b |- _ => apply Rnot_lt_le; let L := fresh in intro L;
+        assert (0 < a - b) by (match goal with |- 0 < ?d => field_simplify d; [ sign | sides ] end); lra
+    end); subst v.
