@@ -86,33 +86,32 @@ def _range(symbol: sp.Symbol, known: Sequence[Relation]) -> _Range:
 
 def _one_part(part: sp.Expr, symbol: sp.Symbol, over: _Range, name: str, goal: Goal) -> str | None:
     """That this part is not negative, as a fact called ``name``."""
-    x = goal.names[symbol]
     if is_shown(part):
         return f"assert ({name} : 0 <= {goal.text(part)}) by sign"
+    own, x = goal.names[symbol], goal.fresh("every")
+    variable = sp.Symbol(x, real=True)
+    goal = Goal(goal.relation, goal.known, {**goal.names, variable: x})
+    part, symbol = part.xreplace({symbol: variable}), variable
     said = goal.text(part)
     if over.low is None:
         other = part.subs(symbol, -symbol)
         halves = [_half(side, symbol, sp.Integer(0), None, goal) for side in dict.fromkeys((part, other))]
         if None in halves:
             return None
-        turns = "; ".join(f"turned {goal.text(a.subs(symbol, -symbol))} {goal.text(a)}" for a in _angles(part))
+        turns = "; ".join(f"turned {goal.text(angle)}" for angle in _angles(part))
         functions = [f"(fun {x} => {goal.text(side)})" for side in (part, other)]
         proof = (
             f"apply (both_sides {' '.join(functions)}); [ intro {x}; cbv beta; {turns}; first [ ring | field ]"
             f" | {halves[0]} | {halves[-1]} ]"
         )
-        return f"assert ({name} : 0 <= {said}) by (revert {x}; {_clear(x)}{proof})"
+        return f"assert ({name} : forall {x} : R, 0 <= {said}) by ({proof}); specialize ({name} {own})"
     proof = _half(part, symbol, over.low, over.high, goal)
     if proof is None:
         return None
     low, high = goal.text(over.low), "" if over.high is None else goal.text(over.high)
     between = f"{low} <= {x} <= {high}" if high else f"{low} <= {x}"
     said = f"(forall {x} : R, {between} -> 0 <= {goal.text(part)})"
-    return f"assert ({name} : {said}) by ({proof}); specialize ({name} {x} ltac:(lra))"
-
-
-def _clear(x: str) -> str:
-    return f"match goal with |- forall {x}, _ => idtac | _ => fail end; " if not x else ""
+    return f"assert ({name} : {said}) by ({proof}); specialize ({name} {own} ltac:(lra))"
 
 
 def _angles(part: sp.Expr) -> list[sp.Expr]:
@@ -140,7 +139,7 @@ def _half(part: sp.Expr, symbol: sp.Symbol, low: sp.Expr, high: sp.Expr | None, 
         places = " ".join(map(goal.text, (low, middle, end)))
         return f"apply (in_two {predicate} {places}); [ {proof} | enclosed ]"
     places = " ".join(map(goal.text, (middle, end)))
-    return f"apply (in_three {predicate} {places}); [ {proof} | enclosed | intros; far {goal.text(tail[1])} ]"
+    return f"apply (in_three {predicate} {places}); [ {proof} | enclosed | intros {goal.names[symbol]} ?; far {goal.text(tail[1])} ]"
 
 
 def _start(

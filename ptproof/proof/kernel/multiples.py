@@ -63,6 +63,8 @@ def by_multiples(goal: Goal) -> Iterator[str]:
         if found is not None:
             yield "; ".join([*start, *_lines(found, top, bottom, names)])
             return
+        if depth == 1 and gap.is_Mul and len(gap.args) > 1:
+            yield "; ".join([*start, f"factors_as {_text(gap, names)}"])
 
 
 def _lines(found: _Sum, top: sp.Expr, bottom: sp.Expr, names: dict[sp.Basic, str]) -> Iterator[str]:
@@ -154,6 +156,8 @@ def loosen(facts: Sequence[Relation], names: dict[sp.Basic, str]) -> tuple[dict[
         if relation.sign == "!=":
             continue
         gap = sp.expand((relation.right - relation.left).xreplace(moved))
+        if is_shown(gap) and relation.sign != "=":
+            continue
         if nothing := _vanishing(gap, relation.sign):
             lines.append(f"vanishes {names[nothing]}")
             moved = {old: new.xreplace({nothing: 0}) for old, new in moved.items()} | {nothing: sp.Integer(0)}
@@ -199,7 +203,9 @@ def _solvable(gap: sp.Expr, sign: str) -> tuple[sp.Symbol, sp.Expr] | None:
         if factor == 0 or (gap - sp.expand(factor * symbol)).has(symbol) or factor.has(symbol):
             continue
         if factor in (1, -1) if sign == "=" else is_shown(factor, strictly=True):
-            found.append((symbol, factor))
+            # A sign that is known already must not be lost.
+            if not is_shown(symbol) or is_shown(symbol - gap / factor):
+                found.append((symbol, factor))
 
     def order(item: tuple[sp.Symbol, sp.Expr]) -> tuple[bool, bool, bool, str]:
         symbol, factor = item

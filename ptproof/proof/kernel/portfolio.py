@@ -71,9 +71,12 @@ def _by_steps(relation: Relation, known: list[Relation], said: Proposition) -> I
     """After what is quick; the ways of this module close what the steps leave."""
 
     def directly(goal: Goal) -> Iterator[str]:
-        return _directly(goal.relation, list(goal.known), replace(said, names=goal.names))
+        facts = [item for item in goal.known if item.sign != "!="]
+        return _directly(goal.relation, facts, replace(said, names=goal.names))
 
-    for hint in by_steps(Goal(relation, tuple(known), said.names), [directly]):
+    given = (part.relation for part in said.premises if part.limit is None)
+    apart = (item for item in given if item is not None and item.sign == "!=")
+    for hint in by_steps(Goal(relation, (*known, *apart), said.names), [directly]):
         yield f"solve [ {hint} ]"
 
 

@@ -27,7 +27,9 @@ Lemma dominated : forall p q r s, 0 <= p -> q ^ 2 = s -> p ^ 2 = r -> s <= r -> 
 Proof. intros p q r s P Q R L. subst. destruct (Rle_dec 0 (p + q)); [assumption|]. exfalso. nra. Qed.
 Lemma dominated_strictly : forall p q r s, 0 <= p -> q ^ 2 = s -> p ^ 2 = r -> s < r -> 0 < p + q.
 Proof. intros p q r s P Q R L. subst. destruct (Rlt_dec 0 (p + q)); [assumption|]. exfalso. nra. Qed.
-Ltac squared := as_reals; unfold Rdiv; rewrite ?Rpow_mult_distr; rewrite ?pow2_sqrt by sign; rational.
+Lemma pow2_opp : forall x, (- x) ^ 2 = x ^ 2.
+Proof. intro; ring. Qed.
+Ltac squared := as_reals; unfold Rdiv; rewrite ?Rpow_mult_distr, ?pow2_opp, ?Rpow_mult_distr; rewrite ?pow2_sqrt by sign; rational.
 Ltac dominated_by p q r s :=
   to_difference;
   lazymatch goal with
@@ -165,11 +167,11 @@ Proof.
   intros f g E A B x. destruct (Rle_dec 0 x); [apply A; assumption|].
   rewrite <- (Ropp_involutive x), E. apply B. lra.
 Qed.
-Ltac turned a b := first
-  [ let E := fresh in assert (E : sin a = - sin b) by (rewrite <- sin_neg; f_equal; field); rewrite ?E; clear E
-  | idtac ];
-  first [ let E := fresh in assert (E : cos a = cos b) by (rewrite <- (cos_neg b); f_equal; field); rewrite ?E; clear E
-  | idtac ].
+Ltac turned b :=
+  repeat match goal with
+  | |- context [sin ?c] => assert_fails (constr_eq c b); replace (sin c) with (- sin b) by (rewrite <- sin_neg; f_equal; field)
+  | |- context [cos ?c] => assert_fails (constr_eq c b); replace (cos c) with (cos b) by (rewrite <- (cos_neg b); f_equal; field)
+  end.
 
 (* A fact whose denominator is not 0, whatever its sign. *)
 Lemma top_times_bottom : forall a b top bottom, a < b -> bottom <> 0 -> b - a = top / bottom -> 0 < top * bottom.
@@ -240,3 +242,20 @@ Ltac vanishes v :=
     | H : ?a <= ?b |- _ => apply Rnot_lt_le; let L := fresh in intro L;
         assert (0 < a - b) by (match goal with |- 0 < ?d => field_simplify d; [ sign | sides ] end); lra
     end); subst v.
+
+Ltac each_factor := first
+  [ sign
+  | lazymatch goal with
+    | |- 0 <= _ * _ => apply Rmult_le_pos; each_factor
+    | |- 0 < _ * _ => apply Rmult_lt_0_compat; each_factor
+    | |- 0 <= _ / _ => apply Rdiv_le_0_compat; [each_factor | sign]
+    | |- 0 < _ / _ => apply Rdiv_lt_0_compat; [each_factor | sign]
+    | |- 0 <= _ => timeout 2 nra
+    | |- 0 < _ => timeout 2 nra
+    end ].
+Ltac factors_as e :=
+  to_difference;
+  lazymatch goal with
+  | |- 0 < ?d => replace d with e by rational
+  | |- 0 <= ?d => replace d with e by rational
+  end; each_factor.
