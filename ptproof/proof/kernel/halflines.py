@@ -99,11 +99,10 @@ def _one_part(part: sp.Expr, symbol: sp.Symbol, over: _Range, name: str, goal: G
         if None in halves:
             return None
         turns = "; ".join(f"turned {goal.text(angle)}" for angle in _angles(part))
-        functions = [f"(fun {x} => {goal.text(side)})" for side in (part, other)]
-        proof = (
-            f"apply (both_sides {' '.join(functions)}); [ intro {x}; cbv beta; {turns}; first [ ring | field ]"
-            f" | {halves[0]} | {halves[-1]} ]"
-        )
+        functions = " ".join(f"(fun {x} => {goal.text(side)})" for side in dict.fromkeys((part, other)))
+        word = "both_sides" if len(halves) == 2 else "both_sides_alike"
+        same = f"intro {x}; cbv beta; {turns}; first [ ring | field ]"
+        proof = f"apply ({word} {functions}); [ {' | '.join([same, *(half for half in halves if half)])} ]"
         return f"assert ({name} : forall {x} : R, 0 <= {said}) by ({proof}); specialize ({name} {own})"
     proof = _half(part, symbol, over.low, over.high, goal)
     if proof is None:

@@ -13,8 +13,9 @@ from ptproof.proof.kernel.goals import Goal, brackets, is_shown
 from ptproof.proof.kernel.terms import term
 from ptproof.proof.statement import Relation
 
-_MOST_OPERATIONS = 400
-_MOST_FACTS = 12
+_MOST_OPERATIONS = 200
+_MOST_FACTS = 10
+_MOST_TRIES = 80
 
 
 @dataclass(frozen=True)
@@ -59,7 +60,7 @@ def by_multiples(goal: Goal) -> Iterator[str]:
         if sp.count_ops(top) > _MOST_OPERATIONS:
             continue
         useful = list(_facts([fact.map(lambda side, by=moved: side.xreplace(by)) for fact in facts], names))
-        found = _search(sp.expand(top), useful[:_MOST_FACTS], depth)
+        found = _search(sp.expand(top), useful[:_MOST_FACTS], depth, itertools.count())
         if found is not None:
             yield "; ".join([*start, *_lines(found, top, bottom, names)])
             return
@@ -105,15 +106,17 @@ def _contradiction(relations: Sequence[Relation], names: dict[sp.Basic, str]) ->
     return ""
 
 
-def _search(top: sp.Expr, facts: Sequence[_Fact], depth: int) -> _Sum | None:
+def _search(top: sp.Expr, facts: Sequence[_Fact], depth: int, tries: Iterator[int]) -> _Sum | None:
     for fact in facts:
         for factor, weight in _weights(top, fact.top):
+            if next(tries) > _MOST_TRIES:
+                return None
             rest = sp.factor(sp.expand(factor * top - weight * fact.top))
             if is_shown(rest):
                 return _Sum(factor, ((weight, fact),), rest)
             if depth > 1 and sp.count_ops(rest) < _MOST_OPERATIONS:
                 others = [other for other in facts if other is not fact]
-                inner = _search(sp.expand(rest), others, depth - 1)
+                inner = _search(sp.expand(rest), others, depth - 1, tries)
                 if inner is not None:
                     own = (sp.factor(inner.factor * weight), fact)
                     return _Sum(sp.factor(inner.factor * factor), (own, *inner.weights), inner.rest)

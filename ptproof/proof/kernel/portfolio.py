@@ -23,12 +23,14 @@ from ptproof.proof.kernel.theorem import Proposition
 from ptproof.proof.statement import Relation
 
 
-def script(said: Proposition) -> str:
-    """The tactics for the whole proposition, as one sentence for Coq."""
+def script(said: Proposition, *, thorough: bool = False) -> str:
+    """The tactics for the whole proposition, as one sentence for Coq; the thorough ones take longer to find and try."""
     assumed = (part.relation for part in said.premises if part.limit is None)
     told = (item for item in assumed if item is not None and item.sign != "!=" and not _trivial(item))
     known = list(dict.fromkeys(told))
-    leaves = [_near(part, said) if part.limit is not None else _leaf(part, known, said) for part in said.conclusions]
+    leaves = [
+        _near(part, said) if part.limit is not None else _leaf(part, known, said, thorough) for part in said.conclusions
+    ]
     # Coq would rename a variable that is called like a constant of its own.
     steps = [
         *([f"intros {' '.join(said.binders)}"] if said.binders else []),
@@ -51,18 +53,17 @@ def _trivial(relation: Relation) -> bool:
     return bool(relation.right == 0 and relation.left.is_Symbol and relation.left.is_positive)
 
 
-def _leaf(part: Part, known: list[Relation], said: Proposition) -> str:
+def _leaf(part: Part, known: list[Relation], said: Proposition, thorough: bool) -> str:
     if part.relation is None or _trivial(part.relation):
         return "leaf_or_say"
     if part.relation.sign == "=":
-        return _equal(part.relation, known, said)
-    tries: list[str] = []
+        return _equal(part.relation, known, said, thorough)
+    tries: list[str] = list(_by_steps(part.relation, known, said)) if thorough else []
     for way in (_directly, _by_logarithms):
         try:
             tries += way(part.relation, known, said)
         except (NoTranslation, sp.PolynomialError):
             continue
-    tries += _by_steps(part.relation, known, said)
     quick = "quickly"
     return "; ".join([quick, *(f"try ({hint})" for hint in tries), "leaf_or_say"])
 
@@ -80,7 +81,7 @@ def _by_steps(relation: Relation, known: list[Relation], said: Proposition) -> I
         yield f"solve [ {hint} ]"
 
 
-def _equal(relation: Relation, known: list[Relation], said: Proposition) -> str:
+def _equal(relation: Relation, known: list[Relation], said: Proposition, thorough: bool) -> str:
     """Powers of one base by each other, before anything else is tried."""
     atoms = Atoms.over(said.names)
     atoms.choose((relation.left, relation.right))
@@ -90,14 +91,9 @@ def _equal(relation: Relation, known: list[Relation], said: Proposition) -> str:
         return "leaf_or_say"
     powers = [line for line in atoms.lines if "power_as" in line]
     tries = [f"solve [ {'; '.join([*powers, 'rational'])} ]"] if powers else []
-    if _is_by_cases(relation, known):
+    if thorough:
         tries += _by_steps(relation, known, said)
     return "; ".join([*(f"try ({hint})" for hint in tries), "leaf_or_say"])
-
-
-def _is_by_cases(relation: Relation, known: list[Relation]) -> bool:
-    return any(side.has(sp.Max, sp.Min, sp.Abs, sp.Piecewise) for item in (relation, *known)
-               for side in (item.left, item.right))  # fmt: skip
 
 
 def _directly(relation: Relation, known: list[Relation], said: Proposition) -> Iterator[str]:

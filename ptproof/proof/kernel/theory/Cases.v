@@ -167,6 +167,9 @@ Proof.
   intros f g E A B x. destruct (Rle_dec 0 x); [apply A; assumption|].
   rewrite <- (Ropp_involutive x), E. apply B. lra.
 Qed.
+Lemma both_sides_alike : forall (f : R -> R), (forall x, f (- x) = f x) -> (forall x, 0 <= x -> 0 <= f x) ->
+  forall x, 0 <= f x.
+Proof. intros f E A. apply (both_sides f f); assumption. Qed.
 Ltac turned b :=
   repeat match goal with
   | |- context [sin ?c] => assert_fails (constr_eq c b); replace (sin c) with (- sin b) by (rewrite <- sin_neg; f_equal; field)
