@@ -60,12 +60,21 @@ def by_multiples(goal: Goal) -> Iterator[str]:
         if sp.count_ops(top) > _MOST_OPERATIONS:
             continue
         useful = list(_facts([fact.map(lambda side, by=moved: side.xreplace(by)) for fact in facts], names))
-        found = _search(sp.expand(top), useful[:_MOST_FACTS], depth, itertools.count())
+        found = _search(sp.expand(top), useful[:_MOST_FACTS], depth, relation.sign == "<", itertools.count())
         if found is not None:
             yield "; ".join([*start, *_lines(found, top, bottom, names)])
             return
         if depth == 1 and gap.is_Mul and len(gap.args) > 1:
-            yield "; ".join([*start, f"factors_as {_text(gap, names)}"])
+            yield "; ".join([*start, f"factors_as {_text(_upright(gap), names)}"])
+
+
+def _upright(product: sp.Expr) -> sp.Expr:
+    """The same product, its minus taken into a factor without a plain sign."""
+    constant, factors = product.as_coeff_mul()
+    turned = next((part for part in factors if part.is_Add and not is_shown(part)), None)
+    if constant >= 0 or turned is None:
+        return product
+    return sp.Mul(-constant, *(sp.expand(-part) if part is turned else part for part in factors))
 
 
 def _lines(found: _Sum, top: sp.Expr, bottom: sp.Expr, names: dict[sp.Basic, str]) -> Iterator[str]:
@@ -106,17 +115,20 @@ def _contradiction(relations: Sequence[Relation], names: dict[sp.Basic, str]) ->
     return ""
 
 
-def _search(top: sp.Expr, facts: Sequence[_Fact], depth: int, tries: Iterator[int]) -> _Sum | None:
+def _search(
+    top: sp.Expr, facts: Sequence[_Fact], depth: int, strictly: bool, tries: Iterator[int]
+) -> _Sum | None:
     for fact in facts:
         for factor, weight in _weights(top, fact.top):
             if next(tries) > _MOST_TRIES:
                 return None
             rest = sp.factor(sp.expand(factor * top - weight * fact.top))
-            if is_shown(rest):
+            positive = fact.strict and is_shown(weight, strictly=True)
+            if is_shown(rest, strictly and not positive):
                 return _Sum(factor, ((weight, fact),), rest)
             if depth > 1 and sp.count_ops(rest) < _MOST_OPERATIONS:
                 others = [other for other in facts if other is not fact]
-                inner = _search(sp.expand(rest), others, depth - 1, tries)
+                inner = _search(sp.expand(rest), others, depth - 1, strictly and not positive, tries)
                 if inner is not None:
                     own = (sp.factor(inner.factor * weight), fact)
                     return _Sum(sp.factor(inner.factor * factor), (own, *inner.weights), inner.rest)

@@ -29,7 +29,8 @@ def script(said: Proposition, *, thorough: bool = False) -> str:
     told = (item for item in assumed if item is not None and item.sign != "!=" and not _trivial(item))
     known = list(dict.fromkeys(told))
     leaves = [
-        _near(part, said) if part.limit is not None else _leaf(part, known, said, thorough) for part in said.conclusions
+        _near(part, said, thorough) if part.limit is not None else _leaf(part, known, said, thorough)
+        for part in said.conclusions
     ]
     # Coq would rename a variable that is called like a constant of its own.
     steps = [
@@ -41,7 +42,9 @@ def script(said: Proposition, *, thorough: bool = False) -> str:
     return f"{'; '.join(steps)}; pieces; [> {' | '.join(leaves)} ]"
 
 
-def _near(part: Part, said: Proposition) -> str:
+def _near(part: Part, said: Proposition, thorough: bool) -> str:
+    if thorough:
+        return "try (solve [ near_by_sign ]); leaf_or_say"
     try:
         return f"try (solve [ {near(part, list(said.conclusions), said.names)} ]); leaf_or_say"
     except (NoTranslation, sp.PolynomialError):
@@ -55,7 +58,7 @@ def _trivial(relation: Relation) -> bool:
 
 def _leaf(part: Part, known: list[Relation], said: Proposition, thorough: bool) -> str:
     if part.relation is None or _trivial(part.relation):
-        return "leaf_or_say"
+        return "try (solve [ everywhere ]); leaf_or_say" if thorough else "leaf_or_say"
     if part.relation.sign == "=":
         return _equal(part.relation, known, said, thorough)
     tries: list[str] = list(_by_steps(part.relation, known, said)) if thorough else []

@@ -53,7 +53,7 @@ def _without_cases(goal: Goal, others: Sequence[Way]) -> str:
         sides = goal.relation.left, goal.relation.right
         both = [Goal(Relation(a, "<=", b), goal.known, goal.names) for a, b in (sides, sides[::-1])]
         parts = " | ".join(_without_cases(each, others) for each in both)
-        return f"first [ solve [ quickly; equality ] | between; [> {parts} ] ]"
+        return f"first [ solve [ quickly; equality ] | solve [ known_values ] | between; [> {parts} ] ]"
     hints = [f"{line}; {one_of(_closed(simpler, others))}" for line, simpler in dominated(goal)]
     hints += _closed(goal, others)
     for step in (squared_symbols, roots_of_facts):

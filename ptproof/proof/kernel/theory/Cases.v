@@ -30,11 +30,17 @@ Proof. intros p q r s P Q R L. subst. destruct (Rlt_dec 0 (p + q)); [assumption|
 Lemma pow2_opp : forall x, (- x) ^ 2 = x ^ 2.
 Proof. intro; ring. Qed.
 Ltac squared := as_reals; unfold Rdiv; rewrite ?Rpow_mult_distr, ?pow2_opp, ?Rpow_mult_distr; rewrite ?pow2_sqrt by sign; rational.
+Ltac bounded_sign := first
+  [ sign
+  | lazymatch goal with
+    | |- 0 <= _ * _ => apply Rmult_le_pos; bounded_sign
+    | |- 0 <= _ => about_angles; lra
+    end ].
 Ltac dominated_by p q r s :=
   to_difference;
   lazymatch goal with
-  | |- 0 <= ?d => replace d with (p + q) by rational; apply (dominated p q r s); [ sign | squared | squared | ]
-  | |- 0 < ?d => replace d with (p + q) by rational; apply (dominated_strictly p q r s); [ sign | squared | squared | ]
+  | |- 0 <= ?d => replace d with (p + q) by rational; apply (dominated p q r s); [ bounded_sign | squared | squared | ]
+  | |- 0 < ?d => replace d with (p + q) by rational; apply (dominated_strictly p q r s); [ bounded_sign | squared | squared | ]
   end.
 Lemma root_value : forall x e, 0 <= e -> e ^ 2 = x -> sqrt x = e.
 Proof. intros x e P E. rewrite <- E. apply sqrt_pow2. exact P. Qed.
@@ -262,3 +268,66 @@ Ltac factors_as e :=
   | |- 0 < ?d => replace d with e by rational
   | |- 0 <= ?d => replace d with e by rational
   end; each_factor.
+
+(* Values at places that are known. *)
+Ltac known_values :=
+  same_values; rewrite ?sin_3PI2, ?cos_3PI2, ?sin_PI2, ?cos_PI2, ?sin_PI, ?cos_PI, ?sin_2PI, ?cos_2PI, ?sin_0, ?cos_0;
+  first [ rational | apply root_value; [ sign | squared ] | symmetry; apply root_value; [ sign | squared ] ].
+
+(* The same on every neighbourhood. *)
+Ltac everywhere :=
+  cbv beta;
+  lazymatch goal with
+  | |- locally _ _ => apply filter_forall; intro; everywhere
+  | |- ex_derive _ _ => solve [ differentiable | derivative_sides ]
+  | |- _ => sign
+  end.
+
+(* A power of what is itself a power: the exponents cancel. *)
+Lemma power_of_power : forall v x a b, v = rpow x a -> 0 < x -> a * b = 1 -> Rpower v b = x.
+Proof.
+  intros v x a b E P F. rewrite E, rpow_Rpower by exact P. rewrite Rpower_mult, F. apply Rpower_1. exact P.
+Qed.
+Ltac power_back v x a b :=
+  let E := fresh in
+  assert (E : Rpower v b = x) by
+    (apply (power_of_power v x a b); [ assumption | first [ sign | match goal with H : 0 < _ \/ _ |- _ => destruct H as [H | [_ H]]; [ exact H | exfalso; sign ] end ] | field; sides ]);
+  rewrite ?E in *; clear E.
+
+(* y^e with e > 0 grows without bound where y does. *)
+Lemma power_grows : forall (F : (R -> Prop) -> Prop) (f : R -> R) e, Filter F -> 0 < e ->
+  filterlim f F (Rbar_locally p_infty) -> filterlim (fun d => Rpower (f d) e) F (Rbar_locally p_infty).
+Proof.
+  intros F f e FF P L. unfold Rpower.
+  apply (filterlim_comp _ _ _ (fun d => e * ln (f d)) exp F (Rbar_locally p_infty)); [| exact is_lim_exp_p].
+  apply (filterlim_comp _ _ _ f (fun y => e * ln y) F (Rbar_locally p_infty)); [exact L|].
+  apply (filterlim_comp _ _ _ ln (fun y => e * y) (Rbar_locally p_infty) (Rbar_locally p_infty)); [exact is_lim_ln_p|].
+  intros Q [M HM]. exists (M / e). intros y Y. apply HM. apply (Rmult_lt_compat_l e) in Y; [|exact P].
+  replace (e * (M / e)) with M in Y by (field; lra). exact Y.
+Qed.
+Lemma multiple_grows : forall (F : (R -> Prop) -> Prop) (f : R -> R) c, Filter F -> 0 < c ->
+  filterlim f F (Rbar_locally p_infty) -> filterlim (fun d => c * f d) F (Rbar_locally p_infty).
+Proof.
+  intros F f c FF P L. apply (filterlim_comp _ _ _ f (fun y => c * y) F (Rbar_locally p_infty)); [exact L|].
+  intros Q [M HM]. exists (M / c). intros y Y. apply HM. apply (Rmult_lt_compat_l c) in Y; [|exact P].
+  replace (c * (M / c)) with M in Y by (field; lra). exact Y.
+Qed.
+Lemma quotient_grows : forall c, 0 < c -> filterlim (fun d => c / d) (at_right 0) (Rbar_locally p_infty).
+Proof. intros c P. unfold Rdiv. apply multiple_grows; [typeclasses eauto | exact P | exact filterlim_Rinv_0_right]. Qed.
+Ltac grows_by_parts :=
+  cbv beta;
+  lazymatch goal with
+  | |- filterlim (fun d => Rpower (@?f d) ?e) _ _ => apply power_grows; [ typeclasses eauto | positive_exponent | grows_by_parts ]
+  | |- filterlim (fun d => ?c * @?f d) _ _ => apply multiple_grows; [ typeclasses eauto | sign | grows_by_parts ]
+  | |- filterlim (fun d => ?c / d) _ _ => apply quotient_grows; sign
+  end
+with positive_exponent := first
+  [ sign
+  | match goal with |- 0 < / ?e => apply Rinv_0_lt_compat end;
+    match goal with |- 0 < ?e => field_simplify e; [ sign | sides ] end ].
+Ltac near_by_sign :=
+  lazymatch goal with
+  | |- at_right 0 _ => let d := fresh "d" in generalize right_positive; apply filter_imp; intros d ?; cbv beta;
+      first [ sign | let E := fresh in intro E; field_simplify_eq in E; [ lra | sides ] ]
+  | |- filterlim _ (at_right 0) (Rbar_locally p_infty) => grows_by_parts
+  end.
