@@ -64,7 +64,7 @@ def by_multiples(goal: Goal) -> Iterator[str]:
         if found is not None:
             yield "; ".join([*start, *_lines(found, top, bottom, names)])
             return
-        if depth == 1 and gap.is_Mul and len(gap.args) > 1:
+        if depth == 1 and sum(1 for part in sp.Mul.make_args(top) if part.free_symbols) > 1:
             yield "; ".join([*start, f"factors_as {_text(_upright(gap), names)}"])
 
 

@@ -54,12 +54,13 @@ def _without_cases(goal: Goal, others: Sequence[Way]) -> str:
         both = [Goal(Relation(a, "<=", b), goal.known, goal.names) for a, b in (sides, sides[::-1])]
         parts = " | ".join(_without_cases(each, others) for each in both)
         return f"first [ solve [ quickly; equality ] | solve [ known_values ] | between; [> {parts} ] ]"
-    hints = [f"{line}; {one_of(_closed(simpler, others))}" for line, simpler in dominated(goal)]
-    hints += _closed(goal, others)
+    hints: list[str] = []
     for step in (squared_symbols, roots_of_facts):
         lines, simpler = step(goal)
         if lines:
             hints.append("; ".join([*lines, one_of(_closed(simpler, others))]))
+    hints += [f"{line}; {one_of(_closed(simpler, others))}" for line, simpler in dominated(goal)]
+    hints += _closed(goal, others)
     return one_of(hints)
 
 

@@ -319,6 +319,7 @@ Ltac grows_by_parts :=
   lazymatch goal with
   | |- filterlim (fun d => Rpower (@?f d) ?e) _ _ => apply power_grows; [ typeclasses eauto | positive_exponent | grows_by_parts ]
   | |- filterlim (fun d => ?c * @?f d) _ _ => apply multiple_grows; [ typeclasses eauto | sign | grows_by_parts ]
+  | |- filterlim (Rdiv ?c) _ _ => apply (quotient_grows c); sign
   | |- filterlim (fun d => ?c / d) _ _ => apply quotient_grows; sign
   end
 with positive_exponent := first
