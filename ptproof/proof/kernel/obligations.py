@@ -10,7 +10,7 @@ import sympy as sp
 
 from ptproof.proof.kernel.names import Names
 from ptproof.proof.kernel.terms import SIGNS, NoTranslation, positive_base, term
-from ptproof.proof.statement import Relation, RelationSign
+from ptproof.proof.statement import Exists, Relation, RelationSign
 
 
 @dataclass(frozen=True)
@@ -18,13 +18,15 @@ class Part:
     """One proposition: as text for Coq and, for whoever looks for hints, as a relation.
 
     With a ``limit`` the relation holds near its place: ``domain`` says whether it is what has to be defined there, or
-    what the function tends to.
+    what the function tends to. Where something is said to exist, ``exists`` says so, and ``body`` are its parts for Coq.
     """
 
     text: str
     relation: Relation | None = field(default=None, compare=False)
     limit: sp.Limit | None = field(default=None, compare=False)
     domain: bool = field(default=False, compare=False)
+    exists: Exists | None = field(default=None, compare=False)
+    body: tuple[Part, ...] = field(default=(), compare=False)
 
 
 def obligations(expression: sp.Basic, names: Names) -> tuple[Part, ...]:

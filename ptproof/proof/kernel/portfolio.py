@@ -12,7 +12,8 @@ from dataclasses import replace
 import sympy as sp
 
 from ptproof.proof.kernel.atoms import Atoms
-from ptproof.proof.kernel.goals import Goal
+from ptproof.proof.kernel.declared import of_symbol
+from ptproof.proof.kernel.goals import Goal, brackets
 from ptproof.proof.kernel.integrals import integrals
 from ptproof.proof.kernel.limits import near
 from ptproof.proof.kernel.obligations import Part
@@ -20,6 +21,7 @@ from ptproof.proof.kernel.products import products
 from ptproof.proof.kernel.search import by_steps
 from ptproof.proof.kernel.terms import NoTranslation, term
 from ptproof.proof.kernel.theorem import Proposition
+from ptproof.proof.kernel.witnesses import witnesses
 from ptproof.proof.statement import Relation
 
 
@@ -57,6 +59,8 @@ def _trivial(relation: Relation) -> bool:
 
 
 def _leaf(part: Part, known: list[Relation], said: Proposition, thorough: bool) -> str:
+    if part.exists is not None and thorough and (hint := _witnessed(part, known, said)):
+        return f"try (solve [ {hint} ]); leaf_or_say"
     if part.relation is None or _trivial(part.relation):
         return "try (solve [ everywhere ]); leaf_or_say" if thorough else "leaf_or_say"
     if part.relation.sign == "=":
@@ -69,6 +73,27 @@ def _leaf(part: Part, known: list[Relation], said: Proposition, thorough: bool) 
             continue
     quick = "quickly"
     return "; ".join([quick, *(f"try ({hint})" for hint in tries), "leaf_or_say"])
+
+
+def _witnessed(part: Part, known: list[Relation], said: Proposition) -> str:
+    """The witnesses one after the other, and then the body for them."""
+    values = witnesses(part.exists, known) if part.exists else None
+    if part.exists is None or values is None:
+        return ""
+    steps: list[str] = []
+    for symbol in part.exists.variables:
+        kinds = of_symbol(symbol, said.names[symbol])
+        steps.append(f"exists {brackets(term(values[symbol], said.names))}{'; split; [> solve [ WAY ] | ]' * len(kinds)}")
+        way = " | ".join(f"solve [ {hint} ]" for hint in _by_steps(Relation(sp.Integer(0), "<", values[symbol]), known, said))
+        steps[-1] = steps[-1].replace("WAY", f"first [ sign | {way or 'fail'} ]")
+    leaves = [_leaf(_put(item, values), known, said, True) for item in part.body]
+    intro = f"intros {' '.join(said.names[symbol] for symbol in part.exists.over)}; " if part.exists.over else ""
+    return f"{'; '.join(steps)}; {intro}intros; facts; pieces; [> {' | '.join(leaves)} ]"
+
+
+def _put(part: Part, values: dict[sp.Symbol, sp.Expr]) -> Part:
+    relation = part.relation and part.relation.map(lambda side: side.xreplace(values))
+    return replace(part, relation=relation)
 
 
 def _by_steps(relation: Relation, known: list[Relation], said: Proposition) -> Iterator[str]:

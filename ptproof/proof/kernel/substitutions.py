@@ -30,5 +30,8 @@ def _solved(relation: Relation) -> tuple[sp.Symbol, sp.Expr] | None:
         factor = gap.coeff(symbol)
         rest = sp.expand(gap - factor * symbol)
         if factor.is_Rational and factor != 0 and not rest.has(symbol):
-            return symbol, sp.factor(-rest / factor)
+            value = sp.factor(-rest / factor)
+            # A sign that is known must not be lost.
+            if not symbol.is_nonnegative or value.is_nonnegative:
+                return symbol, value
     return None
