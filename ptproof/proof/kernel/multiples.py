@@ -15,7 +15,7 @@ from ptproof.proof.statement import Relation
 
 _MOST_OPERATIONS = 200
 _MOST_FACTS = 10
-_MOST_TRIES = 80
+_MOST_TRIES = 40
 
 
 @dataclass(frozen=True)
@@ -126,7 +126,7 @@ def _search(
             positive = fact.strict and is_shown(weight, strictly=True)
             if is_shown(rest, strictly and not positive):
                 return _Sum(factor, ((weight, fact),), rest)
-            if depth > 1 and sp.count_ops(rest) < _MOST_OPERATIONS:
+            if depth > 1 and sp.count_ops(rest) < _MOST_OPERATIONS // 2:
                 others = [other for other in facts if other is not fact]
                 inner = _search(sp.expand(rest), others, depth - 1, strictly and not positive, tries)
                 if inner is not None:

@@ -13,7 +13,7 @@ from ptproof.proof.kernel.goals import Goal, Way, one_of
 from ptproof.proof.kernel.halflines import by_halflines
 from ptproof.proof.kernel.multiples import by_multiples
 from ptproof.proof.kernel.roots import dominated, roots_of_facts, squared_symbols
-from ptproof.proof.kernel.substitutions import substituted
+from ptproof.proof.kernel.substitutions import powers_back, substituted
 from ptproof.proof.kernel.terms import NoTranslation
 from ptproof.proof.statement import Relation
 
@@ -31,9 +31,11 @@ def by_steps(goal: Goal, others: Sequence[Way] = ()) -> Iterator[str]:
     others
         More ways to close a goal without roots and cases.
     """
-    lines, simpler = factored(goal)
-    more, simpler = substituted(simpler)
-    lines += more
+    lines: list[str] = []
+    simpler = goal
+    for step in (powers_back, factored, substituted):
+        more, simpler = step(simpler)
+        lines += more
     try:
         yield "; ".join([*lines, _cases(simpler, others, _MOST_CASES)])
     except (NoTranslation, sp.PolynomialError):

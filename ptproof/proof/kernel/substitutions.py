@@ -35,3 +35,18 @@ def _solved(relation: Relation) -> tuple[sp.Symbol, sp.Expr] | None:
             if not symbol.is_nonnegative or value.is_nonnegative:
                 return symbol, value
     return None
+
+
+def powers_back(goal: Goal) -> tuple[list[str], Goal]:
+    """Where v = x^a is known, v^(1/a) is x."""
+    lines: list[str] = []
+    for relation in goal.known:
+        for symbol, power in ((relation.left, relation.right), (relation.right, relation.left)):
+            if relation.sign != "=" or not symbol.is_Symbol or not isinstance(power, sp.Pow):
+                continue
+            base, exponent = power.args
+            for own in [part for part in goal.atoms(sp.Pow) if part.base == symbol and not part.exp.is_number]:
+                if base.is_positive is None and sp.simplify(exponent * own.exp) == 1:
+                    lines.append(f"power_back {' '.join(map(goal.text, (symbol, base, exponent, own.exp)))}")
+                    goal = goal.map(lambda side, old=own, new=base: side.xreplace({old: new}))
+    return lines, goal
