@@ -141,9 +141,7 @@ def _half(part: sp.Expr, symbol: sp.Symbol, low: sp.Expr, high: sp.Expr | None, 
     return f"apply (in_three {predicate} {places}); [ {proof} | enclosed | intros {goal.names[symbol]} ?; far {goal.text(tail[1])} ]"
 
 
-def _start(
-    part: sp.Expr, symbol: sp.Symbol, low: sp.Expr, end: sp.Expr, goal: Goal
-) -> tuple[sp.Expr, str] | None:
+def _start(part: sp.Expr, symbol: sp.Symbol, low: sp.Expr, end: sp.Expr, goal: Goal) -> tuple[sp.Expr, str] | None:
     """A place up to which the part is not negative, and the proof there."""
     chain = [part]
     while sp.simplify(chain[-1].subs(symbol, low)) == 0:

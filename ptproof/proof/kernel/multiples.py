@@ -115,9 +115,7 @@ def _contradiction(relations: Sequence[Relation], names: dict[sp.Basic, str]) ->
     return ""
 
 
-def _search(
-    top: sp.Expr, facts: Sequence[_Fact], depth: int, strictly: bool, tries: Iterator[int]
-) -> _Sum | None:
+def _search(top: sp.Expr, facts: Sequence[_Fact], depth: int, strictly: bool, tries: Iterator[int]) -> _Sum | None:
     for fact in facts:
         for factor, weight in _weights(top, fact.top):
             if next(tries) > _MOST_TRIES:

@@ -83,8 +83,12 @@ def _witnessed(part: Part, known: list[Relation], said: Proposition) -> str:
     steps: list[str] = []
     for symbol in part.exists.variables:
         kinds = of_symbol(symbol, said.names[symbol])
-        steps.append(f"exists {brackets(term(values[symbol], said.names))}{'; split; [> solve [ WAY ] | ]' * len(kinds)}")
-        way = " | ".join(f"solve [ {hint} ]" for hint in _by_steps(Relation(sp.Integer(0), "<", values[symbol]), known, said))
+        steps.append(
+            f"exists {brackets(term(values[symbol], said.names))}{'; split; [> solve [ WAY ] | ]' * len(kinds)}"
+        )
+        way = " | ".join(
+            f"solve [ {hint} ]" for hint in _by_steps(Relation(sp.Integer(0), "<", values[symbol]), known, said)
+        )
         steps[-1] = steps[-1].replace("WAY", f"first [ sign | {way or 'fail'} ]")
     leaves = [_leaf(_put(item, values), known, said, True) for item in part.body]
     intro = f"intros {' '.join(said.names[symbol] for symbol in part.exists.over)}; " if part.exists.over else ""

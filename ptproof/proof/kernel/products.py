@@ -119,8 +119,9 @@ def _candidates(
     total = max(map(sum, target), default=0) + extra
     found: list[_Candidate] = []
     for factors, poly in bases:
-        free = [degrees[i] - max(m[i] for m in poly) if squares or s.is_nonnegative else 0
-                for i, s in enumerate(generators)]
+        free = [
+            degrees[i] - max(m[i] for m in poly) if squares or s.is_nonnegative else 0 for i, s in enumerate(generators)
+        ]
         for powers in _monomials(free, total - max(map(sum, poly))):
             if any(n % 2 for s, n in zip(generators, powers, strict=True) if not s.is_nonnegative):
                 continue

@@ -52,7 +52,7 @@ def dominated(goal: Goal) -> Iterator[tuple[str, Goal]]:
     plain = sp.expand(gap.xreplace(stands))
     if not plain.is_polynomial(*stands.values()):
         return
-    for (powers, value) in sp.Poly(plain, *stands.values()).terms():
+    for powers, value in sp.Poly(plain, *stands.values()).terms():
         key = sp.prod(root ** (power % 2) for root, power in zip(roots, powers, strict=True))
         even = sp.prod(root.base ** (power // 2) for root, power in zip(roots, powers, strict=True))
         groups[key] = groups.get(key, sp.Integer(0)) + value * even

@@ -36,7 +36,9 @@ def _number(symbol: sp.Symbol, exists: Exists, parts: Sequence[Relation]) -> sp.
     points = list(_points(exists.over))
 
     def passes(number: sp.Expr) -> bool:
-        return all(gap(float(number), *point) >= -1e-9 * (1 + math.hypot(*point)) ** 4 for gap in gaps for point in points)
+        return all(
+            gap(float(number), *point) >= -1e-9 * (1 + math.hypot(*point)) ** 4 for gap in gaps for point in points
+        )
 
     good = [number for number in _NUMBERS if passes(number)]
     return good[len(good) // 2] if good else None
