@@ -66,7 +66,7 @@ def factored(goal: Goal) -> tuple[list[str], Goal]:
         if relation.sign != "=" or relation.right.has(*_KINDS) or relation.left.has(*_KINDS):
             continue
         top, bottom = sp.fraction(sp.together(relation.right - relation.left))
-        constant, factors = sp.factor_list(top)
+        _, factors = sp.factor_list(top)
         left = [part for part, _ in factors if part not in nonzero and not _has_sign(part)]
         if len(left) != 1 or (len(factors) == 1 and bottom == 1 and factors[0][1] == 1):
             continue

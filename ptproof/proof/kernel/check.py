@@ -105,7 +105,7 @@ def check(
 def _answers(
     folder: Path, number: int, claims: Sequence[Claim], timeout: float
 ) -> Iterator[tuple[Claim, Confirmation]]:
-    """What Coq says of these claims. Where it stops at one, the rest is asked first, and then that one with more hints."""
+    """What Coq says of these claims. Where it stops at one, the rest is asked first; then that one, with more hints."""
     left: list[Stated] = []
     for claim in claims:
         try:

@@ -6,6 +6,7 @@ variable times what is bounded away from 0. Where the pieces meet is guessed fro
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
@@ -138,7 +139,8 @@ def _half(part: sp.Expr, symbol: sp.Symbol, low: sp.Expr, high: sp.Expr | None, 
         places = " ".join(map(goal.text, (low, middle, end)))
         return f"apply (in_two {predicate} {places}); [ {proof} | enclosed ]"
     places = " ".join(map(goal.text, (middle, end)))
-    return f"apply (in_three {predicate} {places}); [ {proof} | enclosed | intros {goal.names[symbol]} ?; far {goal.text(tail[1])} ]"
+    far = f"intros {goal.names[symbol]} ?; far {goal.text(tail[1])}"
+    return f"apply (in_three {predicate} {places}); [ {proof} | enclosed | {far} ]"
 
 
 def _start(part: sp.Expr, symbol: sp.Symbol, low: sp.Expr, end: sp.Expr, goal: Goal) -> tuple[sp.Expr, str] | None:
@@ -156,7 +158,7 @@ def _start(part: sp.Expr, symbol: sp.Symbol, low: sp.Expr, end: sp.Expr, goal: G
         if power > 0 and _is_positive(last, low, place):
             functions = [f"(fun {goal.names[symbol]} => {goal.text(each)})" for each in chain]
             ends = f"{goal.text(low)} {goal.text(place)}"
-            steps = [f"by_derivative {a} {b} {ends}" for a, b in zip(functions, functions[1:], strict=False)]
+            steps = [f"by_derivative {a} {b} {ends}" for a, b in itertools.pairwise(functions)]
             return place, "; ".join([*steps, "enclosed"])
     return None
 
@@ -168,7 +170,7 @@ def _tail(part: sp.Expr, symbol: sp.Symbol) -> tuple[sp.Expr, sp.Expr] | None:
     if not plain.LC().is_positive:
         return None
     degree = plain.degree()
-    bounds = {(power,): sum(abs(term.subs({dummy: 1 for dummy in stands.values()})) for term in sp.Add.make_args(value))
+    bounds = {(power,): sum(abs(term.subs(dict.fromkeys(stands.values(), 1))) for term in sp.Add.make_args(value))
               for (power,), value in plain.terms()}  # fmt: skip
     for place in (1, 2, 3, 5, 8, 12, 20, 50, 100):
         rest = sum(float(value) * float(place) ** (power - degree) for (power,), value in bounds.items()

@@ -1,4 +1,4 @@
-"""A difference as a sum: multiples of what is known, and a rest of plain sign. SymPy finds it, and Coq multiplies out."""
+"""A difference as a sum: multiples of what is known, and a rest of plain sign. SymPy finds it, Coq multiplies out."""
 
 from __future__ import annotations
 
@@ -215,10 +215,10 @@ def _solvable(gap: sp.Expr, sign: str) -> tuple[sp.Symbol, sp.Expr] | None:
         factor = gap.coeff(symbol)
         if factor == 0 or (gap - sp.expand(factor * symbol)).has(symbol) or factor.has(symbol):
             continue
-        if factor in (1, -1) if sign == "=" else is_shown(factor, strictly=True):
-            # A sign that is known already must not be lost.
-            if not is_shown(symbol) or is_shown(symbol - gap / factor):
-                found.append((symbol, factor))
+        fits = factor in (1, -1) if sign == "=" else is_shown(factor, strictly=True)
+        # A sign that is known already must not be lost.
+        if fits and (not is_shown(symbol) or is_shown(symbol - gap / factor)):
+            found.append((symbol, factor))
 
     def order(item: tuple[sp.Symbol, sp.Expr]) -> tuple[bool, bool, bool, str]:
         symbol, factor = item

@@ -18,7 +18,7 @@ class Part:
     """One proposition: as text for Coq and, for whoever looks for hints, as a relation.
 
     With a ``limit`` the relation holds near its place: ``domain`` says whether it is what has to be defined there, or
-    what the function tends to. Where something is said to exist, ``exists`` says so, and ``body`` are its parts for Coq.
+    what the function tends to. Where something is said to exist, ``exists`` says so, and ``body`` are its parts.
     """
 
     text: str

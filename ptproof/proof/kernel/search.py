@@ -1,4 +1,4 @@
-"""Hints by several steps: roots and cases are taken out of a goal first, and what is left is closed in one of many ways."""
+"""Hints by several steps: roots and cases are taken out of a goal, and what is left is closed in one of many ways."""
 
 from __future__ import annotations
 

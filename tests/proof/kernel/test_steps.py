@@ -18,6 +18,7 @@ a, b, c, w = sp.symbols("a b c w", positive=True)
 n = sp.Symbol("n", integer=True, positive=True)
 d = sp.Symbol("d", nonnegative=True)
 e = sp.Symbol("e", positive=True)
+ESCAPE = (d + c) - w * (a**2 * d * c - b**2 * d * (d + c))
 FORM = p * x**2 + 2 * q * x * y + r * y**2
 
 
@@ -39,8 +40,8 @@ PAIRS = {
         stated("norm-false", le((x**2 - y**2) * u + 2 * x * y * v, (x**2 + y**2) * sp.sqrt(u**2 + v**2) / 2)),
     ),
     "multiples": (
-        stated("multiples", gt((d + c) - w * (a**2 * d * c - b**2 * d * (d + c)), 0), given=[lt(w * c * (a - b) ** 2, 1)]),
-        stated("multiples-false", gt((d + c) - w * (a**2 * d * c - b**2 * d * (d + c)), 0)),
+        stated("multiples", gt(ESCAPE, 0), given=[lt(w * c * (a - b) ** 2, 1)]),
+        stated("multiples-false", gt(ESCAPE, 0)),
     ),
     "form": (
         stated("form", gt(FORM, 0), given=[gt(p, 0), gt(p * r - q**2, 0), gt(x**2 + y**2, 0)]),
