@@ -15,7 +15,7 @@ from ptproof.proof.statement import Relation
 
 _MOST_OPERATIONS = 200
 _MOST_FACTS = 10
-_MOST_TRIES = 40
+_MOST_TRIES = 80
 
 
 @dataclass(frozen=True)

@@ -19,6 +19,7 @@ n = sp.Symbol("n", integer=True, positive=True)
 d = sp.Symbol("d", nonnegative=True)
 e = sp.Symbol("e", positive=True)
 ESCAPE = (d + c) - w * (a**2 * d * c - b**2 * d * (d + c))
+ROOT = sp.sqrt((1 + sp.sin(3 * x)) ** 2 * sp.cos(y) ** 2 + (1 + sp.sin(3 * x)) ** 2 * sp.cos(u * y) ** 2)
 FORM = p * x**2 + 2 * q * x * y + r * y**2
 
 
@@ -32,8 +33,8 @@ PAIRS = {
         stated("cases-false", eq(1 / sp.Max(a, b), sp.Max(1 / a, 1 / b))),
     ),
     "root": (
-        stated("root", le(x * u + y * v, sp.sqrt(x**2 + y**2) * sp.sqrt(u**2 + v**2) + sp.sqrt(2) * a)),
-        stated("root-false", le(x + y, sp.sqrt(x**2 + y**2))),
+        stated("root", le(sp.sqrt(x**2 + y**2) / 2, sp.sqrt(x**2 + y**2 + u**2))),
+        stated("root-false", le(sp.sqrt(x**2 + y**2) * 2, sp.sqrt(x**2 + y**2 + u**2))),
     ),
     "norm": (
         stated("norm", le((x**2 - y**2) * u + 2 * x * y * v, (x**2 + y**2) * sp.sqrt(u**2 + v**2))),
@@ -60,7 +61,7 @@ PAIRS = {
         stated("factor-false", eq(x, 2), given=[eq((x - 2) * y, 0)]),
     ),
     "witness": (
-        stated("witness", Exists((w,), (lt(w, a), lt(p * w, b)))),
+        stated("witness", Exists((w,), (lt(w, a), lt(b * w, c)))),
         stated("witness-false", Exists((w,), (lt(w, a), gt(w, b)))),
     ),
     "number": (
@@ -72,8 +73,8 @@ PAIRS = {
         stated("grows-false", eq(sp.Limit(a * (b * e) ** (1 / (2 * n)), e, 0, "+"), sp.oo)),
     ),
     "value": (
-        stated("value", eq(sp.sqrt((1 + sp.sin(3 * x)) ** 2 * 2), 2 * sp.sqrt(2)), given=[eq(x, sp.pi / 6)]),
-        stated("value-false", eq(sp.sqrt((1 + sp.sin(3 * x)) ** 2 * 2), 2 * sp.sqrt(2)), given=[eq(x, sp.pi / 2)]),
+        stated("value", eq(ROOT, 2 * sp.sqrt(2)), given=[eq(x, sp.pi / 6), eq(y, 0)]),
+        stated("value-false", eq(ROOT, 2 * sp.sqrt(2)), given=[eq(x, sp.pi / 2), eq(y, 0)]),
     ),
 }  # fmt: skip
 
