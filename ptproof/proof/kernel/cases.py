@@ -8,11 +8,16 @@ import sympy as sp
 
 from ptproof.proof.kernel.goals import Goal, is_shown
 from ptproof.proof.kernel.terms import DECIDED
-from ptproof.proof.statement import Relation
+from ptproof.proof.statement import Relation, RelationSign
 
 _KINDS = (sp.Max, sp.Min, sp.Abs, sp.Piecewise)
 _WORDS = {sp.Max: "Rmax", sp.Min: "Rmin"}
-_SIGNS = {sp.LessThan: "<=", sp.StrictLessThan: "<", sp.GreaterThan: ">=", sp.StrictGreaterThan: ">"}
+_SIGNS: dict[type, RelationSign] = {
+    sp.LessThan: "<=",
+    sp.StrictLessThan: "<",
+    sp.GreaterThan: ">=",
+    sp.StrictGreaterThan: ">",
+}
 
 
 def split(goal: Goal) -> tuple[str, list[Goal]] | None:
@@ -54,7 +59,7 @@ def _in_order(expression: sp.Basic) -> Sequence[sp.Basic]:
 
 
 def _put(goal: Goal, old: sp.Basic, new: sp.Basic, fact: Relation) -> Goal:
-    return goal.with_known(fact).map(lambda side: side.xreplace({old: new}))
+    return goal.with_known(fact).replaced(old, new)
 
 
 def factored(goal: Goal) -> tuple[list[str], Goal]:

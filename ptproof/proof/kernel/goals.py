@@ -47,6 +47,10 @@ class Goal:
         kept = tuple(item for item in known if not (item.left == item.right and item.sign == "="))
         return Goal(self.relation.map(change), kept, self.names if names is None else names)
 
+    def replaced(self, old: sp.Basic, new: sp.Basic, names: Names | None = None) -> Goal:
+        """The same goal with ``new`` for ``old``."""
+        return self.map(lambda side: side.xreplace({old: new}), names)
+
     def with_known(self, *facts: Relation) -> Goal:
         """The same goal with more known."""
         return Goal(self.relation, tuple(dict.fromkeys((*self.known, *facts))), self.names)

@@ -105,13 +105,13 @@ def _one_part(part: sp.Expr, symbol: sp.Symbol, over: _Range, name: str, goal: G
         same = f"intro {x}; cbv beta; {turns}; first [ ring | field ]"
         proof = f"apply ({word} {functions}); [ {' | '.join([same, *(half for half in halves if half)])} ]"
         return f"assert ({name} : forall {x} : R, 0 <= {said}) by ({proof}); specialize ({name} {own})"
-    proof = _half(part, symbol, over.low, over.high, goal)
-    if proof is None:
+    half = _half(part, symbol, over.low, over.high, goal)
+    if half is None:
         return None
     low, high = goal.text(over.low), "" if over.high is None else goal.text(over.high)
     between = f"{low} <= {x} <= {high}" if high else f"{low} <= {x}"
     said = f"(forall {x} : R, {between} -> 0 <= {goal.text(part)})"
-    return f"assert ({name} : {said}) by ({proof}); specialize ({name} {own} ltac:(lra))"
+    return f"assert ({name} : {said}) by ({half}); specialize ({name} {own} ltac:(lra))"
 
 
 def _angles(part: sp.Expr) -> list[sp.Expr]:

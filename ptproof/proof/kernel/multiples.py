@@ -50,7 +50,7 @@ def by_multiples(goal: Goal) -> Iterator[str]:
         moved, lines = loosen(facts, names) if moving else ({}, [])
         gap = sp.factor(sp.together((wanted.right - wanted.left).xreplace(moved)))
         start = [*atoms.lines, *lines]
-        if line := _contradiction([fact.map(lambda side, by=moved: side.xreplace(by)) for fact in facts], names):
+        if line := _contradiction([_moved(fact, moved) for fact in facts], names):
             yield "; ".join([*start, line])
             return
         if is_shown(gap, relation.sign == "<"):
@@ -59,13 +59,17 @@ def by_multiples(goal: Goal) -> Iterator[str]:
         top, bottom = sp.fraction(gap)
         if sp.count_ops(top) > _MOST_OPERATIONS:
             continue
-        useful = list(_facts([fact.map(lambda side, by=moved: side.xreplace(by)) for fact in facts], names))
+        useful = list(_facts([_moved(fact, moved) for fact in facts], names))
         found = _search(sp.expand(top), useful[:_MOST_FACTS], depth, relation.sign == "<", itertools.count())
         if found is not None:
             yield "; ".join([*start, *_lines(found, top, bottom, names)])
             return
         if depth == 1 and sum(1 for part in sp.Mul.make_args(top) if part.free_symbols) > 1:
             yield "; ".join([*start, f"factors_as {_text(_upright(gap), names)}"])
+
+
+def _moved(fact: Relation, moved: dict[sp.Symbol, sp.Expr]) -> Relation:
+    return fact.map(lambda side: side.xreplace(moved))
 
 
 def _upright(product: sp.Expr) -> sp.Expr:
@@ -217,7 +221,7 @@ def _solvable(gap: sp.Expr, sign: str) -> tuple[sp.Symbol, sp.Expr] | None:
             continue
         fits = factor in (1, -1) if sign == "=" else is_shown(factor, strictly=True)
         # A sign that is known already must not be lost.
-        if fits and (not is_shown(symbol) or is_shown(symbol - gap / factor)):
+        if fits and (not is_shown(symbol) or is_shown(sp.factor(symbol - gap / factor))):
             found.append((symbol, factor))
 
     def order(item: tuple[sp.Symbol, sp.Expr]) -> tuple[bool, bool, bool, str]:

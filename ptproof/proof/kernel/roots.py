@@ -25,7 +25,7 @@ def squared_symbols(goal: Goal) -> tuple[list[str], Goal]:
         lines.append(f"as_square {old} {name}" if number is None else f"as_multiple {number} {old} {name}")
         square = root**2 if number is None else number * root**2
         names = {**goal.names, root: name}
-        goal = goal.map(lambda side, of=symbol, by=square: side.xreplace({of: by}), names)
+        goal = goal.replaced(symbol, square, names)
     return (lines if symbols else []), goal
 
 

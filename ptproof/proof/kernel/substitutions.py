@@ -18,7 +18,7 @@ def substituted(goal: Goal) -> tuple[list[str], Goal]:
         symbol, value = found
         lines.append(f"replace_by {goal.names[symbol]} {goal.text(value)}")
         roots = {part.base for part in goal.atoms(sp.Pow) if part.base == symbol and not part.exp.is_Integer}
-        goal = goal.map(lambda side, old=symbol, new=value: side.xreplace({old: new}))
+        goal = goal.replaced(symbol, value)
         if roots and not isinstance(sp.sqrt(value), sp.Pow) and not value.is_Symbol:
             lines.append(f"try (root_is {goal.text(value)} {goal.text(sp.sqrt(value))})")
     return lines, goal
@@ -48,5 +48,5 @@ def powers_back(goal: Goal) -> tuple[list[str], Goal]:
             for own in [part for part in goal.atoms(sp.Pow) if part.base == symbol and not part.exp.is_number]:
                 if base.is_positive is None and sp.simplify(exponent * own.exp) == 1:
                     lines.append(f"power_back {' '.join(map(goal.text, (symbol, base, exponent, own.exp)))}")
-                    goal = goal.map(lambda side, old=own, new=base: side.xreplace({old: new}))
+                    goal = goal.replaced(own, base)
     return lines, goal
