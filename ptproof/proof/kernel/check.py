@@ -105,7 +105,7 @@ def check(
 def _answers(
     folder: Path, number: int, claims: Sequence[Claim], timeout: float
 ) -> Iterator[tuple[Claim, Confirmation]]:
-    """What Coq says of these claims. Where it stops at one, the rest is asked again without that one."""
+    """What Coq says of these claims. Where it stops at one, the rest is asked first; then that one, with more hints."""
     left: list[Stated] = []
     for claim in claims:
         try:
@@ -114,6 +114,7 @@ def _answers(
         except NoTranslation as error:
             yield claim, Confirmation(False, str(error))
     run = 0
+    tried_again: set[str] = set()
     while left:
         theorems = [theorem for *_, theorem in left]
         file = folder / f"claims_{number:03d}{f'_{run}' if run else ''}.v"
@@ -126,6 +127,10 @@ def _answers(
             yield claim, Confirmation(not reason, reason, said.text, seconds)
         left = left[len(heard) :]
         if left:
-            claim, said, _ = left.pop(0)
-            yield claim, Confirmation(False, printed.stopped(), said.text, seconds)
+            claim, said, theorem = left.pop(0)
+            if claim.id in tried_again:
+                yield claim, Confirmation(False, printed.stopped(), said.text, seconds)
+            else:
+                tried_again.add(claim.id)
+                left.append((claim, said, coq.Theorem(theorem.name, said.text, script(said, thorough=True))))
         run += 1

@@ -10,7 +10,7 @@ import sympy as sp
 
 from ptproof.proof.kernel.names import Names
 from ptproof.proof.kernel.terms import SIGNS, NoTranslation, positive_base, term
-from ptproof.proof.statement import Relation, RelationSign
+from ptproof.proof.statement import Exists, Relation, RelationSign
 
 
 @dataclass(frozen=True)
@@ -19,7 +19,7 @@ class Part:
 
     With a ``limit`` the relation holds near its place: ``domain`` says whether it is what has to be defined there, or
     what the function tends to. A ``base`` is that of a power which is defined where the base is positive, or where it
-    is 0 and the exponent is positive.
+    is 0 and the exponent is positive. Where something is said to exist, ``exists`` says so, and ``body`` are its parts.
     """
 
     text: str
@@ -27,6 +27,8 @@ class Part:
     limit: sp.Limit | None = field(default=None, compare=False)
     domain: bool = field(default=False, compare=False)
     base: sp.Basic | None = field(default=None, compare=False)
+    exists: Exists | None = field(default=None, compare=False)
+    body: tuple[Part, ...] = field(default=(), compare=False)
 
 
 def obligations(expression: sp.Basic, names: Names) -> tuple[Part, ...]:

@@ -7,27 +7,35 @@ is not negative. None of them is believed.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import sympy as sp
 
 from ptproof.proof.kernel.atoms import Atoms
+from ptproof.proof.kernel.declared import of_symbol
+from ptproof.proof.kernel.goals import Goal, brackets
 from ptproof.proof.kernel.integrals import integrals
 from ptproof.proof.kernel.limits import near
 from ptproof.proof.kernel.norms import norms
 from ptproof.proof.kernel.obligations import Part
 from ptproof.proof.kernel.products import products
+from ptproof.proof.kernel.search import by_steps
 from ptproof.proof.kernel.smooth import script as smoothness
 from ptproof.proof.kernel.terms import NoTranslation, term
 from ptproof.proof.kernel.theorem import Proposition
+from ptproof.proof.kernel.witnesses import witnesses
 from ptproof.proof.statement import Relation
 
 
-def script(said: Proposition) -> str:
-    """The tactics for the whole proposition, as one sentence for Coq."""
+def script(said: Proposition, *, thorough: bool = False) -> str:
+    """The tactics for the whole proposition, as one sentence for Coq; the thorough ones take longer to find and try."""
     assumed = (part.relation for part in said.premises if part.limit is None)
     told = (item for item in assumed if item is not None and item.sign != "!=" and not _trivial(item))
     known = list(dict.fromkeys(told))
-    leaves = [_near(part, said) if part.limit is not None else _leaf(part, known, said) for part in said.conclusions]
+    leaves = [
+        _near(part, said, thorough) if part.limit is not None else _leaf(part, known, said, thorough)
+        for part in said.conclusions
+    ]
     shown = [f"try (assert ({part.text}) by (solve [ {leaf} ]))"
              for part, leaf in zip(said.conclusions, leaves, strict=True) if part.relation is not None]  # fmt: skip
     leaves = [smoothness(part, shown) or leaf for part, leaf in zip(said.conclusions, leaves, strict=True)]
@@ -41,7 +49,9 @@ def script(said: Proposition) -> str:
     return f"{'; '.join(steps)}; pieces; [> {' | '.join(leaves)} ]"
 
 
-def _near(part: Part, said: Proposition) -> str:
+def _near(part: Part, said: Proposition, thorough: bool) -> str:
+    if thorough:
+        return "try (solve [ near_by_sign ]); leaf_or_say"
     try:
         return f"try (solve [ {near(part, list(said.conclusions), said.names)} ]); leaf_or_say"
     except (NoTranslation, sp.PolynomialError):
@@ -53,12 +63,14 @@ def _trivial(relation: Relation) -> bool:
     return bool(relation.right == 0 and relation.left.is_Symbol and relation.left.is_positive)
 
 
-def _leaf(part: Part, known: list[Relation], said: Proposition) -> str:
+def _leaf(part: Part, known: list[Relation], said: Proposition, thorough: bool) -> str:
+    if part.exists is not None and thorough and (hint := _witnessed(part, known, said)):
+        return f"try (solve [ {hint} ]); leaf_or_say"
     if part.relation is None or _trivial(part.relation):
-        return "leaf_or_say"
+        return "try (solve [ everywhere ]); leaf_or_say" if thorough else "leaf_or_say"
     if part.relation.sign == "=":
-        return _equal(part.relation, said)
-    tries: list[str] = []
+        return _equal(part.relation, known, said, thorough)
+    tries: list[str] = list(_by_steps(part.relation, known, said)) if thorough else []
     for way in (_by_norms, _directly, _by_logarithms):
         try:
             tries += way(part.relation, known, said)
@@ -75,7 +87,45 @@ def _powers(relation: Relation) -> bool:
     return any(not power.exp.is_number for side in (relation.left, relation.right) for power in side.atoms(sp.Pow))
 
 
-def _equal(relation: Relation, said: Proposition) -> str:
+def _witnessed(part: Part, known: list[Relation], said: Proposition) -> str:
+    """The witnesses one after the other, and then the body for them."""
+    values = witnesses(part.exists, known) if part.exists else None
+    if part.exists is None or values is None:
+        return ""
+    steps: list[str] = []
+    for symbol in part.exists.variables:
+        kinds = of_symbol(symbol, said.names[symbol])
+        steps.append(
+            f"exists {brackets(term(values[symbol], said.names))}{'; split; [> solve [ WAY ] | ]' * len(kinds)}"
+        )
+        way = " | ".join(
+            f"solve [ {hint} ]" for hint in _by_steps(Relation(sp.Integer(0), "<", values[symbol]), known, said)
+        )
+        steps[-1] = steps[-1].replace("WAY", f"first [ sign | {way or 'fail'} ]")
+    leaves = [_leaf(_put(item, values), known, said, True) for item in part.body]
+    intro = f"intros {' '.join(said.names[symbol] for symbol in part.exists.over)}; " if part.exists.over else ""
+    return f"{'; '.join(steps)}; {intro}intros; facts; pieces; [> {' | '.join(leaves)} ]"
+
+
+def _put(part: Part, values: dict[sp.Symbol, sp.Expr]) -> Part:
+    relation = part.relation and part.relation.map(lambda side: side.xreplace(values))
+    return replace(part, relation=relation)
+
+
+def _by_steps(relation: Relation, known: list[Relation], said: Proposition) -> Iterator[str]:
+    """After what is quick; the ways of this module close what the steps leave."""
+
+    def directly(goal: Goal) -> Iterator[str]:
+        facts = [item for item in goal.known if item.sign != "!="]
+        return _directly(goal.relation, facts, replace(said, names=goal.names))
+
+    given = (part.relation for part in said.premises if part.limit is None)
+    apart = (item for item in given if item is not None and item.sign == "!=")
+    for hint in by_steps(Goal(relation, (*known, *apart), said.names), [directly]):
+        yield f"solve [ {hint} ]"
+
+
+def _equal(relation: Relation, known: list[Relation], said: Proposition, thorough: bool) -> str:
     """Powers of one base by each other, and angles at the ends of integrals, before anything else is tried."""
     if relation.has(sp.Integral) and relation.has(sp.sin, sp.cos):
         return "try (solve [ at_multiples_of_PI; rational ]); leaf_or_say"
@@ -86,7 +136,10 @@ def _equal(relation: Relation, said: Proposition) -> str:
     except NoTranslation:
         return "leaf_or_say"
     powers = [line for line in atoms.lines if "power_as" in line]
-    return f"try (solve [ {'; '.join([*powers, 'rational'])} ]); leaf_or_say" if powers else "leaf_or_say"
+    tries = [f"solve [ {'; '.join([*powers, 'rational'])} ]"] if powers else []
+    if thorough:
+        tries += _by_steps(relation, known, said)
+    return "; ".join([*(f"try ({hint})" for hint in tries), "leaf_or_say"])
 
 
 def _directly(relation: Relation, known: list[Relation], said: Proposition) -> Iterator[str]:

@@ -40,8 +40,11 @@ class _Candidate:
     polynomial: Polynomial
 
 
-def products(top: sp.Expr, known: Sequence[Relation]) -> Sum | None:
-    """Products whose sum is ``top``, or a positive symbol times it; None if few products do not do."""
+def products(top: sp.Expr, known: Sequence[Relation], *, squares: bool = False) -> Sum | None:
+    """Products whose sum is ``top``, or a positive symbol times it; None if few products do not do.
+
+    With ``squares`` the facts are multiplied by even powers of variables without a sign, too, but not by each other.
+    """
     facts = list(dict.fromkeys(fact for relation in known for fact in _facts(relation)))
     symbols = top.free_symbols
     for _ in range(2):
@@ -52,11 +55,11 @@ def products(top: sp.Expr, known: Sequence[Relation]) -> Sum | None:
         return None
     target = _polynomial(top, generators)
     tops = [_polynomial(fact.top, generators) for fact in facts]
-    bases = list(_bases(facts, tops, generators))
+    bases = [base for base in _bases(facts, tops, generators) if not squares or len(base[0]) < 2]
     ones = [(sp.Integer(1), 0), (sp.Integer(1), 1)]
     for factor, extra in [*ones, *((s, 0) for s in generators if s.is_positive and s not in top.free_symbols)]:
         scaled = _times(target, _polynomial(factor, generators))
-        candidates = _candidates(scaled, bases, generators, extra)
+        candidates = _candidates(scaled, bases, generators, extra, squares)
         chosen = _combination(scaled, candidates)
         if chosen:
             needed = tuple(fact for fact in facts if any(fact.top in item.factors for item in chosen))
@@ -108,6 +111,7 @@ def _candidates(
     bases: Sequence[tuple[tuple[sp.Expr, ...], Polynomial]],
     generators: Sequence[sp.Symbol],
     extra: int,
+    squares: bool,
 ) -> list[_Candidate]:
     """The bases times monomials of what is not negative, of no higher degree than the target, and a little more."""
     single = [target, *(poly for factors, poly in bases if len(factors) == 1)]
@@ -115,8 +119,12 @@ def _candidates(
     total = max(map(sum, target), default=0) + extra
     found: list[_Candidate] = []
     for factors, poly in bases:
-        free = [degrees[i] - max(m[i] for m in poly) if s.is_nonnegative else 0 for i, s in enumerate(generators)]
+        free = [
+            degrees[i] - max(m[i] for m in poly) if squares or s.is_nonnegative else 0 for i, s in enumerate(generators)
+        ]
         for powers in _monomials(free, total - max(map(sum, poly))):
+            if any(n % 2 for s, n in zip(generators, powers, strict=True) if not s.is_nonnegative):
+                continue
             symbols = tuple(s for s, n in zip(generators, powers, strict=True) for _ in range(n))
             shifted = {tuple(map(sum, zip(m, powers, strict=True))): v for m, v in poly.items()}
             found.append(_Candidate((*symbols, *factors), shifted))

@@ -19,7 +19,7 @@ _FUNCTIONS = {
     sp.tanh: "tanh", sp.atan: "atan", sp.Abs: "Rabs",
 }  # fmt: skip
 _CONSTANTS = {sp.pi: "PI", sp.E: "(exp 1)"}
-_DECIDED = {sp.LessThan: "Rle_dec", sp.StrictLessThan: "Rlt_dec", sp.GreaterThan: "Rge_dec",
+DECIDED = {sp.LessThan: "Rle_dec", sp.StrictLessThan: "Rlt_dec", sp.GreaterThan: "Rge_dec",
             sp.StrictGreaterThan: "Rgt_dec"}  # fmt: skip
 SIGNS = {
     "=": "=", "!=": "<>", "<=": "<=", "<": "<", ">=": ">=", ">": ">",
@@ -139,9 +139,9 @@ def _piecewise(expression: sp.Basic, write: Write) -> str:
         raise NoTranslation("no translation for a Piecewise that leaves a case out")
     text = write(last)
     for value, condition in reversed(branches):
-        if type(condition) not in _DECIDED:
+        if type(condition) not in DECIDED:
             raise NoTranslation(f"no translation for the condition {condition}")
-        test = f"{_DECIDED[type(condition)]} {write(condition.lhs)} {write(condition.rhs)}"
+        test = f"{DECIDED[type(condition)]} {write(condition.lhs)} {write(condition.rhs)}"
         text = f"(if {test} then {write(value)} else {text})"
     return text
 

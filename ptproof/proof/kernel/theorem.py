@@ -224,7 +224,7 @@ def _said(statement: Statement, names: Names) -> tuple[list[Part], list[Part]]:
         case All(every):
             parts = [component for part in every for component in part.components()]
         case Exists():
-            return [Part(_exists(statement, names))], []
+            return [_exists(statement, names)], []
         case Smooth():
             return smooth.conclusions(statement, names), []
         case _:
@@ -234,14 +234,14 @@ def _said(statement: Statement, names: Names) -> tuple[list[Part], list[Part]]:
     return [text for _, text in said], domain
 
 
-def _exists(statement: Exists, names: Names) -> str:
-    text = _conjunction(
-        part for item in statement.body for given in item.components() for part in _relation(given, names)
-    )
+def _exists(statement: Exists, names: Names) -> Part:
+    relations = (given for item in statement.body for given in item.components())
+    body = {part.text: part for given in relations for part in _relation(given, names)}
+    text = _conjunction(body.values())
     if statement.over:
         kinds = [kind for symbol in statement.over for kind in declared.of_symbol(symbol, names[symbol])]
         text = f"(forall {_variables(statement.over, names)} : R, {' -> '.join([*kinds, f'({text})'])})"
     for symbol in reversed(statement.variables):
         text = " /\\ ".join([*declared.of_symbol(symbol, names[symbol]), text])
         text = f"(exists {names[symbol]} : R, {text})"
-    return text
+    return Part(text, exists=statement, body=tuple(body.values()))

@@ -1,0 +1,74 @@
+"""Hints by several steps: roots and cases are taken out of a goal, and what is left is closed in one of many ways."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import sympy as sp
+
+from ptproof.proof.kernel.cases import factored, split
+from ptproof.proof.kernel.circular import by_circular_bounds
+from ptproof.proof.kernel.forms import by_form
+from ptproof.proof.kernel.goals import Goal, Way, one_of
+from ptproof.proof.kernel.halflines import by_halflines
+from ptproof.proof.kernel.multiples import by_multiples
+from ptproof.proof.kernel.roots import dominated, roots_of_facts, squared_symbols
+from ptproof.proof.kernel.substitutions import powers_back, substituted
+from ptproof.proof.kernel.terms import NoTranslation
+from ptproof.proof.statement import Relation
+
+_MOST_CASES = 3
+_CLOSING: tuple[Way, ...] = (by_form, by_multiples, by_halflines, by_circular_bounds)
+
+
+def by_steps(goal: Goal, others: Sequence[Way] = ()) -> Iterator[str]:
+    """Tactics for the whole goal.
+
+    Parameters
+    ----------
+    goal
+        What is to be shown, and what is known.
+    others
+        More ways to close a goal without roots and cases.
+    """
+    lines: list[str] = []
+    simpler = goal
+    for step in (powers_back, factored, substituted):
+        more, simpler = step(simpler)
+        lines += more
+    try:
+        yield "; ".join([*lines, _cases(simpler, others, _MOST_CASES)])
+    except (NoTranslation, sp.PolynomialError):
+        return
+
+
+def _cases(goal: Goal, others: Sequence[Way], left: int) -> str:
+    found = split(goal) if left else None
+    if found is None:
+        return _without_cases(goal, others)
+    line, goals = found
+    return f"{line}; [> {' | '.join(f'facts; {_cases(each, others, left - 1)}' for each in goals)} ]"
+
+
+def _without_cases(goal: Goal, others: Sequence[Way]) -> str:
+    if goal.relation.sign == "=":
+        sides = goal.relation.left, goal.relation.right
+        both = [Goal(Relation(a, "<=", b), goal.known, goal.names) for a, b in (sides, sides[::-1])]
+        parts = " | ".join(_without_cases(each, others) for each in both)
+        return f"first [ solve [ quickly; equality ] | solve [ known_values ] | between; [> {parts} ] ]"
+    hints: list[str] = []
+    for step in (squared_symbols, roots_of_facts):
+        lines, simpler = step(goal)
+        if lines:
+            hints.append("; ".join([*lines, one_of(_closed(simpler, others))]))
+    hints += [f"{line}; {one_of(_closed(simpler, others))}" for line, simpler in dominated(goal)]
+    hints += _closed(goal, others)
+    return one_of(hints)
+
+
+def _closed(goal: Goal, others: Sequence[Way]) -> Iterator[str]:
+    for way in (*_CLOSING, *others):
+        try:
+            yield from way(goal)
+        except (NoTranslation, sp.PolynomialError):
+            continue
