@@ -11,6 +11,7 @@ from collections.abc import Iterator
 import sympy as sp
 
 from ptproof.proof.kernel.atoms import Atoms
+from ptproof.proof.kernel.certificates import certificate
 from ptproof.proof.kernel.integrals import integrals
 from ptproof.proof.kernel.limits import near
 from ptproof.proof.kernel.obligations import Part
@@ -59,6 +60,10 @@ def _leaf(part: Part, known: list[Relation], said: Proposition) -> str:
             tries += way(part.relation, known, said)
         except (NoTranslation, sp.PolynomialError):
             continue
+    try:
+        tries += certificate(part.relation, known, said.names)
+    except (NoTranslation, sp.PolynomialError):
+        pass
     quick = "quickly"
     return "; ".join([quick, *(f"try ({hint})" for hint in tries), "leaf_or_say"])
 

@@ -1,0 +1,126 @@
+"""A chain of inequalities, as lines for Coq."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from ptproof.proof.kernel.atoms import Atoms
+from ptproof.proof.kernel.chains import Chain, Search, Used, directed
+from ptproof.proof.kernel.names import Names
+from ptproof.proof.kernel.terms import NoTranslation, term
+from ptproof.proof.kernel.views import View, view
+from ptproof.proof.statement import Relation
+
+
+def certificate(goal: Relation, known: Sequence[Relation], names: Names) -> Iterator[str]:
+    """The lines by which ``goal`` follows from what is known, if a chain is found."""
+    if goal.sign not in ("<=", ">=") or goal.has(sp.Limit, sp.Integral):
+        return
+    facts = list(directed(item for item in known if not item.has(sp.Derivative, sp.Integral, sp.Limit)))
+    seen = view(facts)
+    inside = {seen.relation(item): item for item in facts}
+    search = Search([item for item in inside if item.left != item.right])
+    said = seen.relation(goal.standard())
+    chain = search.chain(said.right - said.left)
+    if chain is None:
+        return
+    writer = _Writer(seen, inside, _names(seen, [*facts, goal], names))
+    yield f"solve [ {'; '.join(writer.lines(chain, said))} ]"
+
+
+def _names(seen: View, relations: Sequence[Relation], names: Names) -> Names:
+    """Names under which the expressions of the view stand as they stood in the claim."""
+    found = dict(names)
+    for symbol, gap in seen.back.items():
+        found[symbol] = term(gap, names)
+    for relation in relations:
+        for part in (p for side in (relation.left, relation.right) for p in sp.preorder_traversal(side)):
+            if isinstance(part, AppliedUndef | sp.exp) or (isinstance(part, sp.Pow) and not part.exp.is_Rational):
+                shown = seen.of(part)
+                if shown != part:
+                    found.setdefault(shown, term(part, names))
+    return found
+
+
+@dataclass
+class _Writer:
+    """Writes a chain for Coq: what is known as it stands in the claim, all else as it is in the view."""
+
+    seen: View
+    inside: dict[Relation, Relation]
+    names: Names
+
+    def lines(self, chain: Chain, said: Relation) -> list[str]:
+        """All lines, in their order."""
+        logs = dict.fromkeys(item.relation for below in chain.matched for item in below.known)
+        lines = [f"try (fact {self.write(item.left)} {self.write(item.right)})" for item in self.inside.values()
+                 if item.right - item.left in self.seen.back.values()]  # fmt: skip
+        lines += [f"try (assert (0 < {self.write(base)}) by sign)" for base in self._sums(chain, said)]
+        lines += [f"fact {' '.join(self.sides(item.relation))}" for item in chain.used]
+        lines += [f"log_fact {' '.join(self.sides(relation))}" for relation in logs]
+        lines += [f"substitute {self.names[symbol]}" for symbol, value in self.seen.there.items()
+                  if not value.free_symbols & set(self.seen.back)]  # fmt: skip
+        for below in chain.matched:
+            lower, upper = self.write(below.lower), self.write(below.upper)
+            lines.append(f"below_by_logarithms {lower} {upper} ({' + '.join(map(self._logarithm, below.known))})")
+        lines.append(f"sum_as ({' + '.join(self._summands(chain))})")
+        return [*lines, *self._equation(chain, said)]
+
+    def write(self, expression: sp.Basic) -> str:
+        text = term(expression, self.names)
+        return text if text.startswith("(") or text.isidentifier() or text.isdigit() else f"({text})"
+
+    def sides(self, relation: Relation) -> tuple[str, str]:
+        """Both sides, as they stand in the claim."""
+        item = self.inside.get(relation, relation)
+        return self.write(item.left), self.write(item.right)
+
+    def _times(self, factor: sp.Expr, text: str) -> str:
+        return text if factor == 1 else f"{self.write(factor)} * {text}"
+
+    def _logarithm(self, item: Used) -> str:
+        low, high = self.sides(item.relation)
+        return self._times(item.factor, f"(ln {high} - ln {low})")
+
+    def _summands(self, chain: Chain) -> list[str]:
+        found = []
+        for item in chain.used:
+            low, high = self.sides(item.relation)
+            found.append(self._times(item.factor, f"({high} - {low})"))
+        for below in chain.matched:
+            low, high = self.write(below.lower), self.write(below.upper)
+            found.append(self._times(below.common, f"({high} - {low})"))
+        return [*found, *map(self.write, chain.left)] or ["0"]
+
+    def _expressions(self, chain: Chain, said: Relation) -> list[sp.Expr]:
+        found = [said.left, said.right, *chain.left]
+        for item in chain.used:
+            found += [item.factor, item.relation.left, item.relation.right]
+        for below in chain.matched:
+            found += [below.common, below.lower, below.upper]
+        return found
+
+    def _sums(self, chain: Chain, said: Relation) -> list[sp.Expr]:
+        """Sums that are seen to be positive in the view."""
+        every = (part for item in self._expressions(chain, said) for part in item.atoms(sp.Add))
+        return [part for part in dict.fromkeys(every) if part.is_positive and part.free_symbols & set(self.seen.back)]
+
+    def _equation(self, chain: Chain, said: Relation) -> list[str]:
+        """That the sum is the difference: every power by one of its base, every symbol by its root."""
+        expressions = self._expressions(chain, said)
+        atoms = Atoms.over(self.names)
+        atoms.choose(expressions)
+        for item in expressions:
+            try:
+                atoms(item)
+            except NoTranslation:
+                continue
+        powers = [line for line in atoms.lines if "power_as" in line]
+        roots = {part.base for item in expressions for part in item.atoms(sp.Pow)
+                 if part.base.is_Symbol and part.exp.is_Rational and part.exp.q == 2}  # fmt: skip
+        found = [f"by_root {self.names[symbol]}" for symbol in sorted(roots, key=str)]
+        return [*powers, *found, "rational"]
