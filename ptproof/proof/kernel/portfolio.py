@@ -12,6 +12,7 @@ import sympy as sp
 
 from ptproof.proof.kernel.atoms import Atoms
 from ptproof.proof.kernel.certificates import certificate
+from ptproof.proof.kernel.derived import derived
 from ptproof.proof.kernel.integrals import integrals
 from ptproof.proof.kernel.limits import near
 from ptproof.proof.kernel.obligations import Part
@@ -26,12 +27,15 @@ def script(said: Proposition) -> str:
     assumed = (part.relation for part in said.premises if part.limit is None)
     told = (item for item in assumed if item is not None and item.sign != "!=" and not _trivial(item))
     known = list(dict.fromkeys(told))
+    more = derived(known, said.names)
+    known += [relation for relation, _ in more]
     leaves = [_near(part, said) if part.limit is not None else _leaf(part, known, said) for part in said.conclusions]
     # Coq would rename a variable that is called like a constant of its own.
     steps = [
         *([f"intros {' '.join(said.binders)}"] if said.binders else []),
         "intros",
         "facts",
+        *(line for _, line in more),
         *integrals([part.relation for part in said.conclusions if part.relation], said.names),
     ]
     return f"{'; '.join(steps)}; pieces; [> {' | '.join(leaves)} ]"

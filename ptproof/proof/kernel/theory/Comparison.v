@@ -35,3 +35,16 @@ Ltac by_root x :=
   assert (0 <= sqrt x) by apply sqrt_pos;
   try (assert (0 < sqrt x) by (apply sqrt_lt_R0; sign));
   generalize dependent (sqrt x); intros r; intros; subst x.
+
+(* What is below a power, and what a power is below. *)
+Lemma below_power : forall x e q r, 0 <= x -> 0 < r -> 0 < e -> q * e = 1 -> rpow x e <= r -> x <= Rpower r q.
+Proof.
+  intros x e q r [X | X] P E I L.
+  - rewrite rpow_Rpower in L by assumption. apply ln_le_inv; [assumption | apply exp_pos |].
+    rewrite ln_Rpower. apply ln_le in L; [|apply exp_pos]. rewrite ln_Rpower in L.
+    assert (0 < q) by (apply Rmult_lt_reg_r with e; lra).
+    replace (ln x) with (q * (e * ln x)) by (rewrite <- Rmult_assoc, I; ring).
+    apply Rmult_le_compat_l; lra.
+  - subst x. left. apply exp_pos.
+Qed.
+Ltac raised x e q r := assert (x <= Rpower r q) by (apply (below_power x e q r); [ sign | sign | sign | rational | lra ]).
