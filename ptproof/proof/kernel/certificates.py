@@ -61,7 +61,7 @@ class _Writer:
                  if item.right - item.left in self.seen.back.values()]  # fmt: skip
         lines += [f"try (assert (0 < {self.write(base)}) by sign)" for base in self._sums(chain, said)]
         lines += [f"fact {' '.join(self.sides(item.relation))}" for item in chain.used]
-        lines += [f"log_fact {' '.join(self.sides(relation))}" for relation in logs]
+        lines += [self._log_fact(relation) for relation in logs]
         lines += [f"substitute {self.names[symbol]}" for symbol, value in self.seen.there.items()
                   if not value.free_symbols & set(self.seen.back)]  # fmt: skip
         for below in chain.matched:
@@ -78,6 +78,14 @@ class _Writer:
         """Both sides, as they stand in the claim."""
         item = self.inside.get(relation, relation)
         return self.write(item.left), self.write(item.right)
+
+    def _log_fact(self, relation: Relation) -> str:
+        low, high = self.sides(relation)
+        if relation in self.inside:
+            return f"log_fact {low} {high}"
+        if isinstance(relation.right, sp.exp):
+            return f"log_exp {self.write(relation.right.args[0])}"
+        return f"log_fact_as {low} {high} {self.write(sp.factor(relation.right - relation.left))}"
 
     def _times(self, factor: sp.Expr, text: str) -> str:
         return text if factor == 1 else f"{self.write(factor)} * {text}"

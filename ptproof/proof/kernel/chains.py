@@ -157,18 +157,42 @@ def by_logarithms(
     target: Exponents, ratios: Sequence[tuple[Relation, Exponents]]
 ) -> tuple[Used, ...] | None:  # fmt: skip
     """Factors with which the logarithms of the ratios add up to that of the target; None if a few ratios do not do."""
-    ones = [(Relation(sp.Integer(1), "<=", base), {base: sp.Integer(1)}) for base in target if at_least_one(base)]
-    ones += [(Relation(sp.Integer(1), "<=", base), {base: sp.Integer(1)})
-             for base in dict.fromkeys(b for _, r in ratios for b in r if b.is_Integer)]  # fmt: skip
-    usable = [*ones, *ratios]
+    rest, always = _exponentials(target)
+    if always is None:
+        return None
+    if not rest:
+        return always
+    usable = [*_ones(rest, ratios), *ratios]
     for size in range(1, 4):
         for chosen in itertools.combinations(usable, size):
             bases = dict.fromkeys(base for _, ratio in chosen for base in ratio)
-            if not set(target) <= set(bases):
+            if not set(rest) <= set(bases):
                 continue
-            if (factors := _factors(target, [ratio for _, ratio in chosen], list(bases))) is not None:
-                return tuple(Used(item[0], c) for item, c in zip(chosen, factors, strict=True) if c != 0)
+            if (factors := _factors(rest, [ratio for _, ratio in chosen], list(bases))) is not None:
+                found = tuple(Used(item[0], c) for item, c in zip(chosen, factors, strict=True) if c != 0)
+                return (*found, *always)
     return None
+
+
+def _exponentials(target: Exponents) -> tuple[Exponents, tuple[Used, ...] | None]:
+    """What is left of the target without its exponentials, and that their product is at least 1; None if it is not."""
+    rest = {base: exponent for base, exponent in target.items() if not isinstance(base, sp.exp)}
+    inside = sp.Add(*(exponent * base.args[0] for base, exponent in target.items() if base not in rest))
+    inside = sp.factor(sp.together(sp.expand(inside)))
+    if inside == 0:
+        return rest, ()
+    return rest, (Used(Relation(sp.Integer(1), "<=", sp.exp(inside)), sp.Integer(1)),) if not_negative(inside) else None
+
+
+def _ones(target: Exponents, ratios: Sequence[tuple[Relation, Exponents]]) -> list[tuple[Relation, Exponents]]:
+    """Quotients that are at least 1 as they are built: of sums, of 1 and more, of whole numbers."""
+    one = sp.Integer(1)
+    whole = [base for _, ratio in ratios for base in ratio if base.is_Integer]
+    found = [(Relation(one, "<=", base), {base: one}) for base in dict.fromkeys([*target, *whole]) if at_least_one(base)]
+    sums = [base for base in target if base.is_Add]
+    found += [(Relation(low, "<=", high), {high: one, low: -one}) for low, high in itertools.permutations(sums, 2)
+              if sp.expand(high - low).is_nonnegative]  # fmt: skip
+    return found
 
 
 def _factors(target: Exponents, ratios: Sequence[Exponents], bases: Sequence[sp.Basic]) -> list[sp.Expr] | None:
@@ -191,9 +215,7 @@ def not_negative(expression: sp.Expr) -> bool:
 
 
 def at_least_one(base: sp.Basic) -> bool:
-    """Whether the base is 1 and something that is not negative, or e to that."""
-    if isinstance(base, sp.exp):
-        return bool(base.args[0].is_nonnegative)
+    """Whether the base is 1 and something that is not negative."""
     return bool((base.is_Integer and base >= 1) or (base.is_Add and (base - 1).is_nonnegative))
 
 

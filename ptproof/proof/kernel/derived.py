@@ -6,22 +6,24 @@ from collections.abc import Iterator, Sequence
 
 import sympy as sp
 
+from ptproof.proof.kernel.comparisons import compared
 from ptproof.proof.kernel.names import Names
 from ptproof.proof.kernel.terms import NoTranslation, term
+from ptproof.proof.kernel.theorem import Proposition
 from ptproof.proof.statement import Relation
 
 Derived = tuple[Relation, str]
 
 
-def derived(known: Sequence[Relation], names: Names) -> list[Derived]:
+def derived(known: Sequence[Relation], said: Proposition) -> list[Derived]:
     """The facts, each with its line."""
     found: list[Derived] = []
     for item in known:
         try:
-            found += _raised(item.standard(), names)
+            found += _raised(item.standard(), said.names)
         except NoTranslation:
             continue
-    return found
+    return [*found, *compared(said.claim, known, said.names)]
 
 
 def _raised(item: Relation, names: Names) -> Iterator[Derived]:

@@ -27,7 +27,7 @@ def script(said: Proposition) -> str:
     assumed = (part.relation for part in said.premises if part.limit is None)
     told = (item for item in assumed if item is not None and item.sign != "!=" and not _trivial(item))
     known = list(dict.fromkeys(told))
-    more = derived(known, said.names)
+    more = derived(known, said)
     known += [relation for relation, _ in more]
     leaves = [_near(part, said) if part.limit is not None else _leaf(part, known, said) for part in said.conclusions]
     # Coq would rename a variable that is called like a constant of its own.

@@ -45,6 +45,8 @@ class Proposition:
         The identifiers of its functions and free symbols, in their order.
     premises, conclusions
         Its parts.
+    claim
+        What was translated.
     """
 
     id: str
@@ -54,6 +56,7 @@ class Proposition:
     binders: tuple[str, ...]
     premises: tuple[Part, ...]
     conclusions: tuple[Part, ...]
+    claim: Claim
 
 
 def proposition(claim: Claim) -> Proposition:
@@ -84,7 +87,7 @@ def proposition(claim: Claim) -> Proposition:
     order = (_sorted(functions), _sorted(free))
     return Proposition(
         claim.id, f"claim_{plain(claim.id)}", _text(names, *order, applied, premises, conclusions), names,
-        tuple(names[item] for items in order for item in items), tuple(premises), tuple(conclusions),
+        tuple(names[item] for items in order for item in items), tuple(premises), tuple(conclusions), claim,
     )  # fmt: skip
 
 
