@@ -19,6 +19,7 @@ from ptproof.proof.kernel.monomials import (
     powers,
     product_of,
     summands,
+    total,
 )
 from ptproof.proof.statement import Relation
 
@@ -86,6 +87,8 @@ class Search:
         if time.monotonic() > self.until:
             return None
         open_, matched, left = self._matched(gap)
+        if open_ and used and _vanishes(gap):
+            open_, matched, left = {}, [], []
         if not open_:
             return Chain(tuple(Used(self.known[i], factor) for i, factor in used), tuple(matched), tuple(left))
         if len(used) == depth:
@@ -239,6 +242,12 @@ def _quotient(monomial: sp.Expr, part: sp.Expr) -> sp.Expr | None:
         if not (base.is_positive or even or (base.is_nonnegative and exponent.is_positive)):
             return None
     return product_of(exponents)
+
+
+def _vanishes(gap: Summands) -> bool:
+    """Whether the sum is 0 as a rational function."""
+    whole = total(gap)
+    return len(gap) < 12 and any(part.is_Add for m in gap for part in powers(m)[1]) and sp.together(whole).expand() == 0
 
 
 def directed(relations: Iterable[Relation]) -> Iterator[Relation]:

@@ -107,12 +107,11 @@ def _linear(rate: Rate) -> tuple[sp.Expr, sp.Expr]:
         If it is not of this form.
     """
     value = sp.Dummy("u", real=True)
-    expression = sp.expand(rate.rate.xreplace({rate.function: value}))
+    expression = rate.rate.xreplace({rate.function: value})
     a = sp.diff(expression, value)
     if a.has(value):
         raise NoTranslation("not linear")
-    parts = [part for part in sp.Add.make_args(expression) if not part.has(value)]
-    return sp.Add(*(part / value for part in sp.Add.make_args(expression) if part.has(value))), sp.Add(*parts)
+    return a, expression.xreplace({value: sp.Integer(0)})
 
 
 def _primitive(rate: Rate, function: sp.Expr) -> sp.Expr:
@@ -124,7 +123,7 @@ def _primitive(rate: Rate, function: sp.Expr) -> sp.Expr:
         If none is found.
     """
     found = sp.Integer(0)
-    for part in sp.Add.make_args(sp.expand(function)):
+    for part in sp.Add.make_args(sp.expand_mul(function, deep=False)):
         constant, rest = part.as_independent(rate.time, as_Add=False)
         integral = sp.integrate(sp.factor(sp.together(rest)), rate.time)
         if integral.has(sp.Integral, sp.Piecewise, sp.log):
@@ -152,7 +151,7 @@ def _integral(rate: Rate, start: sp.Expr, end: sp.Expr) -> Iterator[Compared]:
     primitive = _primitive(rate, rate.rate)
     name, f, F = rate.names[rate.time], _function(rate, rate.rate), _function(rate, primitive)
     p, q, U = rate.write(start), rate.write(end), rate.names[rate.function.func]
-    grown = sp.factor(sp.together(primitive.subs(rate.time, end) - primitive.subs(rate.time, start)))
+    grown = primitive.subs(rate.time, end) - primitive.subs(rate.time, start)
     steps = ["bound", f"cbv beta; rate_is {U} {name} ltac:(same)", f"cbv beta; antiderivative {name}"]
     exact = f"({term(rate.at(start), rate.names)} + ({F} {q} - {F} {p}))"
     yield _asserted(rate, end, rate.at(start) + grown, f"(integral_bound {U} {F} {f} {p} {q})", steps, exact)
