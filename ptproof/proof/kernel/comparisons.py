@@ -198,7 +198,7 @@ def _greatest(rate: Rate, b: sp.Expr, taken: sp.Expr, start: sp.Expr, end: sp.Ex
     """
     if not b.has(rate.time):
         return b, "same"
-    level = sp.factor(b.subs(rate.time, start))
+    level = b.subs(rate.time, start)
     inside = [Relation(start, "<=", rate.time), Relation(rate.time, "<=", end)]
     outside = [item.standard().map(lambda side: side.subs(rate.time, start)) for item in rate.domain]
     known = [*rate.known, *(item for item in outside if item.left != item.right), *inside]

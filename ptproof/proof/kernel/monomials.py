@@ -47,6 +47,8 @@ def powers(product: sp.Expr) -> tuple[sp.Rational, dict[sp.Basic, sp.Expr]]:
             add(sp.Integer(part.q), -times)
         elif part != 1:
             plain, base = part.primitive() if part.is_Add else (sp.Integer(1), part)
+            if base.is_Add and base.is_negative and times.is_even:
+                base = -base
             if plain != 1:
                 add(plain, times)
             exponents[base] = exponents.get(base, sp.Integer(0)) + times
