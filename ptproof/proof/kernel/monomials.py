@@ -46,7 +46,7 @@ def powers(product: sp.Expr) -> tuple[sp.Rational, dict[sp.Basic, sp.Expr]]:
             add(sp.Integer(part.p), times)
             add(sp.Integer(part.q), -times)
         elif part != 1:
-            plain, base = part.primitive() if part.is_Add else (sp.Integer(1), part)
+            plain, base = _plain(part) if part.is_Add else (sp.Integer(1), part)
             if base.is_Add and base.is_negative and times.is_even:
                 base = -base
             if plain != 1:
@@ -73,6 +73,15 @@ def product_of(exponents: Exponents) -> sp.Expr:
 def of_positive(bases: Iterable[sp.Basic]) -> bool:
     """Whether every base is positive, by its declaration or as it is built."""
     return all(base.is_positive for base in bases)
+
+
+def _plain(part: sp.Expr) -> tuple[sp.Rational, sp.Expr]:
+    """A rational factor, and the sum without it: with the constant 1, where there is a positive one."""
+    constant = part.as_coeff_Add()[0]
+    if constant > 0:
+        return constant, sp.Add(*(item / constant for item in part.args))
+    plain, base = part.primitive()
+    return plain, base
 
 
 def _tidy(exponent: sp.Expr) -> sp.Expr:

@@ -59,15 +59,13 @@ def _leaf(part: Part, known: list[Relation], said: Proposition) -> str:
     if part.relation.sign == "=":
         return _equal(part.relation, said)
     tries: list[str] = []
-    for way in (_directly, _by_logarithms):
+    for way in (_by_chain, _directly, _by_logarithms):
         try:
             tries += way(part.relation, known, said)
         except (NoTranslation, sp.PolynomialError):
             continue
-    try:
-        tries += certificate(part.relation, known, said.names)
-    except (NoTranslation, sp.PolynomialError):
-        pass
+        if way is _by_chain and tries:
+            break
     quick = "quickly"
     return "; ".join([quick, *(f"try ({hint})" for hint in tries), "leaf_or_say"])
 
@@ -82,6 +80,10 @@ def _equal(relation: Relation, said: Proposition) -> str:
         return "leaf_or_say"
     powers = [line for line in atoms.lines if "power_as" in line]
     return f"try (solve [ {'; '.join([*powers, 'rational'])} ]); leaf_or_say" if powers else "leaf_or_say"
+
+
+def _by_chain(relation: Relation, known: list[Relation], said: Proposition) -> Iterator[str]:
+    yield from certificate(relation, known, said.names)
 
 
 def _directly(relation: Relation, known: list[Relation], said: Proposition) -> Iterator[str]:
