@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
@@ -16,19 +17,25 @@ from ptproof.proof.kernel.views import View, view
 from ptproof.proof.statement import Relation
 
 
-def certificate(goal: Relation, known: Sequence[Relation], names: Names) -> Iterator[str]:
-    """The lines by which ``goal`` follows from what is known, if a chain is found."""
+def certificate(
+    goal: Relation, known: Sequence[Relation], names: Names, more: Sequence[tuple[Relation, str]] = ()
+) -> Iterator[str]:
+    """The lines by which ``goal`` follows from what is known, if a chain is found.
+
+    ``more`` follows from what is known by the line that stands with it, which comes in only where it is used.
+    """
     if goal.sign not in ("<=", ">=") or goal.has(sp.Limit, sp.Integral):
         return
-    facts = list(directed(item for item in known if not item.has(sp.Derivative, sp.Integral, sp.Limit)))
-    seen = view(facts)
+    known = [item for item in known if not item.has(sp.Derivative, sp.Integral, sp.Limit)]
+    seen, facts = view(known), list(directed([*known, *(relation for relation, _ in more)]))
+    derived = {seen.relation(relation): line for relation, line in more}
     inside = {seen.relation(item): item for item in facts}
     search = Search([item for item in inside if item.left != item.right])
     said = seen.relation(goal.standard())
     chain = search.chain(said.right - said.left)
     if chain is None:
         return
-    writer = _Writer(seen, inside, _names(seen, [*facts, goal], names))
+    writer = _Writer(seen, inside, derived, _names(seen, [*facts, goal], names))
     yield f"solve [ {'; '.join(writer.lines(chain, said))} ]"
 
 
@@ -52,6 +59,7 @@ class _Writer:
 
     seen: View
     inside: dict[Relation, Relation]
+    derived: dict[Relation, str]
     names: Names
 
     def lines(self, chain: Chain, said: Relation) -> list[str]:
@@ -60,10 +68,10 @@ class _Writer:
         lines = [f"try (fact {self.write(item.left)} {self.write(item.right)})" for item in self.inside.values()
                  if item.right - item.left in self.seen.back.values()]  # fmt: skip
         lines += [f"try (assert (0 < {self.write(base)}) by sign)" for base in self._sums(chain, said)]
+        every = dict.fromkeys([*(item.relation for item in chain.used), *logs])
+        lines += [self.derived[relation] for relation in every if relation in self.derived]
         lines += [f"fact {' '.join(self.sides(item.relation))}" for item in chain.used]
         lines += [self._log_fact(relation) for relation in logs]
-        lines += [f"substitute {self.names[symbol]}" for symbol, value in self.seen.there.items()
-                  if not value.free_symbols & set(self.seen.back)]  # fmt: skip
         for below in chain.matched:
             lower, upper = self.write(below.lower), self.write(below.upper)
             lines.append(f"below_by_logarithms {lower} {upper} ({' + '.join(map(self._logarithm, below.known))})")
@@ -131,4 +139,14 @@ class _Writer:
         roots = {part.base for item in expressions for part in item.atoms(sp.Pow)
                  if part.base.is_Symbol and part.exp.is_Rational and part.exp.q == 2}  # fmt: skip
         found = [f"by_root {self.names[symbol]}" for symbol in sorted(roots, key=str)]
-        return [*powers, *found, "rational"]
+        powers += list(self._exponentials(expressions))
+        values = [f"substitute {self.names[symbol]}" for symbol in self.seen.equal]
+        return [*(f"try ({line})" for line in values), *powers, *found, "rational"]
+
+    def _exponentials(self, expressions: Sequence[sp.Expr]) -> Iterator[str]:
+        """An exponential as a power of another one, where the one exponent is a multiple of the other."""
+        found = list(dict.fromkeys(part for item in expressions for part in item.atoms(sp.exp)))
+        for large, small in itertools.permutations(found, 2):
+            times = sp.cancel(large.args[0] / small.args[0])
+            if times.is_Integer and times > 1:
+                yield f"try (power_as {self.write(large)} ({self.write(small)} ^ {times}))"

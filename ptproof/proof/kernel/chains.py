@@ -12,10 +12,12 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import sympy as sp
+from sympy.core.function import AppliedUndef
 
 from ptproof.proof.kernel.monomials import (
     Exponents,
     difference,
+    monomial_of,
     powers,
     product_of,
     summands,
@@ -23,7 +25,7 @@ from ptproof.proof.kernel.monomials import (
 )
 from ptproof.proof.statement import Relation
 
-_SECONDS = 8.0
+_SECONDS = 4.0
 _DEPTH = 9
 Summands = Mapping[sp.Expr, sp.Rational]
 
@@ -65,22 +67,28 @@ class Search:
         What is known, as ``lower <= upper``.
     until
         When the search ends.
+    narrow
+        Whether only the open summand is followed that the fewest of what is known take away.
     """
 
     known: Sequence[Relation]
-    until: float = field(default_factory=lambda: time.monotonic() + _SECONDS)
+    until: float = 0.0
+    narrow: bool = True
     logarithms: dict[sp.Expr, tuple[Used, ...] | None] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         self.gaps = [summands(relation.right - relation.left) for relation in self.known]
         self.ratios = [(relation, ratio) for relation in self.known if (ratio := _ratio(relation))]
+        self.plain = {relation for relation, _ in self.ratios}
 
     def chain(self, gap: sp.Expr) -> Chain | None:
         """How ``gap`` is a sum of what is not negative."""
-        for depth in range(1, _DEPTH + 1):
-            found = self._chain(summands(gap), (), depth)
-            if found is not None or time.monotonic() > self.until:
-                return found
+        for self.narrow in (True, False):
+            self.until = time.monotonic() + _SECONDS
+            for depth in range(1, _DEPTH + 1):
+                found = self._chain(summands(gap), (), depth)
+                if found is not None:
+                    return found
         return None
 
     def _chain(self, gap: Summands, used: tuple[tuple[int, sp.Expr], ...], depth: int) -> Chain | None:
@@ -95,26 +103,30 @@ class Search:
             return None
         for index, factor in self._steps(open_, {i for i, _ in used}):
             rest = dict(gap)
-            for part, value in summands(factor * (self.known[index].right - self.known[index].left)).items():
-                rest[part] = rest.get(part, sp.Integer(0)) - value
+            for part, value in self.gaps[index].items():
+                number, monomial = monomial_of(factor * part).as_coeff_Mul(rational=True)
+                rest[monomial] = rest.get(monomial, sp.Integer(0)) - number * value
             found = self._chain({m: c for m, c in rest.items() if c != 0}, (*used, (index, factor)), depth)
             if found is not None:
                 return found
         return None
 
     def _steps(self, open_: Summands, taken: set[int]) -> Iterator[tuple[int, sp.Expr]]:
-        """What is known and takes away the first open summand that anything takes away."""
-        for monomial, value in sorted(open_.items(), key=lambda item: (item[0].is_nonnegative is True, str(item[0]))):
-            none = True
-            for index, gap in enumerate(self.gaps):
-                if index in taken:
-                    continue
-                for part, weight in gap.items():
-                    if weight * value > 0 and (factor := _quotient(monomial, part)) is not None:
-                        none = False
-                        yield index, factor * value / weight
-            if not none and not monomial.is_nonnegative:
+        """What is known and takes away an open summand; those of unknown sign first."""
+        ways = [(monomial, list(self._ways(monomial, value, taken))) for monomial, value in open_.items()]
+        ways.sort(key=lambda item: (item[0].is_nonnegative is True, not item[1], len(item[1]), str(item[0])))
+        for monomial, steps in ways:
+            yield from steps
+            if steps and (self.narrow or not monomial.is_nonnegative):
                 return
+
+    def _ways(self, monomial: sp.Expr, value: sp.Rational, taken: set[int]) -> Iterator[tuple[int, sp.Expr]]:
+        for index, gap in enumerate(self.gaps):
+            if index in taken or (self.narrow and self.known[index] in self.plain):
+                continue
+            for part, weight in gap.items():
+                if weight * value > 0 and (factor := _quotient(monomial, part)) is not None:
+                    yield index, factor * value / weight
 
     def _matched(self, gap: Summands) -> tuple[Summands, list[Below], list[sp.Expr]]:
         """The summands that are neither positive nor below another one; the matches; and what is left."""
@@ -245,9 +257,14 @@ def _quotient(monomial: sp.Expr, part: sp.Expr) -> sp.Expr | None:
 
 
 def _vanishes(gap: Summands) -> bool:
-    """Whether the sum is 0 as a rational function."""
+    """Whether the sum is 0 as a rational function; seldom, so that a value is looked at first."""
+    if not any(b.is_Add and e.is_negative for m in gap for b, e in powers(m)[1].items()):
+        return False
     whole = total(gap)
-    return len(gap) < 12 and any(part.is_Add for m in gap for part in powers(m)[1]) and sp.together(whole).expand() == 0
+    unknown = sorted({*whole.atoms(AppliedUndef), *whole.free_symbols}, key=sp.default_sort_key, reverse=True)
+    values = {item: sp.Float(0.7 + 0.13 * i) for i, item in enumerate(sorted(unknown, key=lambda u: u.is_Symbol))}
+    value = whole.xreplace(values).evalf()
+    return bool(value.is_number and abs(value) < 1e-9) and sp.together(whole).expand() == 0
 
 
 def directed(relations: Iterable[Relation]) -> Iterator[Relation]:

@@ -135,8 +135,8 @@ def _primitive(rate: Rate, function: sp.Expr) -> sp.Expr:
 def _asserted(rate: Rate, end: sp.Expr, bound: sp.Expr, lemma: str, steps: Sequence[str], exact: str) -> Compared:
     """The bound at the end, by a lemma of which the conclusion says ``exact``."""
     left = rate.at(end)
-    line = (f"try (assert ({term(left, rate.names)} <= {term(bound, rate.names)}); [ apply Rle_trans with {exact}; "
-            f"[ apply {lemma}; [ {' | '.join(steps)} ] | same ] | ])")  # fmt: skip
+    line = (f"assert ({term(left, rate.names)} <= {term(bound, rate.names)}); [ apply Rle_trans with {exact}; "
+            f"[ apply {lemma}; [ {' | '.join(steps)} ] | same ] | ]")  # fmt: skip
     return Relation(left, "<=", bound), line
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 
 import sympy as sp
+from sympy.core.function import AppliedUndef
 
 Exponents = Mapping[sp.Basic, sp.Expr]
 
@@ -104,7 +105,11 @@ def _split(expression: sp.Expr) -> list[sp.Expr]:
 
 
 def _open(expression: sp.Expr) -> bool:
-    """Whether the factor is multiplied out: a sum, or a power of one, of unknown sign."""
+    """Whether the factor is multiplied out: a sum of unknown sign or of many letters, or a power of one."""
     if expression.is_Pow and expression.base.is_Add and expression.exp.is_Integer and expression.exp > 0:
-        return not expression.base.is_nonnegative
-    return bool(expression.is_Add and not expression.is_nonnegative)
+        return _open(expression.base)
+    return bool(expression.is_Add and not (expression.is_nonnegative and _short(expression)))
+
+
+def _short(expression: sp.Expr) -> bool:
+    return len(expression.free_symbols) <= 3 and not expression.atoms(sp.exp, AppliedUndef)

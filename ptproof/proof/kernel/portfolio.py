@@ -6,13 +6,15 @@ is not negative. None of them is believed.
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Iterator
 
 import sympy as sp
+from sympy.core.function import AppliedUndef
 
 from ptproof.proof.kernel.atoms import Atoms
 from ptproof.proof.kernel.certificates import certificate
-from ptproof.proof.kernel.derived import derived
+from ptproof.proof.kernel.derived import Derived, derived
 from ptproof.proof.kernel.integrals import integrals
 from ptproof.proof.kernel.limits import near
 from ptproof.proof.kernel.obligations import Part
@@ -28,14 +30,12 @@ def script(said: Proposition) -> str:
     told = (item for item in assumed if item is not None and item.sign != "!=" and not _trivial(item))
     known = list(dict.fromkeys(told))
     more = derived(known, said)
-    known += [relation for relation, _ in more]
-    leaves = [_near(part, said) if part.limit is not None else _leaf(part, known, said) for part in said.conclusions]
+    leaves = [_near(part, said) if part.limit is not None else _leaf(part, known, more, said) for part in said.conclusions]
     # Coq would rename a variable that is called like a constant of its own.
     steps = [
         *([f"intros {' '.join(said.binders)}"] if said.binders else []),
         "intros",
         "facts",
-        *(line for _, line in more),
         *integrals([part.relation for part in said.conclusions if part.relation], said.names),
     ]
     return f"{'; '.join(steps)}; pieces; [> {' | '.join(leaves)} ]"
@@ -53,19 +53,17 @@ def _trivial(relation: Relation) -> bool:
     return bool(relation.right == 0 and relation.left.is_Symbol and relation.left.is_positive)
 
 
-def _leaf(part: Part, known: list[Relation], said: Proposition) -> str:
+def _leaf(part: Part, known: list[Relation], more: list[Derived], said: Proposition) -> str:
     if part.relation is None or _trivial(part.relation):
         return "leaf_or_say"
     if part.relation.sign == "=":
         return _equal(part.relation, said)
     tries: list[str] = []
-    for way in (_by_chain, _directly, _by_logarithms):
-        try:
+    with contextlib.suppress(NoTranslation, sp.PolynomialError):
+        tries += certificate(part.relation, known, said.names, more)
+    for way in (_directly, _by_logarithms) if not tries else ():
+        with contextlib.suppress(NoTranslation, sp.PolynomialError):
             tries += way(part.relation, known, said)
-        except (NoTranslation, sp.PolynomialError):
-            continue
-        if way is _by_chain and tries:
-            break
     quick = "quickly"
     return "; ".join([quick, *(f"try ({hint})" for hint in tries), "leaf_or_say"])
 
@@ -82,13 +80,11 @@ def _equal(relation: Relation, said: Proposition) -> str:
     return f"try (solve [ {'; '.join([*powers, 'rational'])} ]); leaf_or_say" if powers else "leaf_or_say"
 
 
-def _by_chain(relation: Relation, known: list[Relation], said: Proposition) -> Iterator[str]:
-    yield from certificate(relation, known, said.names)
-
-
 def _directly(relation: Relation, known: list[Relation], said: Proposition) -> Iterator[str]:
     if relation.sign == "!=" and relation.left.is_nonzero and relation.left.is_Symbol:
         return
+    if relation.sign == "!=" and not relation.has(AppliedUndef):
+        known = [item for item in known if not item.has(AppliedUndef)]
     atoms = Atoms.over(said.names)
     atoms.choose(side for item in (relation, *known) for side in (item.left, item.right))
     goal = relation.standard().map(atoms)

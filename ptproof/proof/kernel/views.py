@@ -21,10 +21,13 @@ class View:
         The symbols, and what they are in the view.
     back
         The new symbols, and what they are outside.
+    equal
+        The symbols that are replaced by what they are said to be.
     """
 
     there: dict[sp.Symbol, sp.Expr]
     back: dict[sp.Symbol, sp.Expr]
+    equal: tuple[sp.Symbol, ...] = ()
 
     def of(self, expression: sp.Expr) -> sp.Expr:
         """The expression in this view; the arguments of unknown functions are multiplied out."""
@@ -45,6 +48,7 @@ def view(known: Iterable[Relation]) -> View:
     """A view in which what is known of plain symbols is seen; signs that are declared stay so."""
     there: dict[sp.Symbol, sp.Expr] = {}
     back: dict[sp.Symbol, sp.Expr] = {}
+    equal: list[sp.Symbol] = []
     for relation in known:
         item = relation.standard()
         if item.sign == "!=" or (found := _solved(item, there, back)) is None:
@@ -52,9 +56,11 @@ def view(known: Iterable[Relation]) -> View:
         symbol, value, above = found
         if above is not None:
             back[above] = item.right - item.left
+        else:
+            equal.append(symbol)
         there = {old: sp.expand(new.xreplace({symbol: value})) for old, new in there.items()}
         there[symbol] = value
-    return View(there, back)
+    return View(there, back, tuple(equal))
 
 
 def _solved(

@@ -29,7 +29,7 @@ Ltac below_by_logarithms a b e :=
   [ apply minus_nonneg; by_logarithms; apply Rminus_le_0; replace (ln b - ln a) with e;
     [ nonneg_sum | symmetry; logarithms; rational ]
   | ].
-Ltac substitute x := match goal with E : x = _ |- _ => subst x | E : _ = x |- _ => subst x end.
+Ltac substitute x := match goal with E : x = _ |- _ => rewrite E | E : _ = x |- _ => rewrite <- E end.
 (* A variable that is not negative, as the square of its root. *)
 Ltac by_root x :=
   let r := fresh "r" in let E := fresh in
