@@ -140,7 +140,7 @@ class _Writer:
                  if part.base.is_Symbol and part.exp.is_Rational and part.exp.q == 2}  # fmt: skip
         found = [f"by_root {self.names[symbol]}" for symbol in sorted(roots, key=str)]
         powers += list(self._exponentials(expressions))
-        values = [f"substitute {self.names[symbol]}" for symbol in self.seen.equal]
+        values = [f"put_value {self.names[symbol]}" for symbol in self.seen.equal]
         return [*(f"try ({line})" for line in values), *powers, *found, "rational"]
 
     def _exponentials(self, expressions: Sequence[sp.Expr]) -> Iterator[str]:

@@ -29,7 +29,10 @@ Ltac below_by_logarithms a b e :=
   [ apply minus_nonneg; by_logarithms; apply Rminus_le_0; replace (ln b - ln a) with e;
     [ nonneg_sum | symmetry; logarithms; rational ]
   | ].
-Ltac substitute x := match goal with E : x = _ |- _ => rewrite E | E : _ = x |- _ => rewrite <- E end.
+Ltac put_value x := match goal with
+  | E : ?a = ?b |- _ => constr_eq a x; is_var x; rewrite E
+  | E : ?b = ?a |- _ => constr_eq a x; is_var x; rewrite <- E
+  end.
 (* A variable that is not negative, as the square of its root. *)
 Ltac by_root x :=
   let r := fresh "r" in let E := fresh in
