@@ -92,7 +92,7 @@ class _Writer:
         if relation in self.inside:
             return f"log_fact {low} {high}"
         if isinstance(relation.right, sp.exp):
-            return f"log_exp {self.write(relation.right.args[0])}"
+            return f"log_exp {high} {self.write(relation.right.args[0])}"
         return f"log_fact_as {low} {high} {self.write(sp.factor(relation.right - relation.left))}"
 
     def _times(self, factor: sp.Expr, text: str) -> str:
@@ -128,6 +128,9 @@ class _Writer:
     def _equation(self, chain: Chain, said: Relation) -> list[str]:
         """That the sum is the difference: every power by one of its base, every symbol by its root."""
         expressions = self._expressions(chain, said)
+        products = {part: sp.expand_power_base(part) for item in expressions for part in item.atoms(sp.Pow)
+                    if part.base.is_Mul and part.base.is_positive and not part.exp.is_Rational}  # fmt: skip
+        expressions += products.values()
         atoms = Atoms.over(self.names)
         atoms.choose(expressions)
         for item in expressions:
@@ -139,6 +142,7 @@ class _Writer:
         roots = {part.base for item in expressions for part in item.atoms(sp.Pow)
                  if part.base.is_Symbol and part.exp.is_Rational and part.exp.q == 2}  # fmt: skip
         found = [f"by_root {self.names[symbol]}" for symbol in sorted(roots, key=str)]
+        powers = [f"try (power_as {self.write(old)} {self.write(new)})" for old, new in products.items()] + powers
         powers += list(self._exponentials(expressions))
         values = [f"put_value {self.names[symbol]}" for symbol in self.seen.equal]
         return [*(f"try ({line})" for line in values), *powers, *found, "rational"]

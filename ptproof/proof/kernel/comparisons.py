@@ -73,7 +73,7 @@ def compared(claim: Claim, known: Sequence[Relation], names: Names) -> Iterator[
         domain = tuple(part for given in item.domain for part in given.components())
         rate = Rate(relation.left.expr, time, relation.right, domain, tuple(known), said, names)
         for start, end in _times(rate):
-            for way in (_integral, _exponential, _decay):
+            for way in (_integral, _exponential, _decay, _bernoulli):
                 try:
                     yield from way(rate, start, end)
                 except (NoTranslation, sp.PolynomialError):
@@ -188,8 +188,10 @@ def _decay(rate: Rate, start: sp.Expr, end: sp.Expr) -> Iterator[Compared]:
     yield _asserted(rate, end, bound, f"(decay_bound {U} {p} {q} {words})", steps, exact)
 
 
-def _greatest(rate: Rate, b: sp.Expr, taken: sp.Expr, start: sp.Expr, end: sp.Expr) -> tuple[sp.Expr, str]:
-    """A bound of b between the times, and how Coq sees that the rate is below ``bound - taken U``.
+def _greatest(
+    rate: Rate, b: sp.Expr, taken: sp.Expr, start: sp.Expr, end: sp.Expr, of: sp.Expr | None = None
+) -> tuple[sp.Expr, str]:
+    """A bound of b between the times, and how Coq sees that the rate is below ``bound - taken U``, or a power of U.
 
     Raises
     ------
@@ -202,7 +204,49 @@ def _greatest(rate: Rate, b: sp.Expr, taken: sp.Expr, start: sp.Expr, end: sp.Ex
     inside = [Relation(start, "<=", rate.time), Relation(rate.time, "<=", end)]
     outside = [item.standard().map(lambda side: side.subs(rate.time, start)) for item in rate.domain]
     known = [*rate.known, *(item for item in outside if item.left != item.right), *inside]
-    goal = Relation(rate.rate, "<=", level - taken * rate.function)
+    goal = Relation(rate.rate, "<=", level - taken * (rate.function if of is None else of))
     for text in certificate(goal, known, rate.names):
         return level, text
     raise NoTranslation("the rate is not seen to be greatest at the start")
+
+
+def _bernoulli(rate: Rate, start: sp.Expr, end: sp.Expr) -> Iterator[Compared]:
+    """The level at which the rate b - c U^r balances, and what U(p), or a bound of it, decays to without b."""
+    found = {part for part in rate.rate.atoms(sp.Pow) if part.base == rate.function}
+    if len(found) != 1:
+        return
+    power = found.pop()
+    value, r = sp.Dummy("v", real=True), power.exp
+    expression = rate.rate.xreplace({power: value})
+    a, b = sp.diff(expression, value), expression.xreplace({value: sp.Integer(0)})
+    if a.has(value) or a.has(rate.time) or not (-a).is_positive or expression.has(rate.function):
+        return
+    level, tactic = _greatest(rate, b, -a, start, end, power)
+    bounds = [item.right for item in map(Relation.standard, rate.known) if item.left == rate.at(start) and item.sign != "="]
+    for w in (*bounds, rate.at(start)):
+        yield _bernoulli_from(rate, start, end, (level, -a, r, w), tactic)
+
+
+def _bernoulli_from(
+    rate: Rate, start: sp.Expr, end: sp.Expr, values: tuple[sp.Expr, sp.Expr, sp.Expr, sp.Expr], tactic: str
+) -> Compared:
+    level, c, r, w = values
+    less = sp.factor(sp.together(r - 1))
+    v = rate.as_said(w**less)
+    base = 1 + c * less * v * (end - start)
+    decayed = rate.as_said(base ** (-1 / less))
+    p, q, U, name = rate.write(start), rate.write(end), rate.names[rate.function.func], rate.names[rate.time]
+    rated = f"rate_is {U} {name} ltac:({tactic.replace('same', 'same_rate') if tactic == 'same' else tactic})"
+    tail = f"{rate.write(v)} {rate.write(decayed.base)} {rate.write(decayed.exp)}"
+    power = f"rpow {rate.write(decayed.base)} {rate.write(decayed.exp)} * {rate.write(w)}"
+    first = ["bound", "sign"]
+    if level == 0:
+        steps = [*first, "lra", "sign", "bound", rated, "same_power", "rational", "rational"]
+        lemma = f"(bernoulli_decay_as {U} {p} {q} {rate.write(c)} {rate.write(r)} {rate.write(w)} {tail})"
+        return _asserted(rate, end, decayed * w, lemma, steps, f"({power})")
+    balance = rate.as_said((level / c) ** (1 / r))
+    pair = f"{rate.write(balance.base)} {rate.write(balance.exp)}"
+    steps = [*first, "sign", "lra", "sign", "bound", rated, "rational", "rational", "same_power", "rational", "rational"]
+    words = " ".join(map(rate.write, (level, c, r, w)))
+    lemma = f"(bernoulli_bound_as {U} {p} {q} {words} {pair} {tail})"
+    return _asserted(rate, end, balance + decayed * w, lemma, steps, f"(rpow {pair} + {power})")

@@ -30,10 +30,11 @@ class View:
     equal: tuple[sp.Symbol, ...] = ()
 
     def of(self, expression: sp.Expr) -> sp.Expr:
-        """The expression in this view; the arguments of unknown functions are multiplied out."""
+        """The expression in this view; arguments of functions are brought into one form."""
         seen = expression.xreplace(self.there)
         calls = {call: call.func(*map(sp.expand, call.args)) for call in seen.atoms(AppliedUndef)}
-        return seen.xreplace(calls)
+        seen = seen.xreplace(calls)
+        return seen.xreplace({part: sp.exp(sp.factor(sp.together(part.args[0]))) for part in seen.atoms(sp.exp)})
 
     def relation(self, relation: Relation) -> Relation:
         """Both sides in this view."""

@@ -22,7 +22,8 @@ Ltac fact a b := assert (0 <= b - a) by (apply minus_nonneg; first [ assumption 
 Ltac log_fact a b :=
   assert (0 <= ln b - ln a) by (apply ln_minus_nonneg; [ sign | first [ assumption | lra | quickly ] ]).
 Ltac log_fact_as a b e := assert (0 <= ln b - ln a) by (apply ln_minus_nonneg; [ sign | sum_as e; rational ]).
-Ltac log_exp e := assert (0 <= ln (exp e) - ln 1) by (rewrite ln_exp, ln_1, Rminus_0_r; nonneg_sum).
+Ltac log_exp x e := assert (0 <= ln x - ln 1) by
+  (rewrite ln_exp, ln_1, Rminus_0_r; lazymatch goal with |- 0 <= ?d => replace d with e by rational end; nonneg_sum).
 (* a <= b, since the logarithm of b / a is the sum e of what is not negative. *)
 Ltac below_by_logarithms a b e :=
   assert (0 <= b - a);
@@ -289,3 +290,28 @@ Ltac rate_is U s tac :=
   [ assumption | lazymatch goal with K : Derive _ _ <= ?e |- _ => apply Rle_trans with e; [ exact K | tac ] end ].
 Ltac same := right; first [ rational | same_values; rational ].
 Ltac antiderivative s := intros s ?; facts; auto_derive; [ repeat split; sign | first [ rational | same_values; rational ] ].
+
+(* The bound of Bernoulli's inequality with its parts as they are written elsewhere. *)
+Lemma bernoulli_bound_as : forall (U : R -> R) p q b c r w A i v B e,
+  p <= q -> 0 < c -> 0 <= b -> 1 < r -> 0 <= U p -> U p <= w ->
+  (forall s, p <= s <= q -> ex_derive U s /\ Derive U s <= b - c * rpow (U s) r) ->
+  A = b / c -> i = / r -> v = rpow w (r - 1) -> B = 1 + c * (r - 1) * v * (q - p) -> e = - (1 / (r - 1)) ->
+  U q <= rpow A i + rpow B e * w.
+Proof.
+  intros U p q b c r w A i v B e L C BN P N W H EA Ei Ev EB Ee. subst A i v B e.
+  exact (bernoulli_bound U p q b c r w L C BN P N W H).
+Qed.
+Lemma bernoulli_decay_as : forall (U : R -> R) p q c r w v B e,
+  p <= q -> 0 < c -> 1 < r -> 0 <= U p -> U p <= w ->
+  (forall s, p <= s <= q -> ex_derive U s /\ Derive U s <= - (c * rpow (U s) r)) ->
+  v = rpow w (r - 1) -> B = 1 + c * (r - 1) * v * (q - p) -> e = - (1 / (r - 1)) ->
+  U q <= rpow B e * w.
+Proof.
+  intros U p q c r w v B e L C P N W H Ev EB Ee.
+  subst v B e. pose proof (bernoulli_bound U p q 0 c r w L C (Rle_refl 0) P N W) as K.
+  rewrite (rpow_zero (0 / c) (/ r)), Rplus_0_l in K; [ | unfold Rdiv; ring | apply Rinv_0_lt_compat; lra].
+  apply K. intros s S. destruct (H s S). split; [assumption | lra].
+Qed.
+Ltac positive_powers := repeat (rewrite rpow_Rpower by sign).
+Ltac same_power := first [ rational | f_equal; rational | positive_powers; first [ rational | f_equal; rational ] ].
+Ltac same_rate := first [ same | positive_powers; same ].
