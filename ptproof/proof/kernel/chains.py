@@ -40,7 +40,7 @@ class Used:
 
 @dataclass(frozen=True)
 class Below:
-    """``lower <= upper``, by the logarithms of ``known`` with their factors; ``common`` stands before the difference."""
+    """``lower <= upper``, by the logarithms of ``known``; ``common`` stands before the difference."""
 
     lower: sp.Expr
     upper: sp.Expr
@@ -203,7 +203,9 @@ def _ones(target: Exponents, ratios: Sequence[tuple[Relation, Exponents]]) -> li
     """Quotients that are at least 1 as they are built: of sums, of 1 and more, of whole numbers."""
     one = sp.Integer(1)
     whole = [base for _, ratio in ratios for base in ratio if base.is_Integer]
-    found = [(Relation(one, "<=", base), {base: one}) for base in dict.fromkeys([*target, *whole]) if at_least_one(base)]
+    found = [
+        (Relation(one, "<=", base), {base: one}) for base in dict.fromkeys([*target, *whole]) if at_least_one(base)
+    ]
     sums = [base for base in target if base.is_Add]
     found += [(Relation(low, "<=", high), {high: one, low: -one}) for low, high in itertools.permutations(sums, 2)
               if sp.expand(high - low).is_nonnegative]  # fmt: skip

@@ -222,7 +222,9 @@ def _bernoulli(rate: Rate, start: sp.Expr, end: sp.Expr) -> Iterator[Compared]:
     if a.has(value) or a.has(rate.time) or not (-a).is_positive or expression.has(rate.function):
         return
     level, tactic = _greatest(rate, b, -a, start, end, power)
-    bounds = [item.right for item in map(Relation.standard, rate.known) if item.left == rate.at(start) and item.sign != "="]
+    bounds = [
+        item.right for item in map(Relation.standard, rate.known) if item.left == rate.at(start) and item.sign != "="
+    ]
     for w in (*bounds, rate.at(start)):
         yield _bernoulli_from(rate, start, end, (level, -a, r, w), tactic)
 
@@ -236,17 +238,30 @@ def _bernoulli_from(
     base = 1 + c * less * v * (end - start)
     decayed = rate.as_said(base ** (-1 / less))
     p, q, U, name = rate.write(start), rate.write(end), rate.names[rate.function.func], rate.names[rate.time]
-    rated = f"rate_is {U} {name} ltac:({tactic.replace('same', 'same_rate') if tactic == 'same' else tactic})"
+    rated = f"rate_is {U} {name} ltac:({'same_rate' if tactic == 'same' else tactic})"
     tail = f"{rate.write(v)} {rate.write(decayed.base)} {rate.write(decayed.exp)}"
     power = f"rpow {rate.write(decayed.base)} {rate.write(decayed.exp)} * {rate.write(w)}"
-    first = ["bound", "sign"]
+    above = f"first [ lra | difference_as {rate.write(less)} ]"
     if level == 0:
-        steps = [*first, "lra", "sign", "bound", rated, "same_power", "rational", "rational"]
+        steps = ["bound", "sign", above, "sign", "bound", rated, "same_power", "rational", "rational"]
         lemma = f"(bernoulli_decay_as {U} {p} {q} {rate.write(c)} {rate.write(r)} {rate.write(w)} {tail})"
         return _asserted(rate, end, decayed * w, lemma, steps, f"({power})")
     balance = rate.as_said((level / c) ** (1 / r))
     pair = f"{rate.write(balance.base)} {rate.write(balance.exp)}"
-    steps = [*first, "sign", "lra", "sign", "bound", rated, "rational", "rational", "same_power", "rational", "rational"]
+    steps = [
+        "bound",
+        "sign",
+        "sign",
+        above,
+        "sign",
+        "bound",
+        rated,
+        "rational",
+        "rational",
+        "same_power",
+        "rational",
+        "rational",
+    ]
     words = " ".join(map(rate.write, (level, c, r, w)))
     lemma = f"(bernoulli_bound_as {U} {p} {q} {words} {pair} {tail})"
     return _asserted(rate, end, balance + decayed * w, lemma, steps, f"(rpow {pair} + {power})")

@@ -30,7 +30,9 @@ def script(said: Proposition) -> str:
     told = (item for item in assumed if item is not None and item.sign != "!=" and not _trivial(item))
     known = list(dict.fromkeys(told))
     more = derived(known, said)
-    leaves = [_near(part, said) if part.limit is not None else _leaf(part, known, more, said) for part in said.conclusions]
+    leaves = [
+        _near(part, said) if part.limit is not None else _leaf(part, known, more, said) for part in said.conclusions
+    ]
     # Coq would rename a variable that is called like a constant of its own.
     steps = [
         *([f"intros {' '.join(said.binders)}"] if said.binders else []),
