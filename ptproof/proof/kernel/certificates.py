@@ -16,6 +16,9 @@ from ptproof.proof.kernel.terms import NoTranslation, term
 from ptproof.proof.kernel.views import View, view
 from ptproof.proof.statement import Relation
 
+# What binds a symbol: nothing is put in there.
+_BOUND = (sp.Derivative, sp.Integral, sp.Limit, sp.Subs)
+
 
 def certificate(
     goal: Relation, known: Sequence[Relation], names: Names, more: Sequence[tuple[Relation, str]] = ()
@@ -24,9 +27,9 @@ def certificate(
 
     ``more`` follows from what is known by the line that stands with it, which comes in only where it is used.
     """
-    if goal.sign not in ("<=", ">=") or goal.has(sp.Limit, sp.Integral):
+    if goal.sign not in ("<=", ">=") or goal.has(*_BOUND):
         return
-    known = [item for item in known if not item.has(sp.Derivative, sp.Integral, sp.Limit)]
+    known = [item for item in known if not item.has(*_BOUND)]
     seen, facts = view(known), list(directed([*known, *(relation for relation, _ in more)]))
     derived = {seen.relation(relation): line for relation, line in more}
     inside = {seen.relation(item): item for item in facts}

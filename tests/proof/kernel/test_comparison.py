@@ -34,6 +34,7 @@ POWER = (2 * n - 1) / n
 ROOT = [ge(r, (z / a) ** (1 / (2 * n - 1))), le(v, z - a * r ** (2 * n - 1))]
 LEVEL = (z / c) ** (1 / (2 * n + 1))
 BERNOULLI = [*rate(U, z - c * U(s) ** (2 * n + 1))]
+FADING = z / (1 + (s - p) / r) ** 2
 TRUE = [
     stated("chain", le(v, -(b**2) * (c / a) ** POWER), given=CHAIN),
     stated("value", le(v, b**2 * z), given=[eq(z, a**2), le(v, g**2 * a**2), le(g, b)]),
@@ -41,7 +42,7 @@ TRUE = [
     stated("integral", le(Y(t), Y(p) + a * (t - p)), given=rate(Y, a)),
     stated("exponential", le(Y(t), Y(p) * sp.exp(-a * (t - p))), given=rate(Y, -a * Y(s))),
     stated("decay", le(U(t), z / a + U(p) * sp.exp(-a * (t - p))), given=rate(U, z - a * U(s))),
-    stated("greatest", le(U(t), z / a + U(p) * sp.exp(-a * (t - p))), given=rate(U, z / (1 + (s - p) / r) ** 2 - a * U(s))),
+    stated("greatest", le(U(t), z / a + U(p) * sp.exp(-a * (t - p))), given=rate(U, FADING - a * U(s))),
     stated("bernoulli", le(U(t), LEVEL + U(p) * (1 + 2 * n * c * U(p) ** (2 * n) * (t - p)) ** (-1 / (2 * n))),
            given=BERNOULLI),
 ]  # fmt: skip
