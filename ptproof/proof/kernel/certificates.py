@@ -29,12 +29,17 @@ def certificate(
     """
     if goal.sign not in ("<=", ">=") or goal.has(*_BOUND):
         return
+    wanted = goal.standard()
+    for relation, line in more:
+        if relation.left == wanted.left and relation.right == wanted.right:
+            yield f"solve [ {line}; lra ]"
+            return
     known = [item for item in known if not item.has(*_BOUND)]
     seen, facts = view(known), list(directed([*known, *(relation for relation, _ in more)]))
     derived = {seen.relation(relation): line for relation, line in more}
     inside = {seen.relation(item): item for item in facts}
     search = Search([item for item in inside if item.left != item.right])
-    said = seen.relation(goal.standard())
+    said = seen.relation(wanted)
     chain = search.chain(said.right - said.left)
     if chain is None:
         return

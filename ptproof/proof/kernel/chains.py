@@ -203,7 +203,8 @@ def _ones(target: Exponents, ratios: Sequence[tuple[Relation, Exponents]]) -> li
     """Quotients that are at least 1 as they are built: of sums, of 1 and more, of whole numbers."""
     one = sp.Integer(1)
     whole = [base for _, ratio in ratios for base in ratio if base.is_Integer]
-    found = [
+    found: list[tuple[Relation, Exponents]] = []
+    found += [
         (Relation(one, "<=", base), {base: one}) for base in dict.fromkeys([*target, *whole]) if at_least_one(base)
     ]
     sums = [base for base in target if base.is_Add]
