@@ -121,7 +121,7 @@ class Atoms:
 
 def _whole(exponent: sp.Basic, chosen: sp.Basic) -> tuple[int, int] | None:
     """Whole numbers with exponent = times chosen + rest."""
-    for times in (1, 2, 3, -1):
+    for times in (1, 2, 3, -1, -2):
         rest = sp.simplify(exponent - times * chosen)
         if rest.is_Integer and abs(rest) <= 4:
             return times, int(rest)

@@ -110,9 +110,10 @@ def _answers(
     for claim in claims:
         try:
             said = proposition(claim)
-            left.append((claim, said, coq.Theorem(f"{said.name}_{number}", said.text, script(said))))
         except NoTranslation as error:
             yield claim, Confirmation(False, str(error))
+        else:
+            left.append((claim, said, _theorem(said, f"{said.name}_{number}", thorough=False)))
     run = 0
     tried_again: set[str] = set()
     while left:
@@ -132,5 +133,15 @@ def _answers(
                 yield claim, Confirmation(False, printed.stopped(), said.text, seconds)
             else:
                 tried_again.add(claim.id)
-                left.append((claim, said, coq.Theorem(theorem.name, said.text, script(said, thorough=True))))
+                left.append((claim, said, _theorem(said, theorem.name, thorough=True)))
         run += 1
+
+
+def _theorem(said: Proposition, name: str, *, thorough: bool) -> coq.Theorem:
+    """The proposition with its tactics; where the search for hints fails, Coq is told so in their place."""
+    try:
+        tactics = script(said, thorough=thorough)
+    except Exception as error:  # SymPy's, of whatever kind: the claim is without hints, the others are not
+        reason = f"{type(error).__name__} in the search for hints: {error}".replace('"', "'")
+        tactics = f'fail 0 "at" "{" ".join(reason.split())}"'
+    return coq.Theorem(name, said.text, tactics)

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 # The files of the library, each after those that it builds upon.
-LIBRARY = ("Base", "Cases", "Smooth", "Powers")
+LIBRARY = ("Base", "Cases", "Comparison", "Smooth", "Powers")
 # What a theorem may rest on, and what needs it. Nothing else may be assumed.
 AXIOMS: Mapping[str, str] = {
     "ClassicalDedekindReals.sig_forall_dec": "Coq's real numbers",

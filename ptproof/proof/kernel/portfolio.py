@@ -6,13 +6,17 @@ is not negative. None of them is believed.
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Iterator
 from dataclasses import replace
 
 import sympy as sp
+from sympy.core.function import AppliedUndef
 
 from ptproof.proof.kernel.atoms import Atoms
+from ptproof.proof.kernel.certificates import certificate
 from ptproof.proof.kernel.declared import of_symbol
+from ptproof.proof.kernel.derived import Derived, derived
 from ptproof.proof.kernel.goals import Goal, brackets
 from ptproof.proof.kernel.integrals import integrals
 from ptproof.proof.kernel.limits import near
@@ -32,8 +36,9 @@ def script(said: Proposition, *, thorough: bool = False) -> str:
     assumed = (part.relation for part in said.premises if part.limit is None)
     told = (item for item in assumed if item is not None and item.sign != "!=" and not _trivial(item))
     known = list(dict.fromkeys(told))
+    more = derived(known, said)
     leaves = [
-        _near(part, said, thorough) if part.limit is not None else _leaf(part, known, said, thorough)
+        _near(part, said, thorough) if part.limit is not None else _leaf(part, known, more, said, thorough)
         for part in said.conclusions
     ]
     shown = [f"try (assert ({part.text}) by (solve [ {leaf} ]))"
@@ -63,19 +68,23 @@ def _trivial(relation: Relation) -> bool:
     return bool(relation.right == 0 and relation.left.is_Symbol and relation.left.is_positive)
 
 
-def _leaf(part: Part, known: list[Relation], said: Proposition, thorough: bool) -> str:
+def _leaf(part: Part, known: list[Relation], more: list[Derived], said: Proposition, thorough: bool) -> str:
     if part.exists is not None and thorough and (hint := _witnessed(part, known, said)):
         return f"try (solve [ {hint} ]); leaf_or_say"
     if part.relation is None or _trivial(part.relation):
         return "try (solve [ everywhere ]); leaf_or_say" if thorough else "leaf_or_say"
     if part.relation.sign == "=":
         return _equal(part.relation, known, said, thorough)
-    tries: list[str] = list(_by_steps(part.relation, known, said)) if thorough else []
-    for way in (_by_norms, _directly, _by_logarithms):
-        try:
+    tries: list[str] = []
+    if more or thorough:
+        with contextlib.suppress(NoTranslation, sp.PolynomialError):
+            tries += certificate(part.relation, known, said.names, more)
+    ways = () if tries else (_by_norms, _directly, _by_logarithms)
+    if thorough:
+        tries += _by_steps(part.relation, known, said)
+    for way in ways:
+        with contextlib.suppress(NoTranslation, sp.PolynomialError):
             tries += way(part.relation, known, said)
-        except (NoTranslation, sp.PolynomialError):
-            continue
     if part.relation.sign != "!=" and _powers(part.relation):
         tries.append("solve [ by_growth ]")
     quick = "quickly"
@@ -102,7 +111,7 @@ def _witnessed(part: Part, known: list[Relation], said: Proposition) -> str:
             f"solve [ {hint} ]" for hint in _by_steps(Relation(sp.Integer(0), "<", values[symbol]), known, said)
         )
         steps[-1] = steps[-1].replace("WAY", f"first [ sign | {way or 'fail'} ]")
-    leaves = [_leaf(_put(item, values), known, said, True) for item in part.body]
+    leaves = [_leaf(_put(item, values), known, [], said, True) for item in part.body]
     intro = f"intros {' '.join(said.names[symbol] for symbol in part.exists.over)}; " if part.exists.over else ""
     return f"{'; '.join(steps)}; {intro}intros; facts; pieces; [> {' | '.join(leaves)} ]"
 
@@ -145,6 +154,8 @@ def _equal(relation: Relation, known: list[Relation], said: Proposition, thoroug
 def _directly(relation: Relation, known: list[Relation], said: Proposition) -> Iterator[str]:
     if relation.sign == "!=" and relation.left.is_nonzero and relation.left.is_Symbol:
         return
+    if relation.sign == "!=" and not relation.has(AppliedUndef):
+        known = [item for item in known if not item.has(AppliedUndef)]
     atoms = Atoms.over(said.names)
     atoms.choose(side for item in (relation, *known) for side in (item.left, item.right))
     goal = relation.standard().map(atoms)

@@ -46,6 +46,8 @@ class Proposition:
         The identifiers of its functions and free symbols, in their order.
     premises, conclusions
         Its parts.
+    claim
+        What was translated.
     """
 
     id: str
@@ -55,6 +57,7 @@ class Proposition:
     binders: tuple[str, ...]
     premises: tuple[Part, ...]
     conclusions: tuple[Part, ...]
+    claim: Claim
 
 
 def proposition(claim: Claim) -> Proposition:
@@ -87,7 +90,7 @@ def proposition(claim: Claim) -> Proposition:
     order = (_sorted(functions), _sorted(free))
     return Proposition(
         claim.id, f"claim_{plain(claim.id)}", _text(names, *order, applied, premises, conclusions), names,
-        tuple(names[item] for items in order for item in items), tuple(premises), tuple(conclusions),
+        tuple(names[item] for items in order for item in items), tuple(premises), tuple(conclusions), claim,
     )  # fmt: skip
 
 

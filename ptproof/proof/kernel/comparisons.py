@@ -1,0 +1,267 @@
+"""Bounds that follow from differential inequalities: for Coq, by its library's comparison lemmas.
+
+An assumption ``Derivative(U(s), s) <= f`` for all s of a domain gives a bound of U(q) by U(p) for every two times
+p <= q of the domain at which the claim speaks of U.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from ptproof.proof.claim import Claim
+from ptproof.proof.kernel.certificates import certificate
+from ptproof.proof.kernel.names import Names
+from ptproof.proof.kernel.terms import NoTranslation, term
+from ptproof.proof.kernel.views import view
+from ptproof.proof.statement import ForAll, Relation, expressions_of
+
+Compared = tuple[Relation, str]
+
+
+@dataclass(frozen=True)
+class Rate:
+    """``U' <= rate`` at every ``time`` of the ``domain``; ``said`` are the claim's expressions."""
+
+    function: AppliedUndef
+    time: sp.Symbol
+    rate: sp.Expr
+    domain: tuple[Relation, ...]
+    known: tuple[Relation, ...]
+    said: tuple[sp.Expr, ...]
+    names: Names
+
+    def at(self, time: sp.Expr) -> sp.Expr:
+        """The function's value at a time."""
+        return self.function.xreplace({self.time: time})
+
+    def write(self, expression: sp.Basic) -> str:
+        """The expression for Coq, in brackets."""
+        return f"({term(expression, self.names)})"
+
+    def as_said(self, expression: sp.Expr) -> sp.Expr:
+        """The expression with powers and exponentials as the claim writes them."""
+        kinds = (sp.Pow, sp.exp)
+        said = [part for item in self.said for part in item.atoms(*kinds) if not part.is_rational_function()]
+        found: dict[sp.Basic, sp.Basic] = {}
+        for part in sorted(expression.atoms(*kinds), key=sp.count_ops):
+            mine = part.xreplace(found)
+            for other in said:
+                if other.func is mine.func and _alike(mine, other):
+                    found[part] = other
+                    break
+        for part in sorted(found, key=sp.count_ops, reverse=True):
+            expression = expression.xreplace({part: found[part]})
+        return expression
+
+
+def compared(claim: Claim, known: Sequence[Relation], names: Names) -> Iterator[Compared]:
+    """The bounds, each with the line by which Coq finds it."""
+    statements = [claim.statement, *claim.assumptions]
+    said = tuple(expressions_of(statements))
+    for item in claim.assumptions:
+        if not (isinstance(item, ForAll) and isinstance(item.relation, Relation) and len(item.variables) == 1):
+            continue
+        relation, time = item.relation.standard(), item.variables[0]
+        if not isinstance(relation.left, sp.Derivative) or relation.left.variables != (time,):
+            continue
+        if not isinstance(relation.left.expr, AppliedUndef) or relation.right.has(sp.Derivative, sp.Integral):
+            continue
+        domain = tuple(part for given in item.domain for part in given.components())
+        rate = Rate(relation.left.expr, time, relation.right, domain, tuple(known), said, names)
+        for start, end in _times(rate):
+            for way in (_integral, _exponential, _decay, _bernoulli):
+                try:
+                    yield from way(rate, start, end)
+                except (NoTranslation, sp.PolynomialError):
+                    continue
+
+
+def _alike(mine: sp.Expr, other: sp.Expr) -> bool:
+    return all(a == b or sp.simplify(a - b) == 0 for a, b in zip(mine.args, other.args, strict=True))
+
+
+def _times(rate: Rate) -> Iterator[tuple[sp.Expr, sp.Expr]]:
+    calls = {call for item in rate.said for call in item.atoms(AppliedUndef) if call.func == rate.function.func}
+    times = sorted({call.args[0] for call in calls if not call.has(rate.time)}, key=sp.default_sort_key)
+    plain = [item for item in rate.known if not item.left.atoms(AppliedUndef) | item.right.atoms(AppliedUndef)]
+    seen = view(plain)
+    for start in times:
+        for end in times:
+            inside = [item.standard().map(lambda side, at=at: side.subs(rate.time, at))  # type: ignore[misc]
+                      for item in rate.domain for at in (start, end)]  # fmt: skip
+            gaps = [end - start, *(item.right - item.left for item in inside)]
+            if start != end and all(sp.expand(seen.of(gap)).is_nonnegative for gap in gaps):
+                yield start, end
+
+
+def _linear(rate: Rate) -> tuple[sp.Expr, sp.Expr]:
+    """a and b of the rate a U + b.
+
+    Raises
+    ------
+    NoTranslation
+        If it is not of this form.
+    """
+    value = sp.Dummy("u", real=True)
+    expression = rate.rate.xreplace({rate.function: value})
+    a = sp.diff(expression, value)
+    if a.has(value):
+        raise NoTranslation("not linear")
+    return a, expression.xreplace({value: sp.Integer(0)})
+
+
+def _primitive(rate: Rate, function: sp.Expr) -> sp.Expr:
+    """An antiderivative in the rate's time.
+
+    Raises
+    ------
+    NoTranslation
+        If none is found.
+    """
+    found = sp.Integer(0)
+    for part in sp.Add.make_args(sp.expand_mul(function, deep=False)):
+        constant, rest = part.as_independent(rate.time, as_Add=False)
+        integral = sp.integrate(sp.factor(sp.together(rest)), rate.time)
+        if integral.has(sp.Integral, sp.Piecewise, sp.log):
+            raise NoTranslation("no antiderivative")
+        found += constant * sp.factor(integral)
+    return found
+
+
+def _asserted(rate: Rate, end: sp.Expr, bound: sp.Expr, lemma: str, steps: Sequence[str], exact: str) -> Compared:
+    """The bound at the end, by a lemma of which the conclusion says ``exact``."""
+    left = rate.at(end)
+    line = (f"assert ({term(left, rate.names)} <= {term(bound, rate.names)}); [ apply Rle_trans with {exact}; "
+            f"[ apply {lemma}; [ {' | '.join(steps)} ] | same ] | ]")  # fmt: skip
+    return Relation(left, "<=", bound), line
+
+
+def _function(rate: Rate, expression: sp.Expr) -> str:
+    return f"(fun {rate.names[rate.time]} : R => {term(expression, rate.names)})"
+
+
+def _integral(rate: Rate, start: sp.Expr, end: sp.Expr) -> Iterator[Compared]:
+    """U(p) and the integral of a rate without U."""
+    if rate.rate.has(rate.function):
+        return
+    primitive = _primitive(rate, rate.rate)
+    name, f, F = rate.names[rate.time], _function(rate, rate.rate), _function(rate, primitive)
+    p, q, U = rate.write(start), rate.write(end), rate.names[rate.function.func]
+    grown = primitive.subs(rate.time, end) - primitive.subs(rate.time, start)
+    steps = ["bound", f"cbv beta; rate_is {U} {name} ltac:(same)", f"cbv beta; antiderivative {name}"]
+    exact = f"({term(rate.at(start), rate.names)} + ({F} {q} - {F} {p}))"
+    yield _asserted(rate, end, rate.at(start) + grown, f"(integral_bound {U} {F} {f} {p} {q})", steps, exact)
+
+
+def _exponential(rate: Rate, start: sp.Expr, end: sp.Expr) -> Iterator[Compared]:
+    """U(p) by e to the integral of a, where the rate is a U."""
+    a, b = _linear(rate)
+    if b != 0 or a == 0:
+        return
+    primitive = _primitive(rate, a)
+    name, f, F = rate.names[rate.time], _function(rate, a), _function(rate, primitive)
+    p, q, U = rate.write(start), rate.write(end), rate.names[rate.function.func]
+    grown = primitive.subs(rate.time, end) - primitive.subs(rate.time, start)
+    bound = rate.as_said(rate.at(start) * sp.exp(grown))
+    steps = ["bound", f"cbv beta; rate_is {U} {name} ltac:(same)", f"cbv beta; antiderivative {name}"]
+    exact = f"({term(rate.at(start), rate.names)} * exp ({F} {q} - {F} {p}))"
+    yield _asserted(rate, end, bound, f"(exponential_bound {U} {F} {f} {p} {q})", steps, exact)
+
+
+def _decay(rate: Rate, start: sp.Expr, end: sp.Expr) -> Iterator[Compared]:
+    """The level at which the rate b - c U balances, and U(p) decayed; b at its greatest."""
+    a, b = _linear(rate)
+    c = -a
+    if not c.is_positive or c.has(rate.time) or b == 0:
+        return
+    level, tactic = _greatest(rate, b, c, start, end)
+    bound = rate.as_said(level / c + rate.at(start) * sp.exp(sp.expand(-c * (end - start))))
+    p, q, U, name = rate.write(start), rate.write(end), rate.names[rate.function.func], rate.names[rate.time]
+    words = " ".join(map(rate.write, (level, c, rate.at(start))))
+    steps = ["bound", "sign", "sign", "bound", f"rate_is {U} {name} ltac:({tactic})"]
+    exact = (f"({rate.write(level)} / {rate.write(c)} + {rate.write(rate.at(start))} * "
+             f"exp (- ({rate.write(c)} * ({q} - {p}))))")  # fmt: skip
+    yield _asserted(rate, end, bound, f"(decay_bound {U} {p} {q} {words})", steps, exact)
+
+
+def _greatest(
+    rate: Rate, b: sp.Expr, taken: sp.Expr, start: sp.Expr, end: sp.Expr, of: sp.Expr | None = None
+) -> tuple[sp.Expr, str]:
+    """A bound of b between the times, and how Coq sees that the rate is below ``bound - taken U``, or a power of U.
+
+    Raises
+    ------
+    NoTranslation
+        If b is not seen to be greatest at the start.
+    """
+    if not b.has(rate.time):
+        return b, "same"
+    level = b.subs(rate.time, start)
+    inside = [Relation(start, "<=", rate.time), Relation(rate.time, "<=", end)]
+    outside = [item.standard().map(lambda side: side.subs(rate.time, start)) for item in rate.domain]
+    known = [*rate.known, *(item for item in outside if item.left != item.right), *inside]
+    goal = Relation(rate.rate, "<=", level - taken * (rate.function if of is None else of))
+    for text in certificate(goal, known, rate.names):
+        return level, text
+    raise NoTranslation("the rate is not seen to be greatest at the start")
+
+
+def _bernoulli(rate: Rate, start: sp.Expr, end: sp.Expr) -> Iterator[Compared]:
+    """The level at which the rate b - c U^r balances, and what U(p), or a bound of it, decays to without b."""
+    found = {part for part in rate.rate.atoms(sp.Pow) if part.base == rate.function}
+    if len(found) != 1:
+        return
+    power = found.pop()
+    value, r = sp.Dummy("v", real=True), power.exp
+    expression = rate.rate.xreplace({power: value})
+    a, b = sp.diff(expression, value), expression.xreplace({value: sp.Integer(0)})
+    if a.has(value) or a.has(rate.time) or not (-a).is_positive or expression.has(rate.function):
+        return
+    level, tactic = _greatest(rate, b, -a, start, end, power)
+    bounds = [
+        item.right for item in map(Relation.standard, rate.known) if item.left == rate.at(start) and item.sign != "="
+    ]
+    for w in (*bounds, rate.at(start)):
+        yield _bernoulli_from(rate, start, end, (level, -a, r, w), tactic)
+
+
+def _bernoulli_from(
+    rate: Rate, start: sp.Expr, end: sp.Expr, values: tuple[sp.Expr, sp.Expr, sp.Expr, sp.Expr], tactic: str
+) -> Compared:
+    level, c, r, w = values
+    less = sp.factor(sp.together(r - 1))
+    v = rate.as_said(w**less)
+    base = 1 + c * less * v * (end - start)
+    decayed = rate.as_said(base ** (-1 / less))
+    p, q, U, name = rate.write(start), rate.write(end), rate.names[rate.function.func], rate.names[rate.time]
+    rated = f"rate_is {U} {name} ltac:({'same_rate' if tactic == 'same' else tactic})"
+    tail = f"{rate.write(v)} {rate.write(decayed.base)} {rate.write(decayed.exp)}"
+    power = f"rpow {rate.write(decayed.base)} {rate.write(decayed.exp)} * {rate.write(w)}"
+    above = f"first [ lra | difference_as {rate.write(less)} ]"
+    if level == 0:
+        steps = ["bound", "sign", above, "sign", "bound", rated, "same_power", "rational", "rational"]
+        lemma = f"(bernoulli_decay_as {U} {p} {q} {rate.write(c)} {rate.write(r)} {rate.write(w)} {tail})"
+        return _asserted(rate, end, decayed * w, lemma, steps, f"({power})")
+    balance = rate.as_said((level / c) ** (1 / r))
+    pair = f"{rate.write(balance.base)} {rate.write(balance.exp)}"
+    steps = [
+        "bound",
+        "sign",
+        "sign",
+        above,
+        "sign",
+        "bound",
+        rated,
+        "rational",
+        "rational",
+        "same_power",
+        "rational",
+        "rational",
+    ]
+    words = " ".join(map(rate.write, (level, c, r, w)))
+    lemma = f"(bernoulli_bound_as {U} {p} {q} {words} {pair} {tail})"
+    return _asserted(rate, end, balance + decayed * w, lemma, steps, f"(rpow {pair} + {power})")

@@ -1,0 +1,38 @@
+"""Facts that follow from a claim's assumptions in one step, with the line by which Coq takes that step."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import sympy as sp
+
+from ptproof.proof.kernel.comparisons import compared
+from ptproof.proof.kernel.names import Names
+from ptproof.proof.kernel.terms import NoTranslation, term
+from ptproof.proof.kernel.theorem import Proposition
+from ptproof.proof.statement import Relation
+
+Derived = tuple[Relation, str]
+
+
+def derived(known: Sequence[Relation], said: Proposition) -> list[Derived]:
+    """The facts, each with its line."""
+    found: list[Derived] = []
+    for item in known:
+        try:
+            found += _raised(item.standard(), said.names)
+        except NoTranslation:
+            continue
+    return [*found, *compared(said.claim, known, said.names)]
+
+
+def _raised(item: Relation, names: Names) -> Iterator[Derived]:
+    """From x^(1/q) <= r: x <= r^q, also where x may be 0."""
+    power, bound = item.left, item.right
+    if not (isinstance(power, sp.Pow) and item.sign == "<=" and bound.is_positive and power.base.is_nonnegative):
+        return
+    if power.base.is_positive or power.exp.is_Rational:
+        return
+    inverse = 1 / power.exp
+    words = " ".join(f"({term(part, names)})" for part in (power.base, power.exp, inverse, bound))
+    yield Relation(power.base, "<=", bound**inverse), f"raised {words}"

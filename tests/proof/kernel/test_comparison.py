@@ -1,0 +1,78 @@
+"""Chains of inequalities and differential inequalities before Coq's kernel: each with a twin that is false."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+import sympy as sp
+
+from ptproof.proof import ForAll, claim, eq, exact, ge, le
+from ptproof.proof.claim import Claim
+from ptproof.proof.kernel import Confirmation, check, missing
+
+needs_coq = pytest.mark.skipif(bool(missing()), reason=missing() or "coq is there")
+s, t, p, v = sp.symbols("s t p v", real=True)
+a, b, c, g, r = sp.symbols("a b c g r", positive=True)
+z = sp.Symbol("z", nonnegative=True)
+n = sp.Symbol("n", integer=True, positive=True)
+U = sp.Function("U", nonnegative=True)
+V = sp.Function("V", positive=True)
+Y = sp.Function("Y", real=True)
+
+
+def stated(id: str, statement: Any, **options: Any) -> Claim:
+    return claim(id, id, statement, **options)(exact)
+
+
+def rate(function: Any, right: Any) -> list[Any]:
+    return [ge(t, p), ForAll([s], le(sp.Derivative(function(s), s), right), [ge(s, p), le(s, t)])]
+
+
+CHAIN = [le(v, -(g**2)), le(b * r ** (2 * n - 1), g), le(c, a * r ** (2 * n))]
+POWER = (2 * n - 1) / n
+ROOT = [ge(r, (z / a) ** (1 / (2 * n - 1))), le(v, z - a * r ** (2 * n - 1))]
+LEVEL = (z / c) ** (1 / (2 * n + 1))
+BERNOULLI = [*rate(U, z - c * U(s) ** (2 * n + 1))]
+FADING = z / (1 + (s - p) / r) ** 2
+TRUE = [
+    stated("chain", le(v, -(b**2) * (c / a) ** POWER), given=CHAIN),
+    stated("value", le(v, b**2 * z), given=[eq(z, a**2), le(v, g**2 * a**2), le(g, b)]),
+    stated("raised", le(v, 0), given=ROOT),
+    stated("integral", le(Y(t), Y(p) + a * (t - p)), given=rate(Y, a)),
+    stated("exponential", le(Y(t), Y(p) * sp.exp(-a * (t - p))), given=rate(Y, -a * Y(s))),
+    stated("decay", le(U(t), z / a + U(p) * sp.exp(-a * (t - p))), given=rate(U, z - a * U(s))),
+    stated("greatest", le(U(t), z / a + U(p) * sp.exp(-a * (t - p))), given=rate(U, FADING - a * U(s))),
+    stated("bernoulli", le(U(t), LEVEL + U(p) * (1 + 2 * n * c * U(p) ** (2 * n) * (t - p)) ** (-1 / (2 * n))),
+           given=BERNOULLI),
+]  # fmt: skip
+FALSE = [
+    stated("chain-factor", le(v, -2 * (b**2) * (c / a) ** POWER), given=CHAIN),
+    stated("value-without", le(v, b**2 * z), given=[le(z, a**2), le(v, g**2 * a**2), le(g, b)]),
+    stated("raised-too-far", le(v, -a), given=ROOT),
+    stated("integral-backwards", le(Y(p), Y(t) + a * (t - p)), given=rate(Y, a)),
+    stated("exponential-faster", le(Y(t), Y(p) * sp.exp(-2 * a * (t - p))), given=rate(Y, -a * Y(s))),
+    stated("decay-level", le(U(t), z / (2 * a) + U(p) * sp.exp(-a * (t - p))), given=rate(U, z - a * U(s))),
+    stated("greatest-at-the-end", le(U(t), z / a + U(p) * sp.exp(-a * (t - p))),
+           given=rate(U, z * (1 + s - p) - a * U(s))),
+    stated("bernoulli-faster", le(U(t), LEVEL + U(p) * (1 + 4 * n * c * U(p) ** (2 * n) * (t - p)) ** (-1 / (2 * n))),
+           given=BERNOULLI),
+    stated("before-the-start", le(Y(t), Y(p) + a * (t - p)), given=rate(Y, a)[1:]),
+]  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def answers(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Confirmation]:
+    return check([*TRUE, *FALSE], timeout=10.0, keep=tmp_path_factory.mktemp("coq"))
+
+
+@needs_coq
+@pytest.mark.parametrize("id", [item.id for item in TRUE])
+def test_what_follows_is_confirmed(answers: dict[str, Confirmation], id: str) -> None:
+    assert answers[id].confirmed, answers[id].reason
+
+
+@needs_coq
+@pytest.mark.parametrize("id", [item.id for item in FALSE])
+def test_what_does_not_follow_is_not(answers: dict[str, Confirmation], id: str) -> None:
+    assert not answers[id].confirmed
