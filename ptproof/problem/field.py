@@ -22,6 +22,9 @@ from ptproof.errors import InputError
 from ptproof.proof.signs import sign_of
 from ptproof.system import gradient
 
+# At 1000 a field is flat to within 1e-300 over half of its unit ball: no double tells it from a constant.
+LARGEST_ORDER = 1000
+
 
 @dataclass(frozen=True)
 class FieldBounds:
@@ -102,14 +105,14 @@ class Field:
     source
         The n exact coordinates of x*.
     kappa
-        κ: a positive integer.
+        κ: a positive integer, 1000 at most.
 
     Raises
     ------
     InputError
         If the lengths differ, a coordinate is not an exact real number, F has other symbols or undefined functions
         or is not defined at the source, a variable is declared positive or the like, or κ is not a positive
-        integer. That x* is a maximum is not checked here but proved by :func:`ptproof.certify.certify_field`.
+        integer or above 1000. That x* is a maximum is not checked here but proved by :func:`ptproof.certify.certify_field`.
 
     Examples
     --------
@@ -146,6 +149,10 @@ class Field:
         kappa = _exact(self.kappa, "field.kappa")
         if not (isinstance(kappa, sp.Integer) and kappa > 0):
             raise InputError(f"field.kappa: must be a positive integer, not {_short(kappa)}")
+        if kappa > LARGEST_ORDER:
+            raise InputError(
+                f"field.kappa: orders above {LARGEST_ORDER} are not computed with, and {_short(kappa)} is one"
+            )
         expression = _exact(self.expression, "field.expression")
         _check_expression(expression, variables)
         object.__setattr__(self, "variables", variables)
