@@ -112,7 +112,8 @@ class Field:
     InputError
         If the lengths differ, a coordinate is not an exact real number, F has other symbols or undefined functions
         or is not defined at the source, a variable is declared positive or the like, or κ is not a positive
-        integer or above 1000. That x* is a maximum is not checked here but proved by :func:`ptproof.certify.certify_field`.
+        integer or above 1000. That x* is a maximum is not checked here but proved by
+        :func:`ptproof.certify.certify_field`.
 
     Examples
     --------
