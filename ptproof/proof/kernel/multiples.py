@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import time
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
@@ -16,6 +17,7 @@ from ptproof.proof.statement import Relation
 _MOST_OPERATIONS = 200
 _MOST_FACTS = 10
 _MOST_TRIES = 80
+_MOST_SECONDS = 4.0
 
 
 @dataclass(frozen=True)
@@ -60,7 +62,7 @@ def by_multiples(goal: Goal) -> Iterator[str]:
         if sp.count_ops(top) > _MOST_OPERATIONS:
             continue
         useful = list(_facts([_moved(fact, moved) for fact in facts], names))
-        found = _search(sp.expand(top), useful[:_MOST_FACTS], depth, relation.sign == "<", itertools.count())
+        found = _search(sp.expand(top), useful[:_MOST_FACTS], depth, relation.sign == "<", _tries())
         if found is not None:
             yield "; ".join([*start, *_lines(found, top, bottom, names)])
             return
@@ -119,10 +121,10 @@ def _contradiction(relations: Sequence[Relation], names: dict[sp.Basic, str]) ->
     return ""
 
 
-def _search(top: sp.Expr, facts: Sequence[_Fact], depth: int, strictly: bool, tries: Iterator[int]) -> _Sum | None:
+def _search(top: sp.Expr, facts: Sequence[_Fact], depth: int, strictly: bool, tries: Iterator[bool]) -> _Sum | None:
     for fact in facts:
         for factor, weight in _weights(top, fact.top):
-            if next(tries) > _MOST_TRIES:
+            if not next(tries):
                 return None
             rest = sp.factor(sp.expand(factor * top - weight * fact.top))
             positive = fact.strict and is_shown(weight, strictly=True)
@@ -135,6 +137,13 @@ def _search(top: sp.Expr, facts: Sequence[_Fact], depth: int, strictly: bool, tr
                     own = (sp.factor(inner.factor * weight), fact)
                     return _Sum(sp.factor(inner.factor * factor), (own, *inner.weights), inner.rest)
     return None
+
+
+def _tries() -> Iterator[bool]:
+    """Whether there may be another try."""
+    start = time.monotonic()
+    for count in itertools.count():
+        yield count < _MOST_TRIES and time.monotonic() < start + _MOST_SECONDS
 
 
 def _weights(top: sp.Expr, fact: sp.Expr) -> Iterator[tuple[sp.Expr, sp.Expr]]:

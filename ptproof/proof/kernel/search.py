@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Iterator, Sequence
 
 import sympy as sp
@@ -18,6 +19,8 @@ from ptproof.proof.kernel.terms import NoTranslation
 from ptproof.proof.statement import Relation
 
 _MOST_CASES = 3
+# For the hints of one goal with all its cases; what is found later is not tried.
+_MOST_SECONDS = 20.0
 _CLOSING: tuple[Way, ...] = (by_form, by_multiples, by_halflines, by_circular_bounds)
 
 
@@ -37,37 +40,39 @@ def by_steps(goal: Goal, others: Sequence[Way] = ()) -> Iterator[str]:
         more, simpler = step(simpler)
         lines += more
     try:
-        yield "; ".join([*lines, _cases(simpler, others, _MOST_CASES)])
+        yield "; ".join([*lines, _cases(simpler, others, _MOST_CASES, time.monotonic() + _MOST_SECONDS)])
     except (NoTranslation, sp.PolynomialError):
         return
 
 
-def _cases(goal: Goal, others: Sequence[Way], left: int) -> str:
+def _cases(goal: Goal, others: Sequence[Way], left: int, until: float) -> str:
     found = split(goal) if left else None
     if found is None:
-        return _without_cases(goal, others)
+        return _without_cases(goal, others, until)
     line, goals = found
-    return f"{line}; [> {' | '.join(f'facts; {_cases(each, others, left - 1)}' for each in goals)} ]"
+    return f"{line}; [> {' | '.join(f'facts; {_cases(each, others, left - 1, until)}' for each in goals)} ]"
 
 
-def _without_cases(goal: Goal, others: Sequence[Way]) -> str:
+def _without_cases(goal: Goal, others: Sequence[Way], until: float) -> str:
     if goal.relation.sign == "=":
         sides = goal.relation.left, goal.relation.right
         both = [Goal(Relation(a, "<=", b), goal.known, goal.names) for a, b in (sides, sides[::-1])]
-        parts = " | ".join(_without_cases(each, others) for each in both)
+        parts = " | ".join(_without_cases(each, others, until) for each in both)
         return f"first [ solve [ quickly; equality ] | solve [ known_values ] | between; [> {parts} ] ]"
     hints: list[str] = []
     for step in (squared_symbols, roots_of_facts):
         lines, simpler = step(goal)
         if lines:
-            hints.append("; ".join([*lines, one_of(_closed(simpler, others))]))
-    hints += [f"{line}; {one_of(_closed(simpler, others))}" for line, simpler in dominated(goal)]
-    hints += _closed(goal, others)
+            hints.append("; ".join([*lines, one_of(_closed(simpler, others, until))]))
+    hints += [f"{line}; {one_of(_closed(simpler, others, until))}" for line, simpler in dominated(goal)]
+    hints += _closed(goal, others, until)
     return one_of(hints)
 
 
-def _closed(goal: Goal, others: Sequence[Way]) -> Iterator[str]:
+def _closed(goal: Goal, others: Sequence[Way], until: float) -> Iterator[str]:
     for way in (*_CLOSING, *others):
+        if time.monotonic() > until:
+            return
         try:
             yield from way(goal)
         except (NoTranslation, sp.PolynomialError):
