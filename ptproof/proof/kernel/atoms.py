@@ -27,10 +27,12 @@ class Atoms:
     made: dict[sp.Basic, sp.Symbol] = field(default_factory=dict)
     powers: dict[sp.Basic, list[sp.Basic]] = field(default_factory=dict)
     lines: list[str] = field(default_factory=list)
+    multiples: tuple[int, ...] = (1, 2, 3, -1)
 
     @classmethod
-    def over(cls, names: Names) -> Atoms:
-        return cls(dict(names))
+    def over(cls, names: Names, multiples: tuple[int, ...] = (1, 2, 3, -1)) -> Atoms:
+        """Without atoms yet; one power is written by another where its exponent is one of these ``multiples``."""
+        return cls(dict(names), multiples=multiples)
 
     def __call__(self, expression: sp.Basic) -> sp.Basic:
         if isinstance(expression, sp.Rational) or expression.is_Symbol:
@@ -69,7 +71,7 @@ class Atoms:
     def _power(self, base: sp.Basic, exponent: sp.Basic) -> sp.Basic:
         """The power by the one chosen for its base, where the exponents differ by whole numbers."""
         for chosen in self.powers.setdefault(base, []):
-            if exponent != chosen and (found := _whole(exponent, chosen)) is not None:
+            if exponent != chosen and (found := _whole(exponent, chosen, self.multiples)) is not None:
                 times, rest = found
                 old, new = (term(base**e, self.names) for e in (exponent, chosen))
                 text = term(base, self.names)
@@ -95,9 +97,9 @@ class Atoms:
         for base, exponents in found.items():
             left = set(exponents)
             while left:
-                best = min(left, key=lambda e: (_cost(e, left), str(e)))
+                best = min(left, key=lambda e: (self._cost(e, left), str(e)))
                 self.powers.setdefault(base, []).append(best)
-                left = {e for e in left if e != best and _whole(e, best) is None}
+                left = {e for e in left if e != best and _whole(e, best, self.multiples) is None}
 
     def _before(self, expression: sp.Basic) -> int:
         """Where the line for an atom stands: before those of the atoms in it, which would change its text."""
@@ -118,19 +120,18 @@ class Atoms:
             self.lines.insert(self._before(expression), f"try (atom {name} {text})")
         return self.made[expression]
 
+    def _cost(self, chosen: sp.Basic, exponents: set[sp.Basic]) -> int:
+        cost = 0
+        for exponent in exponents:
+            found = _whole(exponent, chosen, self.multiples)
+            cost += 10 if found is None else (found[0] if found[0] > 0 else 5) + (found[1] if found[1] >= 0 else 5)
+        return cost
 
-def _whole(exponent: sp.Basic, chosen: sp.Basic) -> tuple[int, int] | None:
+
+def _whole(exponent: sp.Basic, chosen: sp.Basic, multiples: tuple[int, ...]) -> tuple[int, int] | None:
     """Whole numbers with exponent = times chosen + rest."""
-    for times in (1, 2, 3, -1, -2):
+    for times in multiples:
         rest = sp.simplify(exponent - times * chosen)
         if rest.is_Integer and abs(rest) <= 4:
             return times, int(rest)
     return None
-
-
-def _cost(chosen: sp.Basic, exponents: set[sp.Basic]) -> int:
-    cost = 0
-    for exponent in exponents:
-        found = _whole(exponent, chosen)
-        cost += 10 if found is None else (found[0] if found[0] > 0 else 5) + (found[1] if found[1] >= 0 else 5)
-    return cost

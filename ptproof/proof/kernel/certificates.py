@@ -83,7 +83,7 @@ class _Writer:
         for below in chain.matched:
             lower, upper = self.write(below.lower), self.write(below.upper)
             lines.append(f"below_by_logarithms {lower} {upper} ({' + '.join(map(self._logarithm, below.known))})")
-        lines.append(f"sum_as ({' + '.join(self._summands(chain))})")
+        lines.append(f"chain_as ({' + '.join(self._summands(chain))})")
         return [*lines, *self._equation(chain, said)]
 
     def write(self, expression: sp.Basic) -> str:
@@ -139,7 +139,7 @@ class _Writer:
         products = {part: sp.expand_power_base(part) for item in expressions for part in item.atoms(sp.Pow)
                     if part.base.is_Mul and part.base.is_positive and not part.exp.is_Rational}  # fmt: skip
         expressions += products.values()
-        atoms = Atoms.over(self.names)
+        atoms = Atoms.over(self.names, (1, 2, 3, -1, -2))
         atoms.choose(expressions)
         for item in expressions:
             try:

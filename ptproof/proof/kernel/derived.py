@@ -35,4 +35,4 @@ def _raised(item: Relation, names: Names) -> Iterator[Derived]:
         return
     inverse = 1 / power.exp
     words = " ".join(f"({term(part, names)})" for part in (power.base, power.exp, inverse, bound))
-    yield Relation(power.base, "<=", bound**inverse), f"raised {words}"
+    yield Relation(power.base, "<=", bound**inverse), f"raised_bound {words}"

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import re
+from pathlib import Path
 from typing import Any
 
 import pytest
 import sympy as sp
 
 from ptproof.proof import claim, eq, exact, ge, gt, le, lt
+from ptproof.proof.kernel import coq
 from ptproof.proof.kernel.names import WORDS, identifiers
 from ptproof.proof.kernel.obligations import obligations
 from ptproof.proof.kernel.terms import NoTranslation, term
@@ -164,3 +166,12 @@ def test_a_function_and_a_symbol_of_one_name_stay_apart() -> None:
 def test_a_claim_without_a_translation_is_refused(statement: Any) -> None:
     with pytest.raises(NoTranslation):
         proposition(claim("id", "A claim", statement)(exact))
+
+
+def test_no_name_of_the_library_is_given_twice() -> None:
+    folder = Path(coq.__file__).parent / "theory"
+    text = "\n".join((folder / f"{name}.v").read_text(encoding="utf-8") for name in coq.LIBRARY)
+    names = re.findall(r"^(?:Ltac|Lemma|Definition|Theorem|with) (\w+)(?![^.]*?::=)", text, re.MULTILINE)
+    assert len(names) > 100
+    assert {name for name in names if names.count(name) > 1} == set()
+    assert {file.stem for file in folder.glob("*.v")} == set(coq.LIBRARY)

@@ -208,9 +208,12 @@ Lemma other_factor : forall a b p q, a = b -> q <> 0 -> b - a = p * q -> p = 0.
 Proof.
   intros a b p q E N F. assert (Z : p * q = 0) by lra. apply Rmult_integral in Z. destruct Z; [assumption | contradiction].
 Qed.
+Ltac is_not_zero := first
+  [ sign | match goal with N : ?a <> ?b |- _ <> 0 => let E := fresh in intro E; apply N; lra end
+  | let E := fresh in intro E; nra ].
 Ltac factor_is_zero p q :=
   match goal with
-  | H : ?a = ?b |- _ => let F := fresh in assert (F : p = 0) by (apply (other_factor a b p q H); [ sign | rational ])
+  | H : ?a = ?b |- _ => let F := fresh in assert (F : p = 0) by (apply (other_factor a b p q H); [ is_not_zero | rational ])
   end.
 
 Ltac rational ::= as_reals; first [ reflexivity | ring | field; sides
@@ -232,14 +235,6 @@ Ltac bounds_of_cos u := pose proof (proj1 (cos_between u)); pose proof (proj2 (c
   pose proof (proj1 (COS_bound u)); pose proof (proj2 (COS_bound u)).
 (* Two-sided. *)
 Ltac between := apply Rle_antisym.
-Ltac is_not_zero := first
-  [ sign | match goal with N : ?a <> ?b |- _ <> 0 => let E := fresh in intro E; apply N; lra end
-  | let E := fresh in intro E; nra ].
-Ltac factor_is_zero p q ::=
-  match goal with
-  | H : ?a = ?b |- _ => let F := fresh in assert (F : p = 0) by (apply (other_factor a b p q H); [ is_not_zero | rational ])
-  end.
-
 (* A fact that says less than 0 of what is not negative; or that this is 0. *)
 Ltac contradicts bottom top below :=
   exfalso; fact_from bottom top;

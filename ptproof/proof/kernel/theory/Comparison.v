@@ -11,7 +11,7 @@ Ltac nonneg_sum :=
   | |- 0 <= _ * _ => apply Rmult_le_pos; nonneg_sum
   | |- _ => first [ assumption | sign ]
   end.
-Ltac sum_as e :=
+Ltac chain_as e :=
   to_difference; lazymatch goal with |- 0 <= ?d => replace d with e; [ nonneg_sum | symmetry ] end.
 
 Lemma minus_nonneg : forall a b, a <= b -> 0 <= b - a.
@@ -21,7 +21,7 @@ Proof. intros a b P [L | E]; [apply minus_nonneg; left; apply ln_increasing; ass
 Ltac fact a b := assert (0 <= b - a) by (apply minus_nonneg; first [ assumption | lra ]).
 Ltac log_fact a b :=
   assert (0 <= ln b - ln a) by (apply ln_minus_nonneg; [ sign | first [ assumption | lra | quickly ] ]).
-Ltac log_fact_as a b e := assert (0 <= ln b - ln a) by (apply ln_minus_nonneg; [ sign | sum_as e; rational ]).
+Ltac log_fact_as a b e := assert (0 <= ln b - ln a) by (apply ln_minus_nonneg; [ sign | chain_as e; rational ]).
 Ltac log_exp x e := assert (0 <= ln x - ln 1) by
   (rewrite ln_exp, ln_1, Rminus_0_r; lazymatch goal with |- 0 <= ?d => replace d with e by rational end; nonneg_sum).
 (* a <= b, since the logarithm of b / a is the sum e of what is not negative. *)
@@ -53,7 +53,7 @@ Proof.
     apply Rmult_le_compat_l; lra.
   - subst x. left. apply exp_pos.
 Qed.
-Ltac raised x e q r := assert (x <= Rpower r q) by (apply (below_power x e q r); [ sign | sign | sign | rational | lra ]).
+Ltac raised_bound x e q r := assert (x <= Rpower r q) by (apply (below_power x e q r); [ sign | sign | sign | rational | lra ]).
 
 (* Differential inequalities. *)
 Lemma constant : forall c s : R, is_derive (fun _ : R => c) s 0.
