@@ -15,7 +15,7 @@ from ptproof.proof.kernel.names import WORDS, identifiers
 from ptproof.proof.kernel.obligations import obligations
 from ptproof.proof.kernel.terms import NoTranslation, term
 from ptproof.proof.kernel.theorem import proposition
-from ptproof.proof.statement import Exists, ForAll, Smooth, every
+from ptproof.proof.statement import Exists, ForAll, every
 
 x, y, s = sp.symbols("x y s", real=True)
 a, b = sp.symbols("a b", positive=True)
@@ -156,7 +156,6 @@ def test_a_function_and_a_symbol_of_one_name_stay_apart() -> None:
 @pytest.mark.parametrize(
     "statement",
     [
-        Smooth((x**2,), (x,), 2),
         eq(sp.Symbol("z"), 1),
         eq(sp.Function("f")(x), 1),
         eq(sp.Limit(x, x, 0) + 1, 1),
