@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import gc
 import io
 import os
 import pickle
@@ -47,6 +48,9 @@ def serve(
             start(*arguments)
     except BaseException as error:
         failed = error
+    # What was read stays as it is: no collection in a worker looks at it, which would also copy its memory.
+    gc.collect()
+    gc.freeze()
     signal.signal(signal.SIGTERM, lambda *_: sys.exit())
     here = os.getpid()
     try:
