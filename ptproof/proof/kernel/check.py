@@ -13,7 +13,7 @@ from pathlib import Path
 
 from ptproof.proof.claim import Claim
 from ptproof.proof.kernel import coq
-from ptproof.proof.kernel.portfolio import script
+from ptproof.proof.kernel.hints.portfolio import script
 from ptproof.proof.kernel.terms import NoTranslation
 from ptproof.proof.kernel.theorem import Proposition, proposition
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import sympy as sp
 
-from ptproof.proof.kernel.goals import Goal, is_shown
+from ptproof.proof.kernel.hints.goals import Goal, is_shown
 from ptproof.proof.kernel.terms import DECIDED
 from ptproof.proof.statement import Relation, RelationSign
 

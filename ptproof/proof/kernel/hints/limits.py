@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 import sympy as sp
 
-from ptproof.proof.kernel.atoms import Atoms
+from ptproof.proof.kernel.hints.atoms import Atoms
 from ptproof.proof.kernel.names import Names
 from ptproof.proof.kernel.obligations import Part
 from ptproof.proof.kernel.terms import NoTranslation, positive_base, term

@@ -9,11 +9,11 @@ from dataclasses import dataclass
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ptproof.proof.kernel.atoms import Atoms
-from ptproof.proof.kernel.chains import Chain, Search, Used, directed
+from ptproof.proof.kernel.hints.atoms import Atoms
+from ptproof.proof.kernel.hints.chains import Chain, Search, Used, directed
+from ptproof.proof.kernel.hints.views import View, view
 from ptproof.proof.kernel.names import Names
 from ptproof.proof.kernel.terms import NoTranslation, term
-from ptproof.proof.kernel.views import View, view
 from ptproof.proof.statement import Relation
 
 # What binds a symbol: nothing is put in there.

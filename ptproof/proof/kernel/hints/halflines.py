@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from ptproof.proof.kernel.goals import Goal, is_shown
+from ptproof.proof.kernel.hints.goals import Goal, is_shown
 from ptproof.proof.statement import Relation
 
 _MOST_DERIVATIVES = 6

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from ptproof.proof.kernel.atoms import Atoms
-from ptproof.proof.kernel.goals import Goal, brackets, is_shown
+from ptproof.proof.kernel.hints.atoms import Atoms
+from ptproof.proof.kernel.hints.goals import Goal, brackets, is_shown
 from ptproof.proof.kernel.terms import term
 from ptproof.proof.statement import Relation
 

@@ -13,10 +13,10 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from ptproof.proof.claim import Claim
-from ptproof.proof.kernel.certificates import certificate
+from ptproof.proof.kernel.hints.certificates import certificate
+from ptproof.proof.kernel.hints.views import view
 from ptproof.proof.kernel.names import Names
 from ptproof.proof.kernel.terms import NoTranslation, term
-from ptproof.proof.kernel.views import view
 from ptproof.proof.statement import ForAll, Relation, expressions_of
 
 Compared = tuple[Relation, str]

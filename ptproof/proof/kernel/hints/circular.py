@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 import sympy as sp
 
-from ptproof.proof.kernel.goals import Goal
-from ptproof.proof.kernel.products import products
+from ptproof.proof.kernel.hints.goals import Goal
+from ptproof.proof.kernel.hints.products import products
 from ptproof.proof.statement import Relation
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ptproof.proof.kernel.goals import Goal
+from ptproof.proof.kernel.hints.goals import Goal
 from ptproof.proof.statement import Relation
 
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import sympy as sp
 
-from ptproof.proof.kernel.goals import Goal
+from ptproof.proof.kernel.hints.goals import Goal
 from ptproof.proof.statement import Relation
 
 

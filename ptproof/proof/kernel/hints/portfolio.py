@@ -13,21 +13,21 @@ from dataclasses import replace
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ptproof.proof.kernel.atoms import Atoms
-from ptproof.proof.kernel.certificates import certificate
 from ptproof.proof.kernel.declared import of_symbol
-from ptproof.proof.kernel.derived import Derived, derived
-from ptproof.proof.kernel.goals import Goal, brackets
-from ptproof.proof.kernel.integrals import integrals
-from ptproof.proof.kernel.limits import near
-from ptproof.proof.kernel.norms import norms
+from ptproof.proof.kernel.hints.atoms import Atoms
+from ptproof.proof.kernel.hints.certificates import certificate
+from ptproof.proof.kernel.hints.derived import Derived, derived
+from ptproof.proof.kernel.hints.goals import Goal, brackets
+from ptproof.proof.kernel.hints.integrals import integrals
+from ptproof.proof.kernel.hints.limits import near
+from ptproof.proof.kernel.hints.norms import norms
+from ptproof.proof.kernel.hints.products import products
+from ptproof.proof.kernel.hints.search import by_steps
+from ptproof.proof.kernel.hints.witnesses import witnesses
 from ptproof.proof.kernel.obligations import Part
-from ptproof.proof.kernel.products import products
-from ptproof.proof.kernel.search import by_steps
 from ptproof.proof.kernel.smooth import script as smoothness
 from ptproof.proof.kernel.terms import NoTranslation, term
 from ptproof.proof.kernel.theorem import Proposition
-from ptproof.proof.kernel.witnesses import witnesses
 from ptproof.proof.statement import Relation
 
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 import sympy as sp
 
-from ptproof.proof.kernel.comparisons import compared
+from ptproof.proof.kernel.hints.comparisons import compared
 from ptproof.proof.kernel.names import Names
 from ptproof.proof.kernel.terms import NoTranslation, term
 from ptproof.proof.kernel.theorem import Proposition

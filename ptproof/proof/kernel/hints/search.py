@@ -7,14 +7,14 @@ from collections.abc import Iterator, Sequence
 
 import sympy as sp
 
-from ptproof.proof.kernel.cases import factored, split
-from ptproof.proof.kernel.circular import by_circular_bounds
-from ptproof.proof.kernel.forms import by_form
-from ptproof.proof.kernel.goals import Goal, Way, one_of
-from ptproof.proof.kernel.halflines import by_halflines
-from ptproof.proof.kernel.multiples import by_multiples
-from ptproof.proof.kernel.roots import dominated, roots_of_facts, squared_symbols
-from ptproof.proof.kernel.substitutions import powers_back, substituted
+from ptproof.proof.kernel.hints.cases import factored, split
+from ptproof.proof.kernel.hints.circular import by_circular_bounds
+from ptproof.proof.kernel.hints.forms import by_form
+from ptproof.proof.kernel.hints.goals import Goal, Way, one_of
+from ptproof.proof.kernel.hints.halflines import by_halflines
+from ptproof.proof.kernel.hints.multiples import by_multiples
+from ptproof.proof.kernel.hints.roots import dominated, roots_of_facts, squared_symbols
+from ptproof.proof.kernel.hints.substitutions import powers_back, substituted
 from ptproof.proof.kernel.terms import NoTranslation
 from ptproof.proof.statement import Relation
 

@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ptproof.proof.kernel.monomials import (
+from ptproof.proof.kernel.hints.monomials import (
     Exponents,
     difference,
     monomial_of,

@@ -1,0 +1,1 @@
+"""What is looked for before Coq is asked: multipliers, cases, witnesses, bounds. Coq checks each of them or fails."""
