@@ -50,7 +50,7 @@ Stated = tuple[Claim, Proposition, coq.Theorem]
 
 def check(
     claims: Iterable[Claim], *, workers: int | None = None, timeout: float = SECONDS_PER_CLAIM,
-    progress: Progress | None = None, keep: Path | None = None,
+    progress: Progress | None = None, keep: Path | None = None, again: bool = True,
 ) -> dict[str, Confirmation]:  # fmt: skip
     """Have Coq's kernel check each claim.
 
@@ -66,6 +66,8 @@ def check(
         Called with each claim and what became of it, as it comes in.
     keep
         A folder in which the files for Coq are left.
+    again
+        Whether a claim that Coq has found no proof of is tried once more, with hints that take longer to find.
 
     Returns
     -------
@@ -93,7 +95,7 @@ def check(
 
         def work(number: int) -> None:
             part = wanted[number * _IN_A_FILE : (number + 1) * _IN_A_FILE]
-            for claim, confirmation in _answers(folder, number, part, timeout):
+            for claim, confirmation in _answers(folder, number, part, timeout, again):
                 answer(claim, confirmation)
 
         with ThreadPoolExecutor(workers or os.cpu_count() or 1) as pool:
@@ -103,7 +105,7 @@ def check(
 
 
 def _answers(
-    folder: Path, number: int, claims: Sequence[Claim], timeout: float
+    folder: Path, number: int, claims: Sequence[Claim], timeout: float, again: bool
 ) -> Iterator[tuple[Claim, Confirmation]]:
     """What Coq says of these claims. Where it stops at one, the rest is asked first; then that one, with more hints."""
     left: list[Stated] = []
@@ -129,7 +131,7 @@ def _answers(
         left = left[len(heard) :]
         if left:
             claim, said, theorem = left.pop(0)
-            if claim.id in tried_again:
+            if claim.id in tried_again or not again:
                 yield claim, Confirmation(False, printed.stopped(), said.text, seconds)
             else:
                 tried_again.add(claim.id)

@@ -50,8 +50,8 @@ NOT_CONFIRMED = [
 
 
 @pytest.fixture(scope="module")
-def answers(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Confirmation]:
-    return check([*TRUE, *NOT_CONFIRMED], timeout=10.0, keep=tmp_path_factory.mktemp("coq"))
+def answers() -> dict[str, Confirmation]:
+    return check(TRUE, timeout=20.0) | check(NOT_CONFIRMED, timeout=3.0, again=False)
 
 
 @needs_coq
