@@ -8,7 +8,7 @@ from pathlib import Path
 
 from ptproof.errors import InputError
 from ptproof.proof.claim import Claim
-from ptproof.proof.kernel.check import Confirmation, check
+from ptproof.proof.kernel.check import SECONDS_PER_CLAIM, Confirmation, check
 from ptproof.proof.kernel.coq import missing
 from ptproof.proof.result import Result
 from ptproof.proof.verdict import Evidence, Verdict
@@ -35,8 +35,8 @@ def second_opinion(
     The parameters are those of :func:`ptproof.proof.kernel.check.check`.
     """
     proved = [result.claim for result in results if result.verdict is Verdict.PROVED]
-    limit = {} if timeout is None else {"timeout": timeout}
-    said = check(proved, workers=workers, keep=keep, progress=progress, **limit)
+    seconds = SECONDS_PER_CLAIM if timeout is None else timeout
+    said = check(proved, workers=workers, keep=keep, progress=progress, timeout=seconds)
     return tuple(_with(result, said.get(result.claim.id)) for result in results), said
 
 
