@@ -145,7 +145,9 @@ def _file_of(name: str) -> Any:
 
 def _note(event: str, arguments: tuple[Any, ...]) -> None:
     if event == "open" and _opened and isinstance(arguments[0], str | bytes):
-        mode = arguments[1]
-        if not (isinstance(mode, str) and set(mode) & set("wax")):
+        mode, flags = arguments[1:3]
+        # ``os.open`` has no mode: Python writes compiled modules with it, under names that last for a moment.
+        written = bool(set(mode) & set("wax")) if isinstance(mode, str) else bool(flags & os.O_WRONLY)
+        if not written:
             for found in _opened:
                 found.add(os.path.abspath(os.fsdecode(arguments[0])))

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import os
+import sys
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -238,13 +240,26 @@ def test_a_module_that_is_read_from_its_compiled_file_counts_as_its_source(tmp_p
     assert hashes.foreign([str(compiled)]) == (str(tmp_path / "letters.py"),)
 
 
+def test_a_file_that_is_only_written_is_not_read(tmp_path: Path) -> None:
+    (tmp_path / "read").write_text("1")
+    with hashes.opened() as found:
+        os.close(os.open(tmp_path / "written", os.O_CREAT | os.O_WRONLY))
+        os.close(os.open(tmp_path / "read", os.O_RDONLY))
+        (tmp_path / "also").write_text("2")
+    assert {Path(file).name for file in found if file.startswith(str(tmp_path))} == {"read"}
+
+
 def test_python_libraries_and_ptproof_are_not_foreign() -> None:
     assert hashes.foreign([json.__file__, sp.__file__, module.__file__]) == ()
 
 
-def test_claims_are_recalled_when_a_derivation_is_loaded_again(folder: Path) -> None:
+@pytest.mark.parametrize("compiled", [True, False])
+def test_claims_are_recalled_when_a_derivation_is_loaded_again(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, compiled: bool
+) -> None:
     from ptproof.proof import verify
 
+    monkeypatch.setattr(sys, "dont_write_bytecode", not compiled)
     outcomes = []
     for _ in range(2):
         memory = Memory([folder])

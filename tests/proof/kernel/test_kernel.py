@@ -49,11 +49,6 @@ NOT_CONFIRMED = [
 ]
 
 
-@pytest.fixture(scope="module")
-def answers() -> dict[str, Confirmation]:
-    return check(TRUE, timeout=20.0) | check(NOT_CONFIRMED, timeout=3.0, again=False)
-
-
 @needs_coq
 @pytest.mark.parametrize("id", [item.id for item in TRUE])
 def test_what_is_true_is_confirmed(answers: dict[str, Confirmation], id: str) -> None:

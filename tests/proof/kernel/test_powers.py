@@ -9,7 +9,7 @@ import sympy as sp
 
 from ptproof.proof import claim, eq, exact, ge, le, lt
 from ptproof.proof.claim import Claim
-from ptproof.proof.kernel import Confirmation, check, missing
+from ptproof.proof.kernel import Confirmation, missing
 
 pytestmark = pytest.mark.skipif(bool(missing()), reason=missing() or "coq is there")
 x, y, u, v = sp.symbols("x y u v", real=True)
@@ -71,11 +71,6 @@ NOT_CONFIRMED = [
     stated("iterated-twice", eq(sp.Integral(sp.sin(v) * INNER, (v, 0, 2 * sp.pi)), 2 * sp.pi)),
     stated("derivatives-exchanged", eq(x * DERIVATIVE[0] + y * DERIVATIVE[1], y * DERIVATIVE[0] + x * DERIVATIVE[1])),
 ]
-
-
-@pytest.fixture(scope="module")
-def answers() -> dict[str, Confirmation]:
-    return check(TRUE, timeout=20.0) | check(NOT_CONFIRMED, timeout=3.0, again=False)
 
 
 @pytest.mark.parametrize("id", [item.id for item in TRUE])

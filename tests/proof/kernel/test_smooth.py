@@ -10,7 +10,7 @@ import sympy as sp
 from ptproof.proof import claim, ge
 from ptproof.proof import smooth as engine
 from ptproof.proof.claim import Claim
-from ptproof.proof.kernel import Confirmation, check, missing
+from ptproof.proof.kernel import Confirmation, missing
 from ptproof.proof.kernel.terms import NoTranslation
 from ptproof.proof.kernel.theorem import proposition
 from ptproof.proof.statement import Smooth
@@ -46,11 +46,6 @@ NOT_CONFIRMED = [
     stated("boundary", sp.log(x), x, given=[ge(x, 0)]),
     stated("other-kind", F(x), x, assumed=((F(a), 2),)),
 ]
-
-
-@pytest.fixture(scope="module")
-def answers() -> dict[str, Confirmation]:
-    return check(TRUE, timeout=20.0) | check(NOT_CONFIRMED, timeout=3.0, again=False)
 
 
 @pytest.mark.parametrize("id", [item.id for item in TRUE])

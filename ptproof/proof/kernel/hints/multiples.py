@@ -90,7 +90,7 @@ def _lines(found: _Sum, top: sp.Expr, bottom: sp.Expr, names: dict[sp.Basic, str
     for _, fact in found.weights:
         yield fact.line
     parts = [f"{_text(weight, names)} * {_text(fact.top, names)}" for weight, fact in found.weights]
-    yield f"sum_as ({' + '.join([*parts, *([_text(found.rest, names)] if found.rest != 0 else [])])})"
+    yield f"positive_as ({' + '.join([*parts, *([_text(found.rest, names)] if found.rest != 0 else [])])})"
 
 
 def _facts(relations: Sequence[Relation], names: dict[sp.Basic, str]) -> Iterator[_Fact]:

@@ -503,17 +503,13 @@ Ltac to_difference :=
   | |- ?a > ?b => change (b < a); apply Rlt_Rminus_rev
   | |- ?a >= ?b => apply Rle_ge; apply Rminus_le_0
   end.
-Ltac difference_as e :=
-  to_difference;
+Ltac written_as e :=
   lazymatch goal with
   | |- 0 < ?d => replace d with e by rational
   | |- 0 <= ?d => replace d with e by rational
-  end; sign.
-Ltac positive_as e :=
-  lazymatch goal with
-  | |- 0 < ?d => replace d with e by rational
-  | |- 0 <= ?d => replace d with e by rational
-  end; sign.
+  end.
+Ltac positive_as e := written_as e; sign.
+Ltac difference_as e := to_difference; positive_as e.
 Ltac nonzero_as e := lazymatch goal with |- ?d <> 0 => replace d with e by rational end; sign.
 
 (* The difference is top / bottom with bottom > 0: what is left is the sign of the polynomial top. *)

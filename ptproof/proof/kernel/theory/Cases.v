@@ -106,12 +106,6 @@ Ltac form_of a b c x y :=
   | |- 0 <= ?d => replace d with (a * x ^ 2 + 2 * b * x * y + c * y ^ 2) by rational; apply form_nonneg; from_fact
   end.
 
-(* What is left of the polynomial top after a multiple of a fact has been taken away. *)
-Ltac sum_as e :=
-  lazymatch goal with
-  | |- 0 < ?d => replace d with e by rational
-  | |- 0 <= ?d => replace d with e by rational
-  end; sign.
 (* A bound by a factor that is positive: c (v - e) >= 0 is known. *)
 Ltac at_least_by c v e s :=
   let P := fresh in let Q := fresh in let E := fresh in
@@ -257,12 +251,7 @@ Ltac each_factor := first
     | |- 0 <= _ => timeout 2 nra
     | |- 0 < _ => timeout 2 nra
     end ].
-Ltac factors_as e :=
-  to_difference;
-  lazymatch goal with
-  | |- 0 < ?d => replace d with e by rational
-  | |- 0 <= ?d => replace d with e by rational
-  end; each_factor.
+Ltac factors_as e := to_difference; written_as e; each_factor.
 
 (* Values at places that are known. *)
 Ltac known_values :=
