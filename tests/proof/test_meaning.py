@@ -49,6 +49,12 @@ F, V = sp.Function("F", real=True), sp.Function("V", nonnegative=True)
 half = sp.Rational(1, 2)
 
 
+@pytest.fixture(autouse=True)
+def short_search(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Most that is not proved here has no witness: a search to its end would only take time."""
+    monkeypatch.setattr("ptproof.proof.settling.SEARCH_SECONDS", 0.5)
+
+
 def verdict(statement: Any, proof: Callable[[Goal], Evidence] = exact, *given: Any, **options: Any) -> Verdict:
     return run_one(claim("t", "T", statement, given=given, **options)(proof)).verdict
 

@@ -184,7 +184,8 @@ class Arithmetic:
         if base == 1:
             return base
         if isinstance(exponent, Fraction) and isinstance(base, Fraction):
-            root = _exact_root(base, exponent.denominator) if exponent.denominator <= 12 else None
+            # An integer this large is left to the logarithm.
+            root = _exact_root(base, exponent.denominator) if 1 < exponent.denominator <= 12 else None
             if root is not None:
                 return self.power(root, Fraction(exponent.numerator))
         return self.exp(self.mul(exponent, self.log(base)))

@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Literal, TypeAlias
 
 from ptproof.proof.claim import Claim
 from ptproof.proof.kernel import coq
@@ -45,12 +46,14 @@ class Confirmation:
 
 
 Progress = Callable[[Claim, Confirmation], None]
+Effort: TypeAlias = Literal["quick", "thorough"]
+EFFORTS: tuple[Effort, ...] = ("quick", "thorough")
 Stated = tuple[Claim, Proposition, coq.Theorem]
 
 
 def check(
     claims: Iterable[Claim], *, workers: int | None = None, timeout: float = SECONDS_PER_CLAIM,
-    progress: Progress | None = None, keep: Path | None = None, again: bool = True,
+    progress: Progress | None = None, keep: Path | None = None, efforts: Sequence[Effort] = EFFORTS,
 ) -> dict[str, Confirmation]:  # fmt: skip
     """Have Coq's kernel check each claim.
 
@@ -66,8 +69,9 @@ def check(
         Called with each claim and what became of it, as it comes in.
     keep
         A folder in which the files for Coq are left.
-    again
-        Whether a claim that Coq has found no proof of is tried once more, with hints that take longer to find.
+    efforts
+        What is tried one after the other while Coq finds no proof: "quick" hints, and "thorough" ones, which take
+        longer to find.
 
     Returns
     -------
@@ -95,7 +99,7 @@ def check(
 
         def work(number: int) -> None:
             part = wanted[number * _IN_A_FILE : (number + 1) * _IN_A_FILE]
-            for claim, confirmation in _answers(folder, number, part, timeout, again):
+            for claim, confirmation in _answers(folder, number, part, timeout, efforts):
                 answer(claim, confirmation)
 
         with ThreadPoolExecutor(workers or os.cpu_count() or 1) as pool:
@@ -105,7 +109,7 @@ def check(
 
 
 def _answers(
-    folder: Path, number: int, claims: Sequence[Claim], timeout: float, again: bool
+    folder: Path, number: int, claims: Sequence[Claim], timeout: float, efforts: Sequence[Effort]
 ) -> Iterator[tuple[Claim, Confirmation]]:
     """What Coq says of these claims. Where it stops at one, the rest is asked first; then that one, with more hints."""
     left: list[Stated] = []
@@ -115,9 +119,9 @@ def _answers(
         except NoTranslation as error:
             yield claim, Confirmation(False, str(error))
         else:
-            left.append((claim, said, _theorem(said, f"{said.name}_{number}", thorough=False)))
+            left.append((claim, said, _theorem(said, f"{said.name}_{number}", efforts[0])))
     run = 0
-    tried_again: set[str] = set()
+    tries = dict.fromkeys((claim.id for claim, *_ in left), 1)
     while left:
         theorems = [theorem for *_, theorem in left]
         file = folder / f"claims_{number:03d}{f'_{run}' if run else ''}.v"
@@ -131,18 +135,18 @@ def _answers(
         left = left[len(heard) :]
         if left:
             claim, said, theorem = left.pop(0)
-            if claim.id in tried_again or not again:
+            if tries[claim.id] == len(efforts):
                 yield claim, Confirmation(False, printed.stopped(), said.text, seconds)
             else:
-                tried_again.add(claim.id)
-                left.append((claim, said, _theorem(said, theorem.name, thorough=True)))
+                left.append((claim, said, _theorem(said, theorem.name, efforts[tries[claim.id]])))
+                tries[claim.id] += 1
         run += 1
 
 
-def _theorem(said: Proposition, name: str, *, thorough: bool) -> coq.Theorem:
+def _theorem(said: Proposition, name: str, effort: Effort) -> coq.Theorem:
     """The proposition with its tactics; where the search for hints fails, Coq is told so in their place."""
     try:
-        tactics = script(said, thorough=thorough)
+        tactics = script(said, thorough=effort == "thorough")
     except Exception as error:  # SymPy's, of whatever kind: the claim is without hints, the others are not
         reason = f"{type(error).__name__} in the search for hints: {error}".replace('"', "'")
         tactics = f'fail 0 "at" "{" ".join(reason.split())}"'

@@ -8,8 +8,10 @@ import re
 import shutil
 import signal
 import subprocess
+import tempfile
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 # The files of the library, each after those that it builds upon.
@@ -74,19 +76,29 @@ def missing() -> str:
 
 
 def prepare(folder: Path) -> None:
-    """Write the library of definitions, lemmas and tactics into ``folder`` and compile it.
+    """Put the library of definitions, lemmas and tactics into ``folder``, compiled.
 
     Raises
     ------
     RuntimeError
         If Coq refuses it: it is another version than the one that this was written for.
     """
+    for file in Path(_compiled().name).iterdir():
+        shutil.copy2(file, folder / file.name)
+
+
+@cache
+def _compiled() -> tempfile.TemporaryDirectory[str]:
+    """A folder with the compiled library, made once in a process and removed with it."""
+    made = tempfile.TemporaryDirectory(prefix="ptproof-coq-")
+    folder = Path(made.name)
     for name in LIBRARY:
         text = (Path(__file__).parent / "theory" / f"{name}.v").read_text(encoding="utf-8")
         (folder / f"{name}.v").write_text(text, encoding="utf-8")
         done = run(folder, f"{name}.v", 300)
         if done.error or done.late:
             raise RuntimeError(f"Coq refuses {name}.v, of the library of tactics: {done.error.strip() or 'time limit'}")
+    return made
 
 
 def run(folder: Path, file: str, seconds: float) -> Printed:

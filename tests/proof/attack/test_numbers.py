@@ -22,6 +22,7 @@ VALUES: dict[str, sp.Expr] = {
     "cancellation": (sp.sqrt(x + sp.Rational(1, 10**12)) - sp.sqrt(x)) * 10**12,
     "derivative": sp.Derivative(sp.exp(sp.sin(x) / x) * x ** sp.Rational(5, 2), (x, 3)),
     "integral": sp.Integral(sp.exp(-(x**2)), (x, 0, 2)),
+    "large power": (1 + x / 10**9) ** (10**9),
     "modulus": sp.Mod(x, sp.Rational(2, 3)) + sp.floor(-x),
 }
 

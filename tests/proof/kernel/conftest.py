@@ -5,11 +5,12 @@ from __future__ import annotations
 import pytest
 
 from ptproof.proof.kernel import Confirmation, check
+from ptproof.proof.kernel.check import Effort
 
 
 @pytest.fixture(scope="module")
 def answers(request: pytest.FixtureRequest) -> dict[str, Confirmation]:
-    """Of the module's ``TRUE`` and ``NOT_CONFIRMED``; the latter have one short try, or two if it says ``AGAIN``."""
+    """Of the module's ``TRUE`` and ``NOT_CONFIRMED`` with its ``EFFORT``; the latter have three seconds each."""
     module = request.module
-    again = getattr(module, "AGAIN", False)
-    return check(module.TRUE, timeout=20.0) | check(module.NOT_CONFIRMED, timeout=3.0, again=again)
+    efforts: list[Effort] = [getattr(module, "EFFORT", "quick")]
+    return check(module.TRUE, timeout=20.0, efforts=efforts) | check(module.NOT_CONFIRMED, timeout=3.0, efforts=efforts)

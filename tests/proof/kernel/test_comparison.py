@@ -35,6 +35,7 @@ ROOT = [ge(r, (z / a) ** (1 / (2 * n - 1))), le(v, z - a * r ** (2 * n - 1))]
 LEVEL = (z / c) ** (1 / (2 * n + 1))
 BERNOULLI = [*rate(U, z - c * U(s) ** (2 * n + 1))]
 FADING = z / (1 + (s - p) / r) ** 2
+EFFORT = "thorough"
 TRUE = [
     stated("chain", le(v, -(b**2) * (c / a) ** POWER), given=CHAIN),
     stated("value", le(v, b**2 * z), given=[eq(z, a**2), le(v, g**2 * a**2), le(g, b)]),
