@@ -55,12 +55,10 @@ def script(said: Proposition, *, thorough: bool = False) -> str:
 
 
 def _near(part: Part, said: Proposition, thorough: bool) -> str:
-    if thorough:
-        return "try (solve [ near_by_sign ]); leaf_or_say"
-    try:
-        return f"try (solve [ {near(part, list(said.conclusions), said.names)} ]); leaf_or_say"
-    except (NoTranslation, sp.PolynomialError):
-        return "leaf_or_say"
+    tries = ["near_by_sign"] if thorough else []
+    with contextlib.suppress(NoTranslation, sp.PolynomialError):
+        tries.append(near(part, list(said.conclusions), said.names))
+    return "; ".join([*(f"try (solve [ {hint} ])" for hint in tries), "leaf_or_say"])
 
 
 def _trivial(relation: Relation) -> bool:
