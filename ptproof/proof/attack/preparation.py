@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from functools import partial
+from functools import cached_property, partial
 from random import Random
 from typing import Any
 
@@ -38,7 +38,7 @@ class Isolated:
     factor: sp.Expr
     rest: sp.Expr
 
-    @property
+    @cached_property
     def bound(self) -> sp.Expr:
         return -self.rest / self.factor
 

@@ -15,7 +15,7 @@ from ptproof.proof.attack.elementary import fits
 from ptproof.proof.attack.evaluator import Evaluator
 from ptproof.proof.attack.functions import START, Concrete, drawn
 from ptproof.proof.attack.kinds import fits_kind, holds
-from ptproof.proof.attack.numbers import NotReal, Number, Undefined, Unsure
+from ptproof.proof.attack.numbers import NotReal, Number, Undefined, Unsure, exact
 from ptproof.proof.attack.preparation import Bound, Prepared
 from ptproof.proof.attack.quantified import satisfied
 from ptproof.proof.attack.scope import Inadmissible, Scope, Work
@@ -46,7 +46,7 @@ class Point:
         if digits in self.made:
             return self.made[digits]
         evaluator = Evaluator(digits, self.functions, self.work)
-        evaluator.point = Scope(dict(self.values))
+        evaluator.point = Scope({atom: exact(value) for atom, value in self.values.items()})
         for atom, expression in self.defined:
             value = evaluator.number(expression, evaluator.point)
             if not fits(atom, value, evaluator.calculus):
