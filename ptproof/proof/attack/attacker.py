@@ -130,7 +130,7 @@ def points_of(
 def _candidates(ready: Prepared, goal: Goal, seed: int, end: float) -> Iterator[Point | None]:
     """Points and misses, until the work is done: the same number of them on every machine, where ``end`` is not met."""
     misses, found = 0, 0
-    sampler = Sampler(ready, f"{goal.id}:{seed}")
+    sampler = Sampler(ready, goal.id, seed)
     for point in sampler.points():
         yield point
         misses, found = (misses + 1, found) if point is None else (0, found + 1)
