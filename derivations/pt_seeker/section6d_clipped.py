@@ -9,7 +9,7 @@ from __future__ import annotations
 import sympy as sp
 
 from ptproof.averaging import average, split_dithers
-from ptproof.problem.seekers import asymptotic_seeker, prescribed_time_gain
+from ptproof.problem.seekers import asymptotic_seeker
 from ptproof.proof import (
     Evidence,
     ForAll,
@@ -19,15 +19,11 @@ from ptproof.proof import (
     eq,
     every,
     exact,
-    exp_monotone,
     ge,
     gt,
-    integrals,
     le,
-    limits,
     lt,
     reals,
-    refute,
     specialise,
 )
 from ptproof.system import System
@@ -37,9 +33,28 @@ from ptproof.transforms.states import change_variable, solve_state
 
 from . import chain
 from .notation import (
-    C, E, E_norm, F, F_source, T, a1, a2, c, f, k, mu, nu, omega, p, position, t, t0, theta, x1, x2, z,
+    C,
+    E,
+    E_norm,
+    F,
+    F_source,
+    T,
+    a1,
+    a2,
+    c,
+    f,
+    k,
+    mu,
+    nu,
+    omega,
+    p,
+    position,
+    t,
+    t0,
+    theta,
+    z,
 )  # fmt: skip
-from .section3_problem import g1, g2, spectral_norm, spectral_norm_squared
+from .section3_problem import g1, g2, spectral_norm
 from .section6c_feasibility import lowest
 
 SECTION = "6.4 Discussion: what the clipped gain guarantees"
