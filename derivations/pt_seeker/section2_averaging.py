@@ -58,8 +58,8 @@ general = System(tau_fast, (x1, x2, z), (*_slow_rates, g), name="general system"
     labels=["eq:boundary_layer_model"],
 )
 def boundary_layer(goal: Goal) -> Evidence:
-    """The rate of the deviation ỹ = z − l(x) along the general system, at z = ỹ + l(x), is continuous in μ. At μ = 0 the
-    terms with the slow rates vanish, and g(x, ỹ + l(x)) stays."""
+    """The rate of the deviation ỹ = z − l(x) along the general system, at z = ỹ + l(x), is continuous in μ. At μ = 0
+    the terms with the slow rates vanish, and g(x, ỹ + l(x)) stays."""
     return exact(goal)
 
 

@@ -113,8 +113,8 @@ _turn = 2 * sp.pi / omega
 )  # fmt: skip
 def sign_of_the_bracket(goal: Goal) -> Evidence:
     """For b₁ = (1, 0) and b₂ = (0, x₁) under cosine and sine, x₁ oscillates and x₂ grows at the mean rate 1/2 for every
-    ω. That is [b₁, b₂]v₂₁ with [b₁, b₂] = (∂b₂/∂x)b₁ − (∂b₁/∂x)b₂ and the inner integral over u₁; with the opposite sign
-    of either it would be −1/2."""
+    ω. That is [b₁, b₂]v₂₁ with [b₁, b₂] = (∂b₂/∂x)b₁ − (∂b₁/∂x)b₂ and the inner integral over u₁; with the opposite
+    sign of either it would be −1/2."""
     return integrals(goal)
 
 
@@ -146,7 +146,8 @@ def four_integrals(goal: Goal) -> Evidence:
 
 @claim(
     "2.1/sum-over-neighbours-printed", "The sum over i = 1, …, N and j = i + 1, as printed, for four dithers",
-    eq(_sum_over((1, 2), (2, 3), (3, 4)), _four.vector), given=_given, labels=["eq:Lie_Bracket_System"], uses=[four_integrals],
+    eq(_sum_over((1, 2), (2, 3), (3, 4)), _four.vector), given=_given,
+    labels=["eq:Lie_Bracket_System"], uses=[four_integrals],
     expected="refuted", grade="misprint",
     wrong="The sum is written over i with j = i + 1 only; a sum over all pairs i < j is meant.",
     survives="Yes: the seeker has two dithers, and the only pair is (1, 2).",
@@ -180,25 +181,31 @@ _held = sp.Matrix([sp.Subs(entry, z, l) for entry in lie_bracket(b[1], b[2], pos
 
 
 @claim(
-    "2.1/bracket-at-quasi-steady-state-printed", "The bracket of the fields of (τ, x, z), at z = l(x), gives the average",
-    eq(sp.Matrix(_composed[0]) + _held * v21, _of_reduced.vector), given=coefficient_is_half, labels=["eq:Lie_Bracket_System"],
+    "2.1/bracket-at-quasi-steady-state-printed",
+    "The bracket of the fields of (τ, x, z), at z = l(x), gives the average",
+    eq(sp.Matrix(_composed[0]) + _held * v21, _of_reduced.vector), given=coefficient_is_half,
+    labels=["eq:Lie_Bracket_System"],
     expected="refuted", grade="definition",
     wrong="[b_i, b_j](τ, x, l(x)) reads as a bracket formed in x with z held, as in Assumption 1B, and then taken at "
     "z = l(x); the bracket of the composed fields b_i(τ, x, l(x)) is meant.",
     survives="Yes: Section 5 forms the bracket of the composed fields.",
 )  # fmt: skip
 def bracket_at_quasi_steady_state_printed(goal: Goal) -> Evidence:
-    """Assumption 1B differentiates [b_j, b_k](τ, x, z) by x and by z, so that the bracket there is one in x with z held.
-    The Lie bracket system takes it at z = l(x). For b₁ = (1, 0), b₂ = (0, z) and l = x₁ that is 0, while the reduced
-    model has the fields (1, 0) and (0, x₁), and drifts."""
+    """Assumption 1B differentiates [b_j, b_k](τ, x, z) by x and by z, so that the bracket there is one in x with z
+    held. The Lie bracket system takes it at z = l(x). For b₁ = (1, 0), b₂ = (0, z) and l = x₁ that is 0, while the
+    reduced model has the fields (1, 0) and (0, x₁), and drifts."""
     fields = {entry: sp.S.Zero for field in b for entry in field}
     return refute(goal, {**fields, b[1][0]: sp.S.One, b[2][1]: z, l: x1, v21: HALF, tau: 0, x1: 0, x2: 0})
 
 
 @claim(
     "2.1/bracket-of-composed-fields", "The average of the reduced model has the bracket of the composed fields",
-    eq(sp.Matrix(_composed[0]) + sp.Matrix(lie_bracket(_composed[1], _composed[2], position)) * v21, _of_reduced.vector),
-    given=coefficient_is_half, labels=["eq:Lie_Bracket_System"], uses=[iterated_integrals], corrects=bracket_at_quasi_steady_state_printed,
+    eq(
+        sp.Matrix(_composed[0]) + sp.Matrix(lie_bracket(_composed[1], _composed[2], position)) * v21,
+        _of_reduced.vector,
+    ),
+    given=coefficient_is_half, labels=["eq:Lie_Bracket_System"], uses=[iterated_integrals],
+    corrects=bracket_at_quasi_steady_state_printed,
 )  # fmt: skip
 def bracket_of_composed_fields(goal: Goal) -> Evidence:
     """z = l(x) is put in first, then the bracket is formed: Lie bracket averaging is applied to the reduced model."""

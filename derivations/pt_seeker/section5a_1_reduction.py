@@ -27,7 +27,6 @@ from .notation import (
     F,
     T,
     drift_at,
-    f,
     k,
     mu,
     nu,
@@ -51,12 +50,12 @@ SECTION = "5.1 Theorem, Steps 1 to 3: the averaged system"
 
 # --- The feedback law of the theorem ------------------------------------------------------------------------
 
-K = 1 / nu(t - t0) ** 2
-u1_printed = K * sp.sqrt(omega)
-u2_printed = K * (omega - k / mu * (F - z))
-z_rate_printed = K / mu * (F - z)
 y = sp.Symbol("y", real=True)
 measured = eq(y, F)  # the output of the unicycle, where a row is printed with y
+K = 1 / nu(t - t0) ** 2
+u1_printed = K * sp.sqrt(omega)
+u2_printed = K * (omega - k / mu * (y - z))
+z_rate_printed = K / mu * (y - z)
 
 law = definition(
     "5/law", "The prescribed-time feedback law",
@@ -67,12 +66,13 @@ law = definition(
 
 @claim(
     "5/law-closes-the-loop", "The unicycle under this law is the closed loop",
-    eq(sp.Matrix(plant.rhs), chain.closed_loop_t.vector[:3, 0]),
-    given=[*IN_TIME, eq(forward_velocity, u1_printed), eq(angular_velocity, u2_printed)], labels=["eq:pt_controlla", "eq:u1", "eq:u2", "eq:z"], uses=[closed_loop_in_t],
+    eq(sp.Matrix([*plant.rhs, z_rate_printed]), chain.closed_loop_t.vector),
+    given=[*IN_TIME, measured, eq(forward_velocity, u1_printed), eq(angular_velocity, u2_printed)],
+    labels=["eq:pt_controlla", "eq:u1", "eq:u2", "eq:z"], uses=[closed_loop_in_t],
 )  # fmt: skip
 def law_closes_the_loop(goal: Goal) -> Evidence:
-    """The printed inputs are put into the unicycle, which has no inputs of its own; the filter is part of the law. Against
-    the closed loop of the pipeline."""
+    """The printed inputs are put into the unicycle, which has no inputs of its own; the filter is part of the law.
+    Against the closed loop of the pipeline."""
     return exact(goal)
 
 
@@ -166,7 +166,8 @@ stretch_fast = 1 + (slow - t0) / T
         ]),
         chain.fast_time.vector,
     ),
-    given=[*IN_FAST_TIME, measured], labels=["eq:tau_pt_system_eps", "eq:to_be_reduced_model"], uses=[reduced_coordinates],
+    given=[*IN_FAST_TIME, measured], labels=["eq:tau_pt_system_eps", "eq:to_be_reduced_model"],
+    uses=[reduced_coordinates],
 )  # fmt: skip
 def fast_time(goal: Goal) -> Evidence:
     """τ = μτ̃; the drift is again taken at the instant that belongs to the fast time."""
@@ -204,8 +205,8 @@ _layer_rate = sp.expand(mu * chain.reduced_coordinates.derivative_along(z - F)).
     uses=[quasi_steady_state_solves, quasi_steady_state],
 )  # fmt: skip
 def boundary_layer(goal: Goal) -> Evidence:
-    """μ times the rate of ỹ = z − F(x) along the closed loop in τ is continuous in μ, also at μ = 0, where τ, x and ỹ are
-    held: −ỹ is left, the same for every x."""
+    """μ times the rate of ỹ = z − F(x) along the closed loop in τ is continuous in μ, also at μ = 0, where τ, x and ỹ
+    are held: −ỹ is left, the same for every x."""
     return exact(goal)
 
 
@@ -221,7 +222,8 @@ _dither = omega * slow - k * F
         ]),
         chain.reduced_model_fast.vector,
     ),
-    given=IN_FAST_TIME, labels=["eq:reduced_model_tau"], uses=[quasi_steady_state_solves, quasi_steady_state, fast_time, reduced_model],
+    given=IN_FAST_TIME, labels=["eq:reduced_model_tau"],
+    uses=[quasi_steady_state_solves, quasi_steady_state, fast_time, reduced_model],
 )  # fmt: skip
 def reduced_model_seeker(goal: Goal) -> Evidence:
     """z is replaced by F(x) in the slow rates."""

@@ -5,10 +5,9 @@ from __future__ import annotations
 import sympy as sp
 
 from ptproof.proof import Evidence, Goal, claim, eq, every, exact
-from ptproof.system import System, lie_bracket
 
 from . import chain
-from .notation import IN_FAST_TIME, F, k, mu, omega, position, tau, z
+from .notation import IN_FAST_TIME, k, mu, omega, tau, z
 from .section2_averaging import phase
 from .section5a_1_reduction import f_tau, fast_time, measured, slow, stretch, y
 
@@ -35,7 +34,7 @@ def _slow_rates() -> sp.Matrix:
     given=[*IN_FAST_TIME, measured], labels=["eq:tau_pt_system_eps"], place="Step 2", uses=[fast_time],
 )  # fmt: skip
 def general_form(goal: Goal) -> Evidence:
-    """With b₀ = f/(1 + (τ − t₀)/T)², b₁ = (cos kz, −sin kz), b₂ = (sin kz, cos kz), u₁ = cos θ, u₂ = sin θ and g = y − z
-    the general form has the rates of the closed loop, while z is still a state. So b₁ and b₂ depend on z alone, b₀ does
-    not depend on z, and the dithers are functions of the phase alone."""
+    """With b₀ = f/(1 + (τ − t₀)/T)², b₁ = (cos kz, −sin kz), b₂ = (sin kz, cos kz), u₁ = cos θ, u₂ = sin θ and g = y −
+    z the general form has the rates of the closed loop, while z is still a state. So b₁ and b₂ depend on z alone, b₀
+    does not depend on z, and the dithers are functions of the phase alone."""
     return exact(goal)

@@ -110,17 +110,19 @@ def drift_brace(goal: Goal) -> Evidence:
     place="Step 3", uses=[dithers],
 )  # fmt: skip
 def bracket(goal: Goal) -> Evidence:
-    """b₁ and b₂ at z = F(x) are the columns of a rotation by the angle −kF, which the bracket turns into the gradient."""
+    """b₁ and b₂ at z = F(x) are the columns of a rotation by the angle −kF, which the bracket turns into the
+    gradient."""
     return exact(goal)
 
 
 @claim(
     "5/step3-coefficient", "v₂₁ = 1/2 for the seeker's dithers",
-    eq(iterated_integral(*(dither.subs(chain.dithered.phase, phase) for dither in reversed(chain.dithered.dithers))), HALF),
+    eq(iterated_integral(*(wave.subs(chain.dithered.phase, phase) for wave in chain.dithered.dithers[::-1])), HALF),
     place="Step 3", uses=[iterated_integrals],
 )  # fmt: skip
 def coefficient(goal: Goal) -> Evidence:
-    """The two dithers that the pipeline finds in the reduced model, the second outside, with the period 2π in the phase."""
+    """The two dithers that the pipeline finds in the reduced model, the second outside, with the period 2π in the
+    phase."""
     return integrals(goal)
 
 
@@ -148,12 +150,12 @@ _drift = sp.Matrix([f_tau[i] / stretch**2 for i in (0, 1)])
     ),
     given=[*IN_TAU, *coefficient_is_half], labels=["eq:lie_bracket_system_real"], uses=[general_form, coefficient],
     expected="refuted", grade="definition",
-    wrong="By the letter of the definition of the Lie bracket system the seeker's bracket is formed with z held: it is 0.",
+    wrong="As the Lie bracket system is defined, the seeker's bracket is formed with z held, and is 0.",
     survives="Yes: Step 3 forms the bracket after z = F(x) is put in, and averages the reduced model.",
 )  # fmt: skip
 def bracket_at_z_printed(goal: Goal) -> Evidence:
-    """b₁(τ, x, z) and b₂(τ, x, z) depend on z alone, so that their bracket in x is 0 and nothing would pull to the source.
-    All of k∇F comes from z = F(x)."""
+    """b₁(τ, x, z) and b₂(τ, x, z) depend on z alone, so that their bracket in x is 0 and nothing would pull to the
+    source. All of k∇F comes from z = F(x)."""
     return refute(goal, {f[0]: 0, f[1]: 0, F: x1, v21: HALF, x1: 0, x2: 0, t0: 0, tau: 0, T: 1, k: 1})
 
 

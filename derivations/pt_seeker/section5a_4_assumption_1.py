@@ -9,8 +9,8 @@ import sympy as sp
 from ptproof.proof import Evidence, Goal, Smooth, claim, eq, every, exact, integrals, le, reals, smooth
 from ptproof.system import jacobian, lie_bracket
 
-from .notation import F, k, position, tau, x1, x2, z
-from .section2_averaging import mixed_derivative_printed, phase
+from .notation import F, k, position, tau, x1, x2, y_tilde, z
+from .section2_averaging import layer_function_printed, mixed_derivative_printed, phase
 from .section5a_1_reduction import fast_rate, quasi_steady_state, quasi_steady_state_solves
 from .section5a_1b_general_form import b1, b2, dithered_fields, general_form, u1, u2
 from .section5a_2_averaging import b1_printed, b2_printed, bracket, fields_split
@@ -65,8 +65,8 @@ def _all_derivatives(field: Sequence[sp.Expr]) -> sp.Expr:
     uses=[general_form], corrects=mixed_derivative_printed,
 )  # fmt: skip
 def assumption_b_field_derivatives(goal: Goal) -> Evidence:
-    """The sum of the norms of the derivatives by τ, by x, by z, of the two mixed ones, and of those of the bracket with z
-    held is at most k, so that A₂, …, A₆ may all be k. Only ∂b/∂z differs from 0, and it has the norm k."""
+    """The sum of the norms of the derivatives by τ, by x, by z, of the two mixed ones, and of those of the bracket with
+    z held is at most k, so that A₂, …, A₆ may all be k. Only ∂b/∂z differs from 0, and it has the norm k."""
     return reals(goal)
 
 
@@ -83,13 +83,14 @@ hessian = [sp.diff(F, v, w) for v in position for w in position]
     place="Assumption 1B", uses=[bracket, fields_split],
 )  # fmt: skip
 def assumption_b_bracket(goal: Goal) -> Evidence:
-    """A₅ for the bracket that enters the average: k times the norm of the Hessian of F. It does not depend on τ, which is
-    A₆, and k‖∇F‖ bounds it."""
+    """A₅ for the bracket that enters the average: k times the norm of the Hessian of F. It does not depend on τ, which
+    is A₆, and k‖∇F‖ bounds it."""
     return reals(goal)
 
 
 @claim(
-    "5/assumption-b-bounds-are-continuous", "The bounds are made of what is continuous in x, so bounded on compact sets",
+    "5/assumption-b-bounds-are-continuous",
+    "The bounds are made of what is continuous in x, so bounded on compact sets",
     Smooth((*(sp.diff(F, v) for v in position), *hessian), position, 0, ((F, 2),)),
     place="Assumption 1B", uses=[assumption_b_bracket],
 )  # fmt: skip
@@ -134,7 +135,7 @@ def assumption_d_mean(goal: Goal) -> Evidence:
     return integrals(goal)
 
 
-# --- The fast rate ------------------------------------------------------------------------------------------------------
+# --- The fast rate --------------------------------------------------------------------------------------------------
 
 
 @claim(
@@ -152,4 +153,13 @@ def assumption_e(goal: Goal) -> Evidence:
 )  # fmt: skip
 def assumption_f(goal: Goal) -> Evidence:
     """l = F; that it is the only one is a claim of Step 2."""
+    return smooth(goal)
+
+
+@claim(
+    "5/assumption-layer-function", "ỹ²/2 has the derivative that Theorem 1 uses",
+    Smooth((y_tilde**2 / 2,), (y_tilde,), 1), place="Theorem 1", corrects=layer_function_printed,
+)  # fmt: skip
+def layer_function(goal: Goal) -> Evidence:
+    """The V of Step 5 is continuously differentiable; its bounds and its rate are claims of Step 5."""
     return smooth(goal)

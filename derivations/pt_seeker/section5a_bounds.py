@@ -5,7 +5,23 @@ from __future__ import annotations
 import sympy as sp
 
 from ptproof.problem.drift import gradient_drift
-from ptproof.proof import Evidence, Exists, Goal, Smooth, claim, defeats_every_choice, every, ge, gt, le, reals, smooth
+from ptproof.proof import (
+    Evidence,
+    Exists,
+    Goal,
+    Smooth,
+    claim,
+    defeats_every_choice,
+    eq,
+    every,
+    exact,
+    ge,
+    gt,
+    le,
+    limits,
+    reals,
+    smooth,
+)
 
 from . import chain
 from .notation import IN_TAU, IN_TIME, E, F, T, f, nu, position, t, t0, tau, x1, x2, z
@@ -24,6 +40,7 @@ from .section5a_4_assumption_1 import (
     assumption_e,
     assumption_f,
     bounds_are_continuous,
+    layer_function,
     norm,
     quasi_steady_state,
     quasi_steady_state_solves,
@@ -52,8 +69,8 @@ def assumption_b_drift_printed(goal: Goal) -> Evidence:
     place="Assumption 1B", uses=[general_form], corrects=assumption_b_drift_printed,
 )  # fmt: skip
 def assumption_b_drift(goal: Goal) -> Evidence:
-    """From the initial time on the factor is at most 1. For f = E∇F this is a continuous function of x alone; for a drift
-    below d(t) it is at most the largest d."""
+    """From the initial time on the factor is at most 1. For f = E∇F this is a continuous function of x alone; for a
+    drift below d(t) it is at most the largest d."""
     return reals(goal)
 
 
@@ -82,6 +99,62 @@ def assumption_a_gradient_drift(goal: Goal) -> Evidence:
     return smooth(goal)
 
 
+_h, _away = sp.Symbol("h", real=True), sp.Symbol("h", positive=True)
+_rough = -(x1**2) - x2**2 - sp.Abs(x1) ** 3 / (1 + x1**2)
+_slope = -2 * x1 - x1 * sp.Abs(x1) * (3 + x1**2) / (1 + x1**2) ** 2  # by x₁
+_distance, _steepness = x1**2 + x2**2, _slope**2 + (2 * x2) ** 2
+
+
+@claim(
+    "5/assumption-a-rough-field", "−‖x‖² − |x₁|³/(1 + x₁²) is in C²",
+    Smooth((_rough,), position, 2), place="Assumption 1A",
+)  # fmt: skip
+def rough_field(goal: Goal) -> Evidence:
+    """A field for the next claims."""
+    return smooth(goal)
+
+
+@claim(
+    "5/assumption-a-rough-slope", "Its slope, on both sides of x₁ = 0",
+    every(*(
+        eq(sp.Derivative(_rough.subs(x1, side * _away), _away), side * _slope.subs(x1, side * _away))
+        for side in (1, -1)
+    )),
+    place="Assumption 1A", uses=[rough_field],
+)  # fmt: skip
+def rough_slope(goal: Goal) -> Evidence:
+    """With x₁ = h and x₁ = −h for h > 0; at 0 the slope is 0, as the field is in C²."""
+    return exact(goal)
+
+
+@claim(
+    "5/assumption-a-rough-field-bounds", "It satisfies Assumption 2 with κ = 1, a₁ = 3/2, a₂ = 1, b₁ = 2 and b₂ = 4",
+    every(
+        le(-3 * _distance / 2, _rough), le(_rough, -_distance),
+        le(2**2 * _distance, _steepness), le(_steepness, 4**2 * _distance),
+    ),
+    place="Assumption 1A", uses=[rough_field, rough_slope],
+)  # fmt: skip
+def rough_field_bounds(goal: Goal) -> Evidence:
+    """|x₁|³/(1 + x₁²) is at most x₁²/2; its slope has the sign of −x₁ and is at most 2|x₁|. The gradient's bounds are
+    squared."""
+    return reals(goal)
+
+
+@claim(
+    "5/assumption-a-rough-drift", "Its gradient, as a drift, is not in C²",
+    every(*(
+        eq(sp.Limit((_slope.subs(x1, _h) + 2 * _h) / _h**2, _h, 0, side), value)
+        for side, value in (("+", -3), ("-", 3))
+    )),
+    place="Assumption 1A", uses=[rough_field_bounds],
+)  # fmt: skip
+def rough_drift(goal: Goal) -> Evidence:
+    """If the slope had a second derivative at 0, both limits would be half of it. So Assumption 2 and f = E∇F do not
+    give f ∈ C²: where Assumption 3 asks for it, the field has to have it."""
+    return limits(goal)
+
+
 def _squares(entry: sp.Expr, by: sp.Symbol) -> sp.Expr:
     """The squares of the derivatives by a coordinate and by z, of which b₀ has none."""
     return sp.diff(entry, by) ** 2 + sp.diff(entry, z) ** 2
@@ -95,13 +168,14 @@ _pairs = list(zip(damped, gradient_f, strict=True))
     every(
         *(le(sp.diff(b, tau) ** 2, (2 / T) ** 2 * rate**2) for b, rate in _pairs),
         *(le(_squares(b, v), sp.diff(rate, v) ** 2) for b, rate in _pairs for v in position),
-        *(le(_squares(sp.diff(b, tau), v), (2 / T) ** 2 * sp.diff(rate, v) ** 2) for b, rate in _pairs for v in position),
+        *(le(_squares(sp.diff(b, tau), v), (2 / T) ** 2 * sp.diff(rate, v) ** 2)
+          for b, rate in _pairs for v in position),
     ),
     given=IN_TAU, place="Assumption 1B", uses=[drift_brace],
 )  # fmt: skip
 def assumption_b_drift_derivatives(goal: Goal) -> Evidence:
-    """A₂, A₃ and A₄, entry by entry: in time at most 2/T times E∇F, in position at most what the drift itself has, mixed
-    2/T times that. The right-hand sides do not depend on time."""
+    """A₂, A₃ and A₄, entry by entry: in time at most 2/T times E∇F, in position at most what the drift itself has,
+    mixed 2/T times that. The right-hand sides do not depend on time."""
     return reals(goal)
 
 
@@ -137,8 +211,8 @@ def bounded_drift_admitted(goal: Goal) -> Evidence:
     given=IN_TIME, place="Assumption 1B", uses=[bounded_drift_admitted],
 )  # fmt: skip
 def assumption_b_bounded_drift(goal: Goal) -> Evidence:
-    """f = (sin(x₁/ν³), 0) is bounded by 1, so Assumption 3B admits it. At x₁ = 0 the derivative of b₀ by x₁ is
-    1 + (τ − t₀)/T, which exceeds every A at τ = t₀ + TA. So Theorem 1 can't be applied under Assumption 3B alone, and the
+    """f = (sin(x₁/ν³), 0) is bounded by 1, so Assumption 3B admits it. At x₁ = 0 the derivative of b₀ by x₁ is 1 + (τ −
+    t₀)/T, which exceeds every A at τ = t₀ + TA. So Theorem 1 can't be applied under Assumption 3B alone, and the
     Proposition speaks of the averaged system only."""
     return reals(goal)
 
@@ -148,5 +222,5 @@ assumption_1 = (
     general_form, assumption_a, assumption_a_drift, assumption_a_gradient_drift, assumption_b_fields,
     assumption_b_field_derivatives, assumption_b_bracket, bounds_are_continuous, assumption_b_drift,
     assumption_b_drift_derivatives, drift_bounds_are_continuous, assumption_c, assumption_d_period, assumption_d_mean,
-    assumption_e, assumption_f, quasi_steady_state_solves, quasi_steady_state,
+    assumption_e, assumption_f, quasi_steady_state_solves, quasi_steady_state, layer_function,
 )  # fmt: skip
