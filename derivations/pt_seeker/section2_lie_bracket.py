@@ -95,6 +95,22 @@ def lie_bracket_system(goal: Goal) -> Evidence:
     return exact(goal)
 
 
+_amplitude = 2 + sp.cos(tau)
+_slowly = (_amplitude * sp.cos(phase), _amplitude * sp.sin(phase))
+_varying = average(DitherSystem(tau, phase, omega, position, _fields[0], _fields[1:3], _slowly))
+
+
+@claim(
+    "2.1/slowly-varying-dithers", "For dithers with the slowly varying amplitude 2 + cos τ, v₂₁ depends on τ",
+    eq(sp.Matrix(_fields[0]) + _bracket(1, 2) * _amplitude**2 * v21, _varying.vector), given=coefficient_is_half,
+    place="Section 2.1", uses=[iterated_integrals],
+)  # fmt: skip
+def slowly_varying_dithers(goal: Goal) -> Evidence:
+    """The dithers of the general system are u(τ, θ), while v_ji is written with u(θ). For a(τ) cos θ and a(τ) sin θ it
+    is a(τ)²/2, at each τ the integral over the phase alone. The seeker's dithers depend on the phase alone."""
+    return exact(goal)
+
+
 # dx₁ = √ω cos(ωτ) dτ, dx₂ = √ω x₁ sin(ωτ) dτ from x₁(0) = 0: b₁ = (1, 0) and b₂ = (0, x₁).
 _solution = sp.sin(omega * tau) / sp.sqrt(omega)
 _turn = 2 * sp.pi / omega

@@ -43,12 +43,12 @@ def assumption_a(goal: Goal) -> Evidence:
 
 
 @claim(
-    "5/assumption-b-fields", "Assumption 1B: b₁ and b₂ are bounded by A₁ = 1",
-    every(*(le(norm(field), 1) for field in dithered_fields)), place="Assumption 1B", uses=[general_form],
+    "5/assumption-b-fields", "Assumption 1B: b₁ and b₂ are unit vectors, so that A₁ = 1",
+    every(*(eq(norm(field) ** 2, 1) for field in dithered_fields)), place="Assumption 1B", uses=[general_form],
 )  # fmt: skip
 def assumption_b_fields(goal: Goal) -> Evidence:
-    """Unit vectors, for all τ, x and z."""
-    return reals(goal)
+    """For all τ, x and z."""
+    return exact(goal)
 
 
 def _all_derivatives(field: Sequence[sp.Expr]) -> sp.Expr:

@@ -25,7 +25,7 @@ from ptproof.proof import (
 
 from . import chain
 from .notation import IN_TAU, IN_TIME, E, F, T, f, nu, position, t, t0, tau, x1, x2, z
-from .section5a_1_reduction import f_tau, stretch
+from .section5a_1_reduction import f_tau, quasi_steady_state, quasi_steady_state_solves, stretch
 from .section5a_1b_general_form import b0, general_form
 from .section5a_2_averaging import drift_brace
 from .section5a_4_assumption_1 import (
@@ -42,8 +42,6 @@ from .section5a_4_assumption_1 import (
     bounds_are_continuous,
     layer_function,
     norm,
-    quasi_steady_state,
-    quasi_steady_state_solves,
 )  # fmt: skip
 
 SECTION = "5.1 Theorem, Steps 1 to 3: Assumption 1"
