@@ -50,8 +50,8 @@ from .section2_change_of_time import contraction_rate
 from .section3_problem import spectral_norm
 from .section4_design import closed_loop_in_t
 from .section5a_1_reduction import boundary_layer, stretch
-from .section5a_2_averaging import assumption_1, qualitative
-from .section5a_bounds import assumption_a_drift, assumption_b_drift_derivatives
+from .section5a_2_averaging import qualitative
+from .section5a_bounds import assumption_1
 from .section5b_1_lyapunov import (
     ONE,
     V_dot,
@@ -218,8 +218,7 @@ step_five = claim(
           "closed loop in τ, in both cases of Theorem 2"),
     expected="cited", place="Step 5",
     uses=[
-        averaging_theorem, *assumption_1, assumption_a_drift, assumption_b_drift_derivatives, layer_bounds,
-        lyapunov_theorem, guas, qualitative,
+        averaging_theorem, *assumption_1, layer_bounds, lyapunov_theorem, guas, qualitative,
     ],
 )(cited("the paper's Theorem 1, whose hypotheses are the claims listed"))  # fmt: skip
 
