@@ -8,9 +8,7 @@ from ptproof.proof import (
     Evidence,
     Exists,
     Goal,
-    Prose,
     Smooth,
-    cited,
     claim,
     defeats_every_choice,
     eq,
@@ -292,9 +290,3 @@ assumption_1 = (
     assumption_a, assumption_b_fields, assumption_b_drift, assumption_c, assumption_d_period, assumption_d_mean,
     assumption_e, assumption_f, quasi_steady_state,
 )  # fmt: skip
-
-qualitative = claim(
-    "5/step3-mu-one", "Setting μ = 1 in the Lie bracket system does not change its stability",
-    Prose("μ only scales the time of the reduced model, so its stability may be studied at μ = 1"),
-    expected="cited", place="Step 3", uses=[averaged_system],
-)(cited("Dürr, Krstić, Scheinker, Ebenbauer: singularly perturbed Lie bracket approximation"))  # fmt: skip
