@@ -107,7 +107,7 @@ def shift_takes_t0_out(goal: Goal) -> Evidence:
     given=IN_TAU, place="Step 2",
 )  # fmt: skip
 def drift_factor(goal: Goal) -> Evidence:
-    """ρ = (1 + (τ − t₀)/T)^(−1/2): the time-varying factor is the fourth power of one more slow state, within (0, 1]."""
+    """ρ = (1 + (τ − t₀)/T)^(−1/2): the factor is the fourth power of one more slow state, within (0, 1]."""
     return reals(goal)
 
 

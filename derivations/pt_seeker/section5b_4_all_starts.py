@@ -24,23 +24,31 @@ from ptproof.proof import (
 from .notation import R0, V0, R, T, V, a1, a2, t0, tau
 from .section5a_3_uniformity import drift_factor
 from .section5a_6_extended import extended_average, extended_rho
-from .section5b_1_lyapunov import V_t, after, on_interval, s, v_bounds
+from .section5b_1_lyapunov import V_t, s, v_bounds
 from .section5b_2_gradient_drift import decay_rate, drift_rate, elapsed
 
 SECTION = "5.2 Theorem, Steps 4 to 6: stability"
 
 # --- V and the distance from any ρ₀ ≥ 0 -------------------------------------------------------------------------------
 
+s = sp.Symbol("s", real=True)
+V_t = sp.Function("V", nonnegative=True)  # along a trajectory of the average
+drift_rate, decay_rate = c(2, sp.S.One) ** 2 * E_norm, k * c(1, sp.S.One) ** 2 / 2
+elapsed = tau - t0
 rho0 = sp.Symbol("rho_0", nonnegative=True)
 widening = 1 + rho0**2 * (s - t0) / T
 exponent = drift_rate * rho0**4 * (s - t0) / widening - decay_rate * (s - t0)
+_rate = drift_rate * rho0**4 / widening**2 - decay_rate
 growth = sp.exp(drift_rate * T * rho0**2)
 
 
 @claim(
     "5/step4-all-starts-v", "From any ρ₀ the drift of the average multiplies V by at most exp(c₂²‖E‖Tρ₀²)",
     le(V_t(tau), V_t(t0) * growth * sp.exp(-decay_rate * elapsed)),
-    given=[on_interval((drift_rate * rho0**4 / widening**2 - decay_rate) * V_t(s), V_t(s)), after],
+    given=[
+        ForAll((s,), le(sp.Derivative(V_t(s), s), _rate * V_t(s)), (ge(s, t0), le(s, tau))),
+        ge(tau, t0),
+    ],
     place="Step 4, case ii", uses=[extended_rho, extended_average],
 )  # fmt: skip
 def all_starts_v(goal: Goal) -> Evidence:

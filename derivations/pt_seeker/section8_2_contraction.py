@@ -25,7 +25,7 @@ from ptproof.proof import (
 
 from .chain import clock
 from .notation import IN_TAU, IN_TIME, T, mu, t, t0, tau
-from .section2_change_of_time import contraction_rate, inverse_map
+from .section2_change_of_time import inverse_map
 from .section2_ranges import contraction_range, dilation_range
 from .section8_1_definitions import eps, image, matching_starts, settling, start_x, start_z, starts_are_images
 
@@ -45,7 +45,7 @@ small_in_t = ForAll((s,), lt(in_time(s), eps), (ge(s, image(instant)), lt(s, t0 
 @claim(
     "appendix/small-in-time", "What is below ε from τ_s on in dilated time is so from the image of τ_s on in time",
     lt(in_time(t), eps), given=[same_signal, small_in_tau, ge(instant, t0), ge(t, image(instant)), lt(t, t0 + T)],
-    labels=["def:FxT-sPUA", "def:FxT-sSPUAS"], uses=[inverse_map, dilation_range, contraction_rate],
+    labels=["def:FxT-sPUA", "def:FxT-sSPUAS"], uses=[inverse_map, dilation_range],
 )  # fmt: skip
 def small_in_time(goal: Goal) -> Evidence:
     """The dilation increases, so t ≥ a⁻¹(τ_s) gives a(t) ≥ τ_s. With τ_s = t₀ this is stability and boundedness, with

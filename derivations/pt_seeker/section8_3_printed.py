@@ -14,12 +14,12 @@ from ptproof.proof import (
     eq,
     exists_by,
     ge,
-    instances,
     le,
     limits,
     lt,
     reals,
     refute,
+    specialise,
 )
 from ptproof.system import System
 from ptproof.transforms import contract
@@ -30,7 +30,7 @@ from .section2_change_of_time import contraction_rate
 from .section8_1_definitions import eps, later, settling, starts_are_images, t_f
 from .section8_1_definitions import start_x as printed_x
 from .section8_1_definitions import start_z as printed_z
-from .section8_2_contraction import in_dilated_time, in_time, s, same_signal, small_in_time
+from .section8_2_contraction import in_dilated_time, in_time, instant, s, same_signal, small_in_time
 
 SECTION = "Appendix: the stability properties"
 
@@ -80,13 +80,13 @@ z_settled = ForAll((s,), lt(in_dilated_time(s), eps), (ge(s, t0 + mu * t_f),))
     "appendix/printed-met-for-x", "Whatever τ_f > 0 was chosen, x meets the printed definition for μt_f ≤ τ_f",
     lt(in_time(t), eps),
     given=[same_signal, x_settled, le(mu * t_f, chosen), ge(t, start_x), lt(t, t0 + T)],
-    labels=["def:FxT-sPUA"], uses=[start_of_x_limit, small_in_time],
+    labels=["def:FxT-sPUA"], uses=[small_in_time],
 )  # fmt: skip
 def printed_met_for_x(goal: Goal) -> Evidence:
     """Let x have settled from t₀ + t_f on in the slow time. Then μ₀ = τ_f/t_f serves, for each τ_f > 0: the same one
     for all radii δ and ε, and as small as one likes. μ₀ is chosen last, so t_f may even grow with ω. The printed
     definition thus says nothing about when x arrives."""
-    return reals(goal, *instances(goal, t, clock.to_tau))
+    return reals(goal, *specialise(goal, small_in_time, {instant: t0 + t_f}))
 
 
 @claim(
@@ -97,7 +97,7 @@ def printed_met_for_x(goal: Goal) -> Evidence:
 def printed_met_for_z(goal: Goal) -> Evidence:
     """z has settled from t₀ + μt_f on in the slow time, which is t₀ when μ tends to 0. The printed start of z is any
     fixed instant after t₀, so here too every τ_f > 0 serves; but it does ask z to have settled before that instant."""
-    return reals(goal, *instances(goal, t, clock.to_tau))
+    return reals(goal, *specialise(goal, small_in_time, {instant: t0 + mu * t_f}))
 
 
 slow_arrival = 1 / sp.sqrt(mu)
@@ -114,7 +114,7 @@ slow_arrival = 1 / sp.sqrt(mu)
 )  # fmt: skip
 def printed_allows_delay(goal: Goal) -> Evidence:
     """For √μ ≤ τ_f. Such an x arrives at an instant that tends to t₀ + T as μ tends to 0."""
-    return reals(goal, *instances(goal, t, clock.to_tau))
+    return reals(goal, *specialise(goal, small_in_time, {instant: t0 + slow_arrival}))
 
 
 @claim(
