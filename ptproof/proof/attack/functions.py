@@ -102,7 +102,21 @@ def solutions(item: ForAll) -> list[tuple[Any, Concrete]]:
 
     The constant of integration is the symbol ``_start``, which whoever uses them gives a value.
     """
-    return [*_rates(item), *_ends(item)]
+    return [*_rates(item), *_ends(item)] or _at_rest(item)
+
+
+def _at_rest(item: ForAll) -> list[tuple[Any, Concrete]]:
+    """Constant functions of one time that satisfy y' = rhs: all the same, or all 0."""
+    left = item.relation.left
+    if len(item.variables) != 1 or not isinstance(left, sp.Derivative) or left.variables != item.variables:
+        return []
+    moving = [node for node in sp.Tuple(left, item.relation.right).atoms(AppliedUndef) if node.args == item.variables]
+    for value, forbidden in ((START, ("negative", "nonpositive", "integer")), (sp.S.Zero, ("nonzero",))):
+        if any(getattr(node, f"is_{word}") for node in moving for word in forbidden):
+            continue
+        if item.relation.right.xreplace(dict.fromkeys(moving, value)).doit() == 0:
+            return [(node.func, Concrete(_arguments(1), value)) for node in sorted(moving, key=str)]
+    return []
 
 
 def _ends(item: ForAll) -> list[tuple[Any, Concrete]]:
@@ -140,8 +154,6 @@ def _rates(item: ForAll) -> list[tuple[Any, Concrete]]:
     right = relation.right.xreplace({applied: value})
     place = _arguments(1)
     found = _closed_forms(sp.expand(right), value, time)
-    if not found and not applied.is_nonzero and right.xreplace({value: sp.S.Zero}) == 0:
-        found = [sp.S.Zero]  # at rest
     return [(applied.func, Concrete(place, body.xreplace({time: place[0]}))) for body in found]
 
 
@@ -156,7 +168,7 @@ def _closed_forms(right: sp.Expr, value: sp.Symbol, time: sp.Symbol) -> list[sp.
             continue
         power = next((f for f in sp.Mul.make_args(term) if f.has(value)), None)
         rest = term / power
-        if rest.has(value):
+        if rest.has(value) or power.as_base_exp()[0] != value:
             return []
         exponent = power.exp if isinstance(power, sp.Pow) else sp.S.One
         powers.add(exponent)
