@@ -102,7 +102,8 @@ def solutions(item: ForAll) -> list[tuple[Any, Concrete]]:
 
     The constant of integration is the symbol ``_start``, which whoever uses them gives a value.
     """
-    return [*_rates(item), *_ends(item)] or _at_rest(item)
+    found = [*_rates(item), *_ends(item)]
+    return found if found and item.relation.sign != "=" else [*found, *_at_rest(item)]
 
 
 def _at_rest(item: ForAll) -> list[tuple[Any, Concrete]]:
