@@ -10,8 +10,10 @@ from ptproof.proof import (
     Goal,
     claim,
     comparison,
+    enclosures,
     eq,
     every,
+    exact,
     ge,
     gt,
     le,
@@ -19,17 +21,17 @@ from ptproof.proof import (
     reals,
     specialise,
 )  # fmt: skip
-from ptproof.system import System
+from ptproof.system import System, gradient
 from ptproof.transforms.clocks import CappedClock, Clock, capped, constant_clock
 from ptproof.transforms.time import contract
 
 from . import chain
-from .notation import C, F, T, f, k, mu, omega, t, t0, tau, theta, z
+from .notation import C, F, S, T, epsilon, f, k, mu, nu, omega, t, t0, tau, theta, x1, x2, z
 from .section6c_feasibility import lowest
 from .section6d_clipped import clipped, total_time
 from .section6e_after_the_clip import X_t, residual_exact
 from .section7_clipping import in_time, minimum, printed_gain
-from .section7c_saturated import steady_state_feedback
+from .section7c_saturated import chosen, field, steady_state_feedback
 
 SECTION = "7.3 Simulation: the two gains"
 
@@ -143,3 +145,47 @@ def nearer(goal: Goal) -> Evidence:
         goal, *specialise(goal, residual_exact, {lowest: minimum, X_t(s): varying(s)}),
         *(fact for value in both for fact in specialise(goal, coordinate, {steady(s): value})),
     )  # fmt: skip
+
+
+# --- With the saturation ----------------------------------------------------------------------------------------------
+
+# The command C(ω − k dF/dτ) of an exact differentiator, which the settled filter approximates: its rate along the path.
+steepness = gradient(field, (x1, x2))
+values = {k: sp.Rational("1.4"), omega: sp.Integer(30)}
+climb = sp.sqrt(omega) * (steepness[0] * sp.cos(theta) + steepness[1] * sp.sin(theta))  # dF/dτ
+command = C * (omega - k * climb)
+ideal = System(t, (x1, x2, theta), (C * sp.sqrt(omega) * sp.cos(theta), C * sp.sqrt(omega) * sp.sin(theta), command))
+gain_slope = sp.Symbol("C_dot", real=True)  # dC/dt
+command_rate = (ideal.derivative_along(command) + gain_slope * command / C).subs({**values, x1: 2, x2: 2})
+limit = chosen[S] / chosen[epsilon]
+
+
+@claim(
+    "7.3/gain-at-the-start", "The time-varying gain starts at 1 with the slope 2/T",
+    every(eq(sp.Subs(1 / nu(s) ** 2, s, 0), 1), eq(sp.Subs(sp.Derivative(1 / nu(s) ** 2, s), s, 0), 2 / T)),
+    place="Section 7.3",
+)  # fmt: skip
+def gain_at_the_start(goal: Goal) -> Evidence:
+    """s is the time t − t₀."""
+    return exact(goal)
+
+
+@claim(
+    "7.3/command-rate-varying", "With the time-varying gain the command starts well within what u₂ can follow",
+    le(sp.Abs(command_rate.subs({C: 1, gain_slope: 2})), limit / 6), given=[ge(theta, -sp.pi), le(theta, sp.pi)],
+    labels=["eq:sat_acc"], place="Section 7.3", uses=[gain_at_the_start],
+)  # fmt: skip
+def command_rate_varying(goal: Goal) -> Evidence:
+    """For every heading at the start of the example, with the filter's output at dF/dτ. The limit is S/ε = 10 000."""
+    return enclosures(goal, {theta: (sp.Rational(-22, 7), sp.Rational(22, 7))})
+
+
+@claim(
+    "7.3/command-rate-constant", "With the constant gain the command turns seven times faster than u₂ can follow",
+    le(7 * limit, sp.Abs(command_rate.subs({C: constant, gain_slope: 0, theta: 3 * sp.pi / 4}))),
+    labels=["eq:sat_acc"], place="Section 7.3",
+)  # fmt: skip
+def command_rate_constant(goal: Goal) -> Evidence:
+    """At the same start, for a vehicle that looks across the gradient. Both factors of the rate grow with the gain, so
+    it grows with its square, 123. This is how the saturation slows the seeker with the constant gain."""
+    return enclosures(goal)
