@@ -63,7 +63,9 @@ def dilation_rate_range(goal: Goal) -> Evidence:
 @claim(
     "2.1/iterated-integral-printed", "v₂₁ = 1/2 with the letter T of the prescribed time, as printed",
     eq(iterated_integral(sp.sin(phase), sp.cos(phase), T), sp.Rational(1, 2)), place="Section 2.1",
-    labels=["eq:Lie_Bracket_System"], expected="refuted",
+    labels=["eq:Lie_Bracket_System"], expected="refuted", grade="misprint",
+    wrong="The letter T of the prescribed time stands where the period T_f of the dithers is meant.",
+    survives="Yes: the seeker's coefficients are computed over the period 2π.",
 )  # fmt: skip
 def iterated_integral_printed(goal: Goal) -> Evidence:
     """The formula for v_ji integrates over [0, T] and divides by T. Assumption 1D calls the period of the dithers T_f;
