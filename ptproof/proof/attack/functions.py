@@ -125,7 +125,22 @@ def solutions(item: ForAll) -> list[tuple[Any, Concrete]]:
 
     The constant of integration is the symbol ``_start``, which whoever uses them gives a value.
     """
-    return [*_rates(item), *_ends(item)]
+    found = [*_rates(item), *_ends(item)]
+    return found if found and item.relation.sign != "=" else [*found, *_at_rest(item)]
+
+
+def _at_rest(item: ForAll) -> list[tuple[Any, Concrete]]:
+    """Constant functions of one time that satisfy y' = rhs: all the same, or all 0."""
+    left = item.relation.left
+    if len(item.variables) != 1 or not isinstance(left, sp.Derivative) or left.variables != item.variables:
+        return []
+    moving = [node for node in sp.Tuple(left, item.relation.right).atoms(AppliedUndef) if node.args == item.variables]
+    for value, forbidden in ((START, ("negative", "nonpositive", "integer")), (sp.S.Zero, ("nonzero",))):
+        if any(getattr(node, f"is_{word}") for node in moving for word in forbidden):
+            continue
+        if item.relation.right.xreplace(dict.fromkeys(moving, value)).doit() == 0:
+            return [(node.func, Concrete(_arguments(1), value)) for node in sorted(moving, key=str)]
+    return []
 
 
 def _ends(item: ForAll) -> list[tuple[Any, Concrete]]:
@@ -167,8 +182,6 @@ def _rates(item: ForAll) -> list[tuple[Any, Concrete]]:
     moving = sp.Add(*(term for term in sp.Add.make_args(right) if term.has(value)))
     if relation.sign in ("<=", "<") and moving not in (0, right):
         found += closed_forms(moving, value, time)  # it satisfies the inequality where what is left out is not negative
-    if not found and not applied.is_nonzero and right.xreplace({value: sp.S.Zero}) == 0:
-        found = [sp.S.Zero]  # at rest
     return [(applied.func, Concrete(place, body.xreplace({time: place[0]}))) for body in found]
 
 
@@ -183,7 +196,7 @@ def closed_forms(right: sp.Expr, value: sp.Symbol, time: sp.Symbol) -> list[sp.E
             free += term
             continue
         inside = [factor for factor in sp.Mul.make_args(term) if factor.has(value)]
-        if len(inside) != 1:
+        if len(inside) != 1 or inside[0].as_base_exp()[0] != value:
             return []
         (power,) = inside  # taken out of the product as it stands: SymPy does not cancel powers with letters in them
         rest = sp.Mul(*(factor for factor in sp.Mul.make_args(term) if factor != power))
