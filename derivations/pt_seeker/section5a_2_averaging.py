@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ptproof.proof import Evidence, Goal, Prose, cited, claim, eq, every, exact, integrals, refute
+from ptproof.proof import Evidence, Goal, claim, eq, every, exact, integrals, refute
 from ptproof.system import lie_bracket
 
 from . import chain
@@ -168,10 +168,3 @@ def bracket_at_z_printed(goal: Goal) -> Evidence:
 def averaged_by_hand(goal: Goal) -> Evidence:
     """The same without the averaging engine: b₀ + [b₁, b₂] v₂₁ with the fields at z = F(x)."""
     return exact(goal)
-
-
-qualitative = claim(
-    "5/step3-mu-one", "Setting μ = 1 in the Lie bracket system does not change its stability",
-    Prose("μ only scales the time of the reduced model, so its stability may be studied at μ = 1"),
-    expected="cited", place="Step 3", uses=[averaged_system],
-)(cited("Dürr, Krstić, Scheinker, Ebenbauer: singularly perturbed Lie bracket approximation"))  # fmt: skip
