@@ -8,6 +8,7 @@ not known here ``Unsure``.
 from __future__ import annotations
 
 import itertools
+import math
 from collections.abc import Callable, Mapping
 from functools import lru_cache
 from typing import Any, TypeAlias
@@ -206,17 +207,14 @@ class Evaluator:
             if not count.is_Integer or start is None or count > 6:
                 raise Unsure(f"{node} is not evaluated")
             if count:
-                tag = next(self._tag)
-                rest = (ONE,) + (ZERO,) * (int(count) - 1)
-                inside[variable] = known[variable] = Series(tag, (start, *rest))
-                levels.append((tag, int(count)))
+                moved = Series(next(self._tag), (start, ONE, *(ZERO,) * (int(count) - 1)))
+                inside[variable] = known[variable] = moved
+                levels.append((moved.tag, int(count)))
         value = self.value(node.args[0], Scope(inside, known))
         for tag, count in reversed(levels):
             if not isinstance(value, Series) or value.tag != tag:
                 return ZERO
-            value = value.terms[count]
-            for factor in range(2, count + 1):
-                value = self.calculus.mul(Exact(factor), value)
+            value = self.calculus.mul(Exact(math.factorial(count)), value.terms[count])
         return value
 
     def _subs(self, node: sp.Expr, scope: Scope) -> Value:
