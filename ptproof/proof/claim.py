@@ -17,6 +17,7 @@ import sympy as sp
 
 from ptproof.errors import InputError
 from ptproof.proof.content import digest
+from ptproof.proof.erratum import Erratum, erratum
 from ptproof.proof.facts import Fact, from_claim, guarded
 from ptproof.proof.statement import (
     All,
@@ -92,6 +93,8 @@ class Claim:
     where_defined
         Whether it speaks only of the values at which both sides are defined and real; otherwise that they are, for
         all values that the declarations and assumptions allow, is part of what is claimed.
+    erratum
+        Of a printed claim that is refuted: how grave that is, in words.
     """
 
     id: str
@@ -107,6 +110,7 @@ class Claim:
     corrects: Claim | None = None
     place: str = ""
     where_defined: bool = False
+    erratum: Erratum | None = None
 
     def __post_init__(self) -> None:
         for used in (*self.uses, *([self.corrects] if self.corrects is not None else [])):
@@ -174,17 +178,22 @@ def claim(
     corrects: Claim | None = None,
     place: str = "",
     where_defined: bool = False,
+    grade: str = "",
+    wrong: str = "",
+    survives: str = "",
 ) -> Callable[[Proof], Claim]:
     """Make the decorated proof a :class:`Claim`; its docstring is the prose of the report.
 
-    The section is the ``SECTION`` of the module in which this is called.
+    The section is the ``SECTION`` of the module in which this is called. ``grade``, ``wrong`` and ``survives`` make a
+    printed claim that is refuted an :class:`~ptproof.proof.erratum.Erratum`.
     """
     section = _section_of_caller(inspect.currentframe())
+    said = erratum(id, expected, grade, wrong, survives)
 
     def make(prove: Proof) -> Claim:
         return Claim(
             id, title, states, prove, tuple(given), tuple(uses), _labels(id, labels), Verdict(expected),
-            inspect.cleandoc(prove.__doc__ or ""), section, corrects, place, where_defined,
+            inspect.cleandoc(prove.__doc__ or ""), section, corrects, place, where_defined, said,
         )  # fmt: skip
 
     return make

@@ -46,6 +46,7 @@ class Result:
             "uses": [used.id for used in self.claim.uses],
             "evidence": [item.to_json() for item in self.evidence],
             "witness": None if witness is None else witness.to_json(),
+            "erratum": None if self.claim.erratum is None else self.claim.erratum.to_json(),
         }
 
 

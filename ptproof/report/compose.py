@@ -61,6 +61,7 @@ def compose(
         for claim in shown
         if claim.status is status.REFUTED or claim.corrected_by
     ]
+    errata.sort(key=lambda item: item.rank)
     return Report(
         title=title or "Derivation",
         sections=sections,
@@ -129,6 +130,7 @@ class _Composer:
             corrects=corrects[0] if corrects else None,
             corrected_by=self.links(self.corrections.get(claim.id, [])),
             prose=claim.prose,
+            erratum=claim.erratum,
         )
 
     def definition(self, item: Definition) -> DefinitionView:

@@ -194,13 +194,23 @@ def _broken(expression: Any, whole: str, names: Names) -> list[str]:
 
 def mathml(source: str, *, display: bool = False) -> str:
     """MathML for LaTeX; LaTeX that the converter does not know is shown as it is, in a ``code`` element."""
-    element = _element(source)
-    if element is None:
+    return markup(element(source, display=display), source)
+
+
+def markup(found: ElementTree.Element | None, source: str) -> str:
+    """A formula's element as text; without one, its LaTeX."""
+    if found is None:
         return f"<code>{html.escape(source)}</code>"
-    element.set("display", "block" if display else "inline")
-    return ElementTree.tostring(element, encoding="unicode").replace(
-        ' xmlns="http://www.w3.org/1998/Math/MathML"', "", 1
-    )
+    written = ElementTree.tostring(found, encoding="unicode")
+    return written.replace(' xmlns="http://www.w3.org/1998/Math/MathML"', "", 1)
+
+
+def element(source: str, *, display: bool = False) -> ElementTree.Element | None:
+    """The formula as an element of its own, which may be changed; None where the converter does not know its LaTeX."""
+    found = _element(source)
+    if found is not None:
+        found.set("display", "block" if display else "inline")
+    return found
 
 
 @lru_cache(maxsize=4096)

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from ptproof.proof import erratum
 from ptproof.proof.verdict import Evidence
 from ptproof.report.content import Figure, Table
+from ptproof.report.difference import marked
 from ptproof.report.formula import Line, width
 from ptproof.report.graph import Node
 from ptproof.report.letters import Letter
@@ -48,6 +50,7 @@ class ClaimView:
     corrects: Ref | None
     corrected_by: tuple[Ref, ...]
     prose: str
+    erratum: erratum.Erratum | None
 
 
 @dataclass(frozen=True)
@@ -83,6 +86,21 @@ class Erratum:
     def in_paper(self) -> bool:
         """Whether the paper prints it: it has a label or a place there."""
         return bool(self.printed.labels or self.printed.place)
+
+    @property
+    def rank(self) -> int:
+        """Its place among the errata: by weight, and those without a grade last."""
+        return self.printed.erratum.grade.rank if self.printed.erratum else len(erratum.Grade)
+
+    @property
+    def formulas(self) -> tuple[tuple[str, ...], ...]:
+        """The printed formula and its corrections as MathML by lines; the difference of the first two is marked."""
+        if not self.corrections:
+            return (marked(self.printed.lines, ())[0],)
+        return (
+            *marked(self.printed.lines, self.corrections[0].lines),
+            *(marked(item.lines, ())[0] for item in self.corrections[1:]),
+        )
 
     @property
     def narrow(self) -> bool:

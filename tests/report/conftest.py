@@ -40,7 +40,8 @@ SECTION = "1 First <part>"
 square = definition("a/square", "The square", eq(sp.Symbol("s"), x**2),
                     labels=["eq:square"], prose="A *square* of $x$.")
 
-@claim("a/printed", "The printed square", eq((x + k)**2, x**2 + k**2), labels=["eq:sum"], expected="refuted")
+@claim("a/printed", "The printed square", eq((x + k)**2, x**2 + k**2), labels=["eq:sum"], expected="refuted",
+       grade="misprint", wrong="The mixed term 2kx | is left out.", survives="Nothing uses it & the <theorem> stands.")
 def printed(goal):
     """The mixed term is missing."""
     return exact(goal)

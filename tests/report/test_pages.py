@@ -107,10 +107,30 @@ def test_the_witness_of_the_engine_is_set_in_the_letters_of_the_paper(report):
 def test_errata_come_before_the_claims_and_name_the_correction(page, text):
     assert page.index('id="errata"') < page.index('id="s-1"')
     assert text.index("## Errata") < text.index('<a id="s-1">')
-    row = next(line for line in text.split("\n") if line.startswith("| `eq:sum`"))
+    row = next(line for line in text.split("\n") if line.startswith("| misprint | `eq:sum`"))
     assert "(#c-a-corrected)" in row
     assert "refuted" in row
     assert "fully proved" in row
+
+
+def test_errata_say_how_grave_they_are_and_what_survives(page, text):
+    errata = page[page.index('id="errata"') : page.index('id="graph"')]
+    assert errata.count("Nothing uses it &amp; the &lt;theorem&gt; stands.") == 2
+    assert errata.count("The mixed term 2kx | is left out.") == 2
+    row = next(line for line in text.split("\n") if line.startswith("| misprint |"))
+    assert r"The mixed term 2kx \| is left out." in row
+    assert "**Misprint.** The mixed term" in text
+
+
+def test_errata_are_ordered_by_weight_and_those_without_a_grade_come_last(report):
+    assert [item.rank for item in report.errata] == sorted(item.rank for item in report.errata)
+    assert [item.printed.erratum is None for item in report.errata] == [False, True]
+
+
+def test_errata_mark_what_differs(page):
+    errata = page[page.index('id="errata"') : page.index('id="graph"')]
+    assert 'class="differs"' in errata
+    assert 'class="differs"' not in page[page.index('id="graph"') :]
 
 
 def test_errata_state_the_assumptions(page, text):

@@ -111,7 +111,7 @@ def check(
 def _answers(
     folder: Path, number: int, claims: Sequence[Claim], timeout: float, efforts: Sequence[Effort]
 ) -> Iterator[tuple[Claim, Confirmation]]:
-    """What Coq says of these claims. Where it stops at one, the rest is asked first; then that one, with more hints."""
+    """What Coq says of these claims; those at which it stops are asked again, with more hints."""
     left: list[Stated] = []
     for claim in claims:
         try:
@@ -127,19 +127,25 @@ def _answers(
         file = folder / f"claims_{number:03d}{f'_{run}' if run else ''}.v"
         file.write_text(coq.source(theorems, timeout), encoding="utf-8")
         start = time.perf_counter()
-        printed = coq.run(folder, file.name, _TO_START + 2 * timeout * len(left))
-        heard = list(coq.heard(printed.output, theorems))
-        seconds = (time.perf_counter() - start) / max(1, min(len(left), len(heard) + 1))
-        for (claim, said, _), reason in zip(left, heard, strict=False):
-            yield claim, Confirmation(not reason, reason, said.text, seconds)
-        left = left[len(heard) :]
-        if left:
-            claim, said, theorem = left.pop(0)
-            if tries[claim.id] == len(efforts):
-                yield claim, Confirmation(False, printed.stopped(), said.text, seconds)
-            else:
-                left.append((claim, said, _theorem(said, theorem.name, efforts[tries[claim.id]])))
+        printed = coq.ask(folder, file.name, _TO_START + 2 * timeout * len(left))
+        heard = coq.heard(printed.output, theorems)
+        reasons = {theorem.name: printed.stopped(theorem) for theorem in theorems if theorem.name not in heard}
+        moved = bool(heard) or any(reason is not None for reason in reasons.values())
+        seconds = (time.perf_counter() - start) / len(left)
+        again: list[Stated] = []
+        for claim, said, theorem in left:
+            if (against := heard.get(theorem.name)) is not None:
+                yield claim, Confirmation(not against, against, said.text, seconds)
+                continue
+            reason = reasons[theorem.name]
+            if reason is None and moved:  # Coq was ended before it came to this one
+                again.append((claim, said, theorem))
+            elif reason is not None and tries[claim.id] < len(efforts):
+                again.append((claim, said, _theorem(said, theorem.name, efforts[tries[claim.id]])))
                 tries[claim.id] += 1
+            else:
+                yield claim, Confirmation(False, reason or "Coq gave no answer", said.text, seconds)
+        left = again
         run += 1
 
 

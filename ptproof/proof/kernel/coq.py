@@ -9,7 +9,7 @@ import shutil
 import signal
 import subprocess
 import tempfile
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -28,6 +28,7 @@ AXIOMS: Mapping[str, str] = {
 }
 # The kernel's own machine integers and floats, with which Interval computes: nothing is assumed of the reals.
 _MACHINE = re.compile(r"(PrimInt63|Uint63|Uint63Axioms|PrimFloat|FloatAxioms|FloatOps|Sint63)\.\w+|(int|float)")
+_OPTIONS = ("-q", "-w", "none", "-Q", ".", "Ptproof")
 _PACKAGES = "coq, libcoq-coquelicot and libcoq-interval (on Debian and Ubuntu: apt install them)"
 
 
@@ -52,15 +53,27 @@ class Printed:
     error: str
     late: bool
 
-    def stopped(self) -> str:
-        """Why Coq stopped at a theorem."""
-        if self.late or "Timeout!" in self.error:
+    def stopped(self, theorem: Theorem) -> str | None:
+        """Why Coq did not accept the theorem; None if it was ended before it came to it."""
+        prompts = re.split(r"^(\w+) < ", self.error, flags=re.MULTILINE)
+        inside = [text for name, text in zip(prompts[1::2], prompts[2::2], strict=False) if name == theorem.proof]
+        if not inside:
+            # Its proposition was not taken, so that Coq does not know it when the theorem states it.
+            before, missed, _ = self.error.partition(f"> Theorem {theorem.proof} ")
+            said = before.rpartition("Toplevel input")[0].rpartition("Error:")[2]
+            return f"Coq does not take it: {_shortened(said)}" if missed else None
+        error = "".join(inside).partition("Error:")[2].partition("\n\nToplevel input")[0]
+        if "Timeout!" in error or (not error and self.late):
             return "time limit"
-        if found := re.search(r"Tactic failure: at (.*)", self.error, re.DOTALL):
-            return f"no tactic proved {' '.join(found[1].split())[:300].removesuffix('.')}"
-        if "Error" in self.error and "Tactic" not in self.error and "tactic" not in self.error:
-            return f"Coq does not take it: {' '.join(self.error.partition('Error:')[2].split())[:300]}"
+        if found := re.search(r"Tactic failure: +at (.*)", error, re.DOTALL):
+            return f"no tactic proved {_shortened(found[1]).removesuffix('.')}"
+        if error and "actic" not in error and "incomplete proof" not in error:
+            return f"Coq does not take it: {_shortened(error)}"
         return "no tactic proved it"
+
+
+def _shortened(text: str) -> str:
+    return " ".join(text.split()).removesuffix("Coq <").strip()[:300]
 
 
 def missing() -> str:
@@ -95,19 +108,31 @@ def _compiled() -> tempfile.TemporaryDirectory[str]:
     for name in LIBRARY:
         text = (Path(__file__).parent / "theory" / f"{name}.v").read_text(encoding="utf-8")
         (folder / f"{name}.v").write_text(text, encoding="utf-8")
-        done = run(folder, f"{name}.v", 300)
+        done = compile_file(folder, f"{name}.v", 300)
         if done.error or done.late:
             raise RuntimeError(f"Coq refuses {name}.v, of the library of tactics: {done.error.strip() or 'time limit'}")
     return made
 
 
-def run(folder: Path, file: str, seconds: float) -> Printed:
-    """Have the file checked, in the folder of the library, and every process of it ended at the time limit."""
-    command = ["coqc", "-q", "-w", "none", "-Q", ".", "Ptproof", file]
-    with subprocess.Popen(
-        command, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-        encoding="utf-8", errors="replace", start_new_session=True,
-    ) as process:  # fmt: skip
+def compile_file(folder: Path, file: str, seconds: float) -> Printed:
+    """Have a file of the library compiled."""
+    return _run(["coqc", *_OPTIONS, file], folder, None, seconds)
+
+
+def ask(folder: Path, file: str, seconds: float) -> Printed:
+    """Have Coq read the file as if it were typed, in the folder of the library: a failure costs one theorem."""
+    return _run(["coqtop", *_OPTIONS], folder, file, seconds)
+
+
+def _run(command: list[str], folder: Path, typed: str | None, seconds: float) -> Printed:
+    """The output of a process of Coq, which ends with every process of it at the time limit."""
+    with (
+        open(folder / typed if typed else os.devnull, "rb") as source,
+        subprocess.Popen(
+            command, cwd=folder, stdin=source, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+            encoding="utf-8", errors="replace", start_new_session=True,
+        ) as process,
+    ):  # fmt: skip
         try:
             output, error = process.communicate(timeout=seconds)
             late = False
@@ -118,7 +143,7 @@ def run(folder: Path, file: str, seconds: float) -> Printed:
             late = True
             if not isinstance(stop, subprocess.TimeoutExpired):
                 raise
-    return Printed(output, error if process.returncode or late else "", late)
+    return Printed(output, error if typed or process.returncode or late else "", late)
 
 
 def source(theorems: Sequence[Theorem], seconds: float) -> str:
@@ -130,28 +155,41 @@ def source(theorems: Sequence[Theorem], seconds: float) -> str:
             f"Definition {theorem.name} : Prop :=\n  {theorem.text}.\n",
             f"Theorem {theorem.proof} : {theorem.name}.",
             f"Proof. unfold {theorem.name}. Timeout {max(1, round(seconds))} ({theorem.script}). Qed.",
+            "Abort All.",  # after a proof that failed; otherwise an error that nobody reads
             f"Check {theorem.proof}.",
             f"Print Assumptions {theorem.proof}.\n",
         ]
     return "\n".join(lines)
 
 
-def heard(output: str, theorems: Sequence[Theorem]) -> Iterator[str]:
-    """For each theorem that the kernel has accepted, in their order: nothing, or what speaks against it.
+def heard(output: str, theorems: Sequence[Theorem]) -> dict[str, str]:
+    """By the name of each theorem that the kernel has accepted: nothing, or what speaks against it.
 
     The kernel has printed the name, the proposition and the axioms of each; all three are looked at.
     """
-    places = [match.start() for match in re.finditer(r"^proof_of_\w+\s+:", output, re.MULTILINE)]
-    for theorem, start, end in zip(theorems, places, [*places[1:], len(output)], strict=False):
-        stated, _, rest = output[start:end].partition("\n     : ")
+    text = re.sub(r"^Fetching opaque proofs .*\n", "", output, flags=re.MULTILINE)
+    places = [match.start() for match in re.finditer(r"^proof_of_\w+\s+:", text, re.MULTILINE)]
+    asked = {theorem.proof: theorem for theorem in theorems}
+    found: dict[str, str] = {}
+    for start, end in zip(places, [*places[1:], len(text)], strict=False):
+        stated, _, rest = text[start:end].partition("\n     : ")
         said, _, assumed = rest.partition("\n")
-        if stated != theorem.proof or said != theorem.name:
-            yield "what Coq proved is not what was asked"
-        elif assumed.startswith("Closed under the global context"):
-            yield ""
-        elif assumed.startswith("Axioms:"):
-            names = re.findall(r"^([A-Za-z_][\w.']*)\s*:", assumed[len("Axioms:") :], re.MULTILINE)
-            foreign = [name for name in names if name not in AXIOMS and not _MACHINE.fullmatch(name)]
-            yield f"it rests on {', '.join(foreign)}" if foreign else "" if names else "its axioms cannot be read"
-        else:
-            return
+        theorem = asked.get(stated.strip())
+        if theorem is None:
+            continue
+        if said != theorem.name or theorem.name in found:
+            found[theorem.name] = "what Coq proved is not what was asked"
+        elif (reason := _against(assumed)) is not None:
+            found[theorem.name] = reason
+    return found
+
+
+def _against(assumed: str) -> str | None:
+    """What speaks against a theorem in the list of its axioms; None if the list was not printed."""
+    if assumed.startswith("Closed under the global context"):
+        return ""
+    if not assumed.startswith("Axioms:"):
+        return None
+    names = re.findall(r"^([A-Za-z_][\w.']*)\s*:", assumed[len("Axioms:") :], re.MULTILINE)
+    foreign = [name for name in names if name not in AXIOMS and not _MACHINE.fullmatch(name)]
+    return f"it rests on {', '.join(foreign)}" if foreign else "" if names else "its axioms cannot be read"

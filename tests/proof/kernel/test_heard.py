@@ -15,47 +15,73 @@ def said(name: str, proposition: str, rest: str) -> str:
 
 
 def test_the_axioms_of_the_reals_are_allowed() -> None:
-    assert list(heard(said("claim_one", "claim_one", REALS), ASKED)) == [""]
+    assert heard(said("claim_one", "claim_one", REALS), ASKED) == {"claim_one": ""}
 
 
 def test_what_needs_no_axiom_is_allowed() -> None:
-    assert list(heard(said("claim_one", "claim_one", "Closed under the global context\n"), ASKED)) == [""]
+    assert heard(said("claim_two", "claim_two", "Closed under the global context\n"), ASKED) == {"claim_two": ""}
+
+
+def test_what_coq_says_of_its_files_is_no_axiom() -> None:
+    output = said("claim_one", "claim_one", f"Fetching opaque proofs from disk for Coq.Init.Logic\n{REALS}")
+    assert heard(output, ASKED) == {"claim_one": ""}
 
 
 @pytest.mark.parametrize(
     ("output", "reason"),
     [
         (said("claim_one", "claim_two", REALS), "not what was asked"),
-        (said("claim_two", "claim_two", REALS), "not what was asked"),
         (said("claim_one", "True", REALS), "not what was asked"),
+        (said("claim_one", "claim_one", REALS) * 2, "not what was asked"),
         (said("claim_one", "claim_one", REALS + "mine : False\n"), "rests on mine"),
         (said("claim_one", "claim_one", "Axioms:\n"), "cannot be read"),
     ],
 )
 def test_what_speaks_against_a_theorem(output: str, reason: str) -> None:
-    (found,) = heard(output, ASKED)
-    assert reason in found
+    assert reason in heard(output, ASKED)["claim_one"]
 
 
-@pytest.mark.parametrize("output", ["", "Some goals\n", said("claim_one", "claim_one", "")])
+@pytest.mark.parametrize(
+    "output", ["", "Some goals\n", said("claim_one", "claim_one", ""), said("other", "other", REALS)]
+)
 def test_a_theorem_whose_axioms_were_not_printed_is_not_heard_of(output: str) -> None:
-    assert list(heard(output, ASKED)) == []
+    assert heard(output, ASKED) == {}
 
 
 def test_every_theorem_answers_for_itself() -> None:
     output = said("claim_one", "claim_one", REALS) + said("claim_two", "claim_two", REALS + "mine : False\n")
-    assert list(heard(output, ASKED)) == ["", "it rests on mine"]
+    assert heard(output, ASKED) == {"claim_one": "", "claim_two": "it rests on mine"}
+
+
+def typed(inside: str) -> str:
+    """The error stream of a session of which ``inside`` is the proof of the second theorem."""
+    return f"Coq < \nproof_of_claim_one < \nCoq < \nproof_of_claim_two < {inside}"
 
 
 @pytest.mark.parametrize(
-    ("printed", "reason"),
+    ("inside", "late", "reason"),
     [
-        (Printed("", "", True), "time limit"),
-        (Printed("", "Error: Timeout!", False), "time limit"),
-        (Printed("", "Error: Tactic failure: at (x = y).", False), "no tactic proved (x = y)"),
-        (Printed("", "Error: No applicable tactic.", False), "no tactic proved it"),
-        (Printed("", "Error: The reference f was not found.", False), "Coq does not take it: The reference f was"),
+        ("", True, "time limit"),
+        ("Error: Timeout!\n\nToplevel input, 1-2:\nError: Attempt to save an incomplete proof", False, "time limit"),
+        ("Error: Tactic failure: at (x = y).", False, "no tactic proved (x = y)"),
+        ("Error: No applicable tactic.", False, "no tactic proved it"),
+        ("Error: The reference f was not found.", False, "Coq does not take it: The reference f was"),
+        ("Error: (in proof x): Attempt to save an incomplete proof", False, "no tactic proved it"),
     ],
-)
-def test_why_coq_stopped(printed: Printed, reason: str) -> None:
-    assert printed.stopped().startswith(reason)
+)  # fmt: skip
+def test_why_coq_stopped(inside: str, late: bool, reason: str) -> None:
+    found = Printed("", typed(inside), late).stopped(ASKED[1])
+    assert found is not None
+    assert found.startswith(reason)
+
+
+def test_a_proposition_that_coq_does_not_take() -> None:
+    error = (
+        "Coq < Toplevel input, characters 1-2:\n> Definition claim_two : Prop := g.\nError: The reference g was not "
+        "found.\n\nCoq < Toplevel input, characters 3-4:\n> Theorem proof_of_claim_two : claim_two.\n"
+    )
+    assert Printed("", error, False).stopped(ASKED[1]) == "Coq does not take it: The reference g was not found."
+
+
+def test_a_theorem_that_coq_did_not_come_to() -> None:
+    assert Printed("", "Coq < \nproof_of_claim_one < ", True).stopped(ASKED[1]) is None

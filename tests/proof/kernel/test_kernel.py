@@ -68,7 +68,7 @@ def test_an_axiom_of_our_own_is_noticed(tmp_path: Path) -> None:
     theorem = coq.Theorem("claim_false", "False", "exact mine")
     text = coq.source([theorem], 5).replace("Open Scope R_scope.", "Open Scope R_scope.\nAxiom mine : False.")
     (tmp_path / "claims.v").write_text(text, encoding="utf-8")
-    assert list(coq.heard(coq.run(tmp_path, "claims.v", 60).output, [theorem])) == ["it rests on mine"]
+    assert coq.heard(coq.ask(tmp_path, "claims.v", 60).output, [theorem]) == {theorem.name: "it rests on mine"}
 
 
 @needs_coq
