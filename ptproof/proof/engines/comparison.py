@@ -6,6 +6,11 @@ its second argument, then v ≤ u on [τ₀, τ₁] (Khalil, Nonlinear Systems, 
 it: that the inequality is assumed on the whole of [τ₀, τ], that u solves the equation (exact algebra) or rises
 faster (z3), starts at v(τ₀) or above, stays where φ is Lipschitz, and is regular on the interval together with φ; the
 rest of the bound is a real inequality.
+
+Where φ is not Lipschitz at 0, as v^q with q < 1, u has to be positive on the interval, and φ a combination of powers of
+its second argument. If v(τ₁) > u(τ₁), let τ₂ be the last time before with v ≤ u. There v = u > 0, and from there on to
+τ₁ both lie between two positive numbers, where φ is Lipschitz; so (v − u)' ≤ φ(τ, v) − φ(τ, u) ≤ L(v − u), and v − u
+stays at or below 0. The inequality is used only where v > 0, and may be assumed only there.
 """
 
 from __future__ import annotations
@@ -94,17 +99,19 @@ def _check(goal: Goal, solution: sp.Expr, denominators: Sequence[sp.Expr], lemma
         if not interval.positive(denominator.subs(initial, first)):
             raise _Failed(f"{denominator} > 0 is not shown on the whole interval")
 
-    value = sp.Dummy("v", real=True) if first.is_nonnegative is None else sp.Dummy("v", nonnegative=True)
+    u = solution.subs(initial, first)
+    hints = [item.subs(initial, first) for item in denominators]
+    above = _above(u, interval, hints)
+    value = sp.Dummy("v", positive=True) if above else (
+        sp.Dummy("v", real=True) if first.is_nonnegative is None else sp.Dummy("v", nonnegative=True))  # fmt: skip
     phi = inequality.relation.right.subs(v, value)
     if phi.has(AppliedUndef):
         raise _Failed("the rate depends on the function otherwise than through its value")
     if not _lipschitz(phi, value):
         raise _Failed(f"the rate {inequality.relation.right} is not recognised as locally Lipschitz in {v}")
-    u = solution.subs(initial, first)
-    hints = [item.subs(initial, first) for item in denominators]
     for expression in (phi, u):
         _regular(expression, interval, hints)
-    if value.is_nonnegative and not _polynomial(phi, value):
+    if value.is_nonnegative and not above and not _polynomial(phi, value):
         _stays(u, interval)
     how = _solves(u, phi.subs(value, u), interval, hints, solution)
     begin = u.subs(s, start)
