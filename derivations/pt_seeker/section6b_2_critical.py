@@ -11,19 +11,36 @@ from ptproof.proof import (
     Relation,
     claim,
     eq,
+    every,
     exact,
     exists_by,
+    ge,
     gt,
     le,
     lt,
     power_of_root,
     reals,
+    refute,
     specialise,
 )
 
-from .notation import V0, E_norm, T, k, t0
-from .section5b_1_lyapunov import sigma, sigma_form
-from .section6b_1_comparison import C1, C2, W, after, denominator, denominator_form, elapsed, q_printed
+from .notation import V0, E_norm, T, k, t0, tau
+from .section5b_1_lyapunov import V_away, n, sigma, sigma_form
+from .section6b_1_comparison import (
+    C1,
+    C2,
+    W,
+    after,
+    bernoulli,
+    denominator,
+    denominator_form,
+    elapsed,
+    gammas,
+    q_printed,
+    remark,
+    remark_inequality,
+    s,
+)
 
 SECTION = "6.2 Discussion: vanishing drift and κ ≥ 2"
 
@@ -65,6 +82,124 @@ def critical_condition(goal: Goal) -> Evidence:
 def critical_value(goal: Goal) -> Evidence:
     """The root of the affine function of V(x₀)^σ."""
     return reals(goal, power_of_root(V0, critical_power, sigma_printed))
+
+
+# The other root of the denominator, and the square of the turning point's 1 + (τ − t₀)/T.
+turning = 2 * C2**2 * E_norm / (k * C1**2)
+tau_other = t0 + T * (turning / ratio - 1)
+admitted = (gt(tau_star, t0), gt(E_norm, threshold))
+
+
+@claim(
+    "6.2/critical-time-range", "The printed condition bounds τ* from above",
+    lt(tau_star, t0 + T * (turning - 1)), given=[gt(tau_star, t0), gt(E_norm, threshold)],
+    labels=["critical-V_0"],
+)  # fmt: skip
+def critical_range(goal: Goal) -> Evidence:
+    """The text asks for any τ* > t₀ and then for a drift that is large enough for it. For a given drift this is a
+    range: t₀ < τ* < t₀ + T(2c₂²‖E‖/(k c₁²) − 1), which is empty if ‖E‖ ≤ k c₁²/(2c₂²)."""
+    return reals(goal)
+
+
+@claim(
+    "6.2/critical-time-range-is-enough", "A τ* within that range satisfies the printed condition",
+    gt(E_norm, threshold), given=[gt(tau_star, t0), lt(tau_star, t0 + T * (turning - 1))], labels=["critical-V_0"],
+)  # fmt: skip
+def critical_range_converse(goal: Goal) -> Evidence:
+    """The same inequality, solved for the drift."""
+    return reals(goal)
+
+
+@claim(
+    "6.2/critical-roots", "At the critical value the denominator has the roots τ* and τ′",
+    eq(denominator(critical_power), gammas(critical_power)[2] * (tau - tau_star) * (tau - tau_other)),
+    given=admitted, labels=["critical-V_0"], uses=[critical_positive],
+)  # fmt: skip
+def critical_roots(goal: Goal) -> Evidence:
+    """With (1 + (τ* − t₀)/T)(1 + (τ′ − t₀)/T) = 2c₂²‖E‖/(k c₁²): the two roots lie on both sides of the instant at which
+    the drift's term and the feedback's are equal."""
+    return exact(goal)
+
+
+early = le(ratio**2, turning)
+
+
+@claim(
+    "6.2/critical-first-root", "If τ* is early the bound is finite until τ*, and the other root is not earlier",
+    every(gt(denominator(critical_power), 0), ge(tau_other, tau_star)),
+    given=[*admitted, early, after, lt(tau, tau_star)], labels=["critical-V_0"],
+    uses=[critical_positive, critical_roots],
+)  # fmt: skip
+def first_root(goal: Goal) -> Evidence:
+    """Early: (1 + (τ* − t₀)/T)² ≤ 2c₂²‖E‖/(k c₁²), while the drift's term is the larger one. Then τ* is the instant at
+    which the bound escapes."""
+    return reals(goal)
+
+
+@claim(
+    "6.2/critical-second-root", "If τ* is late the bound has escaped before, at the other root",
+    every(gt(tau_other, t0), lt(tau_other, tau_star), eq(denominator(critical_power, tau_other), 0)),
+    given=[*admitted, gt(ratio**2, turning)], labels=["critical-V_0"], uses=[critical_positive, critical_roots],
+)  # fmt: skip
+def second_root(goal: Goal) -> Evidence:
+    """Then the denominator is zero at τ* as the text says, but for the second time: between the roots it is negative, and
+    the printed right-hand side is no bound there."""
+    return reals(goal, *specialise(goal, critical_roots, {tau: tau_other}))
+
+
+@claim(
+    "6.2/critical-before-second-root", "Until the other root the denominator is positive, and then negative up to τ*",
+    every(gt((tau_other - tau) * denominator(critical_power), 0)),
+    given=[*admitted, gt(ratio**2, turning), after, lt(tau, tau_star), Relation(tau, "!=", tau_other)],
+    labels=["critical-V_0"], uses=[critical_positive, critical_roots],
+)  # fmt: skip
+def between_roots(goal: Goal) -> Evidence:
+    """Its sign is that of τ′ − τ."""
+    return reals(goal)
+
+
+@claim(
+    "6.2/critical-before-both-roots", "Before both roots the denominator is positive",
+    gt(denominator(W), 0), given=[eq(W, critical_power), *admitted, after, lt(tau, tau_star), lt(tau, tau_other)],
+    labels=["critical-V_0"], uses=[critical_positive, critical_roots],
+)  # fmt: skip
+def before_both(goal: Goal) -> Evidence:
+    """A parabola that opens upwards, left of its roots; W is V(x₀)^σ."""
+    return reals(goal)
+
+
+# V(x₀)^σ is the critical value of eq. (critical-V₀), solved for the drift.
+drift_of_start = ratio / (sigma_printed * (tau_star - t0) * V_away(t0) ** sigma_printed) + k * C1**2 / 2 * ratio
+critical_start = eq(E_norm, drift_of_start / C2**2)
+
+
+@claim(
+    "6.2/bound-violated", "Before τ*, a critical start violates the bound",
+    gt(V_away(tau), remark(V_away(t0))),
+    given=[gt(tau, t0), lt(tau, tau_star), bernoulli, *admitted, critical_start,
+           gt(denominator(V_away(t0) ** sigma_printed), 0)],
+    labels=["eq:remark_inequality"], expected="refuted", uses=[critical_value],
+)  # fmt: skip
+def bound_violated(goal: Goal) -> Evidence:
+    """Where the right-hand side escapes, the inequality is not violated: it is void. The witness is a constant V = 1,
+    critical for τ* = 1, which satisfies the differential inequality and is below the bound."""
+    return refute(goal, {
+        V_away(s): 1, n: 1, C1: 1, C2: 1, k: 2, E_norm: 6, T: 1, t0: 0, tau: sp.Rational(1, 2), tau_star: 1,
+    })  # fmt: skip
+
+
+@claim(
+    "6.2/bound-holds-until-it-escapes", "For a critical start the bound holds until the first of the two roots",
+    le(V_away(tau), remark(V_away(t0))),
+    given=[after, lt(tau, tau_star), lt(tau, tau_other), bernoulli, *admitted, critical_start],
+    labels=["eq:remark_inequality"], corrects=bound_violated,
+    uses=[remark_inequality, before_both],
+)  # fmt: skip
+def bound_until_escape(goal: Goal) -> Evidence:
+    """Between the start and the first root the denominator is positive. From the first root on nothing is said: the
+    bound is infinite at the root, and what is printed is not a bound behind it."""
+    positive = specialise(goal, before_both, {W: V_away(t0) ** sigma_printed})
+    return reals(goal, *specialise(goal, remark_inequality, {}), *positive)
 
 
 @claim(
@@ -141,15 +276,24 @@ def finite_small_start(goal: Goal) -> Evidence:
     return reals(goal, *specialise(goal, positive_small_start, {A: drift_root, B: feed_root, duration: elapsed}))
 
 
-worst = T * (A / B - 1)
+smallest = 1 / (sigma * T * (drift_root - feed_root) ** 2)
 
 
 @claim(
-    "6.2/smallest-critical-value", "The threshold for small starts is sharp",
-    eq((T + worst) * (1 - (A**2 * T * worst / (T + worst) - B**2 * worst) / (T * (A - B) ** 2)), 0),
-    given=[gt(A, B)], place="Section 6.2", uses=[work_bound],
+    "6.2/smallest-critical-value", "No critical value is smaller than the threshold for small starts",
+    ge(critical_power, smallest), given=admitted, labels=["critical-V_0"], uses=[critical_positive],
 )  # fmt: skip
 def smallest_critical_value(goal: Goal) -> Evidence:
-    """At σV(x₀)^σ = 1/(T(A − B)²) with A > B the denominator is zero at τ* = t₀ + T(A/B − 1): the smallest initial
-    value that is critical for any τ*."""
+    """V(x₀)^σ of eq. (critical-V₀) is at least 1/(σT(c₂√‖E‖ − c₁√(k/2))²), for every τ* that the condition allows."""
+    return reals(goal)
+
+
+@claim(
+    "6.2/smallest-critical-value-attained", "The threshold for small starts is the critical value of one τ*",
+    eq(critical_power.subs(tau_star, t0 + T * (drift_root / feed_root - 1)), smallest),
+    given=[gt(E_norm, k * C1**2 / (2 * C2**2))], labels=["critical-V_0"], uses=[smallest_critical_value],
+)  # fmt: skip
+def smallest_attained(goal: Goal) -> Evidence:
+    """At 1 + (τ* − t₀)/T = (c₂/c₁)√(2‖E‖/k), where the two roots are one. So below the threshold the bound is finite
+    for all τ, and at the threshold it escapes."""
     return exact(goal)

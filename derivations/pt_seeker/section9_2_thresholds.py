@@ -29,7 +29,7 @@ from .section6a_asymptotic import averaged_asymptotic
 from .section6b_1_comparison import W
 from .section6b_2_critical import A as drift_letter
 from .section6b_2_critical import B as feed_letter
-from .section6b_2_critical import duration, finite_small_start, positive_small_start, smallest_critical_value
+from .section6b_2_critical import duration, finite_small_start, positive_small_start, smallest_attained
 from .section9_1_gain import V_dot, drifted, form, half, norm_suffices, nu_min, slope
 
 SECTION = "Beyond the paper"
@@ -43,7 +43,7 @@ rho, rho0 = C2 / C1 * sp.sqrt(2 * E_norm / k), sp.sqrt(2 * E_norm / k)
 @claim(
     "beyond/printed-threshold", "The smallest critical V₀ over all τ*, with ρ = (c₂/c₁)√(2‖E‖/k)",
     eq((C2 * sp.sqrt(E_norm) - C1 * sp.sqrt(k / 2)) ** 2, k * C1**2 / 2 * (rho - 1) ** 2),
-    uses=[finite_small_start, smallest_critical_value],
+    uses=[finite_small_start, smallest_attained],
 )  # fmt: skip
 def printed_threshold(goal: Goal) -> Evidence:
     """The claims used show that the bound is finite for all τ if σV₀^σT(c₂√‖E‖ − c₁√(k/2))² < 1, and escapes at

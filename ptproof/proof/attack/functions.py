@@ -139,23 +139,27 @@ def _rates(item: ForAll) -> list[tuple[Any, Concrete]]:
     value = sp.Dummy("value", positive=True)
     right = relation.right.xreplace({applied: value})
     place = _arguments(1)
-    found = _closed_forms(sp.expand(right), value, time)
+    found = closed_forms(sp.expand(right), value, time)
+    if not found and not applied.is_nonzero and right.xreplace({value: sp.S.Zero}) == 0:
+        found = [sp.S.Zero]  # at rest
     return [(applied.func, Concrete(place, body.xreplace({time: place[0]}))) for body in found]
 
 
 START = sp.Symbol("_start", positive=True)
 
 
-def _closed_forms(right: sp.Expr, value: sp.Symbol, time: sp.Symbol) -> list[sp.Expr]:
+def closed_forms(right: sp.Expr, value: sp.Symbol, time: sp.Symbol) -> list[sp.Expr]:
+    """Solutions of value' = ``right``, a sum of terms that are free of the value or have one power of it."""
     free, rates, powers = sp.S.Zero, sp.S.Zero, set()
     for term in sp.Add.make_args(right):
         if not term.has(value):
             free += term
             continue
-        power = next((f for f in sp.Mul.make_args(term) if f.has(value)), None)
-        rest = term / power
-        if rest.has(value):
+        inside = [factor for factor in sp.Mul.make_args(term) if factor.has(value)]
+        if len(inside) != 1:
             return []
+        (power,) = inside  # taken out of the product as it stands: SymPy does not cancel powers with letters in them
+        rest = sp.Mul(*(factor for factor in sp.Mul.make_args(term) if factor != power))
         exponent = power.exp if isinstance(power, sp.Pow) else sp.S.One
         powers.add(exponent)
         rates += rest

@@ -13,6 +13,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from ptproof.proof.attack.functions import Concrete, differentiable, solutions
+from ptproof.proof.attack.trajectories import trajectories
 from ptproof.proof.claim import Goal
 from ptproof.proof.statement import (
     Exists,
@@ -66,7 +67,7 @@ class Prepared:
     defined
         Functions that an assumption gives by an expression.
     solutions
-        Functions that satisfy a differential inequality with equality.
+        Functions that satisfy a differential inequality with equality, or a system of differential equations.
     special
         An atom and a value of it, in the other atoms, at which something vanishes: a denominator, what is under a
         root, the distance from a kink, or the difference of the two sides.
@@ -111,7 +112,7 @@ def prepared(goal: Goal) -> Prepared:
         (*symbols, *pinned),
         tuple(functions.values()),
         tuple(defined.items()),
-        tuple(itertools.chain.from_iterable(solutions(item) for item in quantified)),
+        (*itertools.chain.from_iterable(solutions(item) for item in quantified), *trajectories(quantified)),
         tuple(itertools.islice(_special(_places(goal.statement), (*symbols, *pinned)), 60)),
         _limited(goal.statement),
         isinstance(goal.statement, Smooth),
