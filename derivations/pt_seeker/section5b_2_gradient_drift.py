@@ -1,4 +1,4 @@
-"""Section 5, Theorem 2, Steps 4 to 6: gradient drift, the averaging theorem, and back to the original time."""
+"""Section 5, Theorem 2, Step 4: gradient drift."""
 
 from __future__ import annotations
 
@@ -15,7 +15,6 @@ from ptproof.proof import (
     comparison,
     eq,
     every,
-    exact,
     exp_monotone,
     ge,
     gt,
@@ -27,7 +26,6 @@ from ptproof.proof import (
     specialise,
 )
 
-from . import chain
 from .notation import (
     E_norm,
     T,
@@ -39,6 +37,7 @@ from .notation import (
     t0,
     tau,
     x1,
+<<<<<<< HEAD
     x2,
     y_tilde,
 )  # fmt: skip
@@ -64,6 +63,21 @@ from .section5b_0_trajectory import (
     gradient_drift_inequality,
     later,
     norm_of_E,
+=======
+)  # fmt: skip
+from .section3_problem import spectral_norm
+from .section5a_1_reduction import stretch
+from .section5b_1_lyapunov import (
+    ONE,
+    V_dot,
+    V_t,
+    after,
+    between,
+    derivative_given,
+    gradient_between,
+    gradient_bounds,
+    on_interval,
+>>>>>>> main
     s,
     solves,
     start,
@@ -261,6 +275,7 @@ def guas(goal: Goal) -> Evidence:
     return reals(goal)
 
 
+<<<<<<< HEAD
 # --- Steps 5 and 6 ------------------------------------------------------------------------------------------
 
 V_layer = y_tilde**2 / 2
@@ -306,3 +321,10 @@ main_theorem = claim(
     expected="cited", labels=["thm:main_theorem"], place="Theorem 2",
     uses=[step_five, closed_loop_in_t, contraction_rate],
 )(cited("Step 5 and the time contraction, which is increasing and carries trajectories to trajectories"))  # fmt: skip
+=======
+guas = claim(
+    "5/step4-guas", "With gradient drift and κ = 1 the source is globally uniformly asymptotically stable",
+    Prose("x* is globally uniformly asymptotically stable for the averaged system in τ, by the class-KL bound"),
+    expected="cited", place="Step 4, case ii", uses=[distance_bound_tau, distance_limit, uniform],
+)(cited("Khalil, Nonlinear Systems, Lemma 4.5: a class-KL bound that is uniform in the initial time"))  # fmt: skip
+>>>>>>> main
