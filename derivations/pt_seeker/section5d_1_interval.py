@@ -20,10 +20,13 @@ from ptproof.proof import (
     eq,
     every,
     ge,
+    gt,
+    instances,
     le,
     limits,
     lt,
     power_monotone,
+    power_nonnegative,
     power_positive,
     power_strict,
     reals,
@@ -32,8 +35,8 @@ from ptproof.proof import (
 )
 
 from . import chain
-from .notation import T, a1, a2, c, d, h2, k, kappa, t0, tau
-from .section5c_proposition import constants_ordered, no_increase, u_bounds, u_inequality
+from .notation import T, a1, a2, c, d, h2, k, kappa, q, t0, tau
+from .section5b_1_lyapunov import W
 
 SECTION = "5.4 Proposition: the estimate in both times"
 
@@ -46,7 +49,7 @@ low = sp.Symbol("s_low", positive=True)
 middle_bound = sp.Symbol("X", nonnegative=True)  # what the first estimate gives for the distance at the middle
 distance = sp.Function("R", nonnegative=True)
 distance_in_t = sp.Function("R_t", nonnegative=True)
-U_at = sp.Function("U", nonnegative=True)
+H = sp.Symbol("h", positive=True)  # h₁ where its own letters do not matter
 half = (t0 + tau) / 2
 end = chain.clock.to_tau
 
@@ -66,16 +69,18 @@ def gamma(value: sp.Expr, order: sp.Expr) -> sp.Expr:
     return (a1 / a2**2) ** (1 / (2 * order)) * (value / rate_of(order)) ** (1 / (2 * order - 1))
 
 
-def denominator(value: sp.Expr, after: sp.Expr, order: sp.Expr) -> sp.Expr:
+def denominator(value: sp.Expr, after: sp.Expr, order: sp.Expr, rate: sp.Expr | None = None) -> sp.Expr:
     """1 + (r − 1) h₁ w₀^(r−1) times the time."""
-    return 1 + (2 * order - 2) * rate_of(order) * value ** (2 * order - 2) * after
+    rate = rate_of(order) if rate is None else rate
+    return 1 + (2 * order - 2) * rate * value ** (2 * order - 2) * after
 
 
-def decay(value: sp.Expr, after: sp.Expr, order: sp.Expr) -> sp.Expr:
-    """The solution of w' = −h₁ w^r at the time ``after``, from ``value``."""
+def decay(value: sp.Expr, after: sp.Expr, order: sp.Expr, rate: sp.Expr | None = None) -> sp.Expr:
+    """The solution of w' = −h₁ w^r at the time ``after``, from ``value``; ``rate`` is h₁."""
+    rate = rate_of(order) if rate is None else rate
     if order == 1:
-        return value * sp.exp(-rate_of(order) * after)
-    return value * denominator(value, after, order) ** (-1 / (2 * order - 2))
+        return value * sp.exp(-rate * after)
+    return value * denominator(value, after, order, rate) ** (-1 / (2 * order - 2))
 
 
 def beta(value: sp.Expr, after: sp.Expr, order: sp.Expr) -> sp.Expr:
@@ -118,20 +123,29 @@ def input_vanishes(goal: Goal) -> Evidence:
     return limits(goal)
 
 
+def U_at(time: sp.Expr, order: sp.Expr) -> sp.Expr:
+    """U = V^(1/2κ) at an instant, where W stands for V along a trajectory."""
+    return W(time) ** (1 / (2 * order))
+
+
 def bounds_at(order: sp.Expr, below: sp.Expr | None = None, above: sp.Expr | None = None) -> list[Relation]:
     """eq:Ux_bounds at single times, the lower one and the upper one."""
     found = []
     if below is not None:
-        found.append(le(a2 ** (1 / (2 * order)) * distance(below), U_at(below)))
+        found.append(le(a2 ** (1 / (2 * order)) * distance(below), U_at(below, order)))
     if above is not None:
-        found.append(le(U_at(above), a1 ** (1 / (2 * order)) * distance(above)))
+        found.append(le(U_at(above, order), a1 ** (1 / (2 * order)) * distance(above)))
     return found
 
 
-def falls(order: sp.Expr, forcing: sp.Expr, *domain: Relation) -> ForAll:
-    """eq:Ux_inequality for all times of the domain."""
-    rate = -rate_of(order) * U_at(s) ** (2 * order - 1) + forcing
-    return ForAll((s,), le(sp.Derivative(U_at(s), s), rate), domain)
+def falls(order: sp.Expr, forcing: sp.Expr, *domain: Relation, rate: sp.Expr | None = None) -> list[ForAll]:
+    """eq:lyapunov_derivative_inequality_bounded for V, at all times of the domain, by the letters of U; and V ≥ 0.
+
+    U has no derivative at the source, V has: c₂‖d‖/(1 + (τ − t₀)/T)² is 2κζ, and k c₁²/2 is 2κh₁.
+    """
+    rate = rate_of(order) if rate is None else rate
+    slope = 2 * order * (forcing * W(s) ** q(order) - rate * W(s) ** (2 * q(order)))
+    return [ForAll((s,), le(sp.Derivative(W(s), s), slope), domain), ForAll((s,), ge(W(s), 0), domain)]
 
 
 def smaller(order: sp.Expr, low: sp.Expr, high: sp.Expr, after: sp.Expr) -> list[Fact]:
@@ -143,9 +157,9 @@ def smaller(order: sp.Expr, low: sp.Expr, high: sp.Expr, after: sp.Expr) -> list
     return [power_monotone(low, high, power), power_monotone(below, above, 1 / power)]
 
 
-def regular(order: sp.Expr, value: sp.Expr, after: sp.Expr) -> list[Fact]:
+def regular(order: sp.Expr, value: sp.Expr, after: sp.Expr, rate: sp.Expr | None = None) -> list[Fact]:
     """The denominator of the decay, and its root, are positive."""
-    return [] if order == 1 else [power_positive(denominator(value, after, order), 1 / (2 * order - 2))]
+    return [] if order == 1 else [power_positive(denominator(value, after, order, rate), 1 / (2 * order - 2))]
 
 
 def comparison_functions(order: sp.Expr, tag: str, words: str) -> tuple[Claim, Claim, Claim, Claim]:
@@ -205,41 +219,125 @@ def comparison_functions(order: sp.Expr, tag: str, words: str) -> tuple[Claim, C
     return gamma_class_k, decay_monotone, beta_vanishes, beta_class_kl
 
 
+def barrier(order: sp.Expr, until: sp.Expr, rate: sp.Expr) -> sp.Expr:
+    """(w + u*)^(2κ): w decays from U at the start, and at the level u* the input and the decrease balance."""
+    level = (Z / rate) ** (1 / (2 * order - 1))
+    return (decay(U_at(start, order), until - start, order, rate) + level) ** (2 * order)
+
+
+def below_the_barrier(order: sp.Expr, tag: str, words: str) -> Claim:
+    """V stays below the barrier, for one kind of κ; with an input and without one."""
+    linear, exponent = order == 1, 2 * order - 1
+    on_it = (ge(s, start), le(s, tau))
+    begun, below = U_at(start, order), le(W(tau), barrier(order, tau, H))
+    level, falling = (Z / H) ** (1 / exponent), decay(begun, s - start, order, H)
+    denominators = [] if linear else [denominator(begun, s - start, order, H)]
+    defined = [power_nonnegative(W(start), 1 / (2 * order)), power_nonnegative(begun, 2 * order - 2)]
+
+    @claim(
+        f"prop/v-estimate-with-input-{tag}", f"V stays below the barrier, where the input is not zero ({words})", below,
+        given=[ge(tau, start), gt(Z, 0), *falls(order, Z, *on_it, rate=H)], place="Proof of the Proposition",
+    )  # fmt: skip
+    def with_input(goal: Goal) -> Evidence:
+        """Powers of at least 1 are superadditive, so the barrier falls no faster than the inequality for V asks. It is
+        positive: V can meet it away from the source only, and whether V is 0 at times does not matter."""
+        lemmas = [
+            superadditive(falling, level, exponent), power_monotone(begun, begun + level, 2 * order), *defined,
+        ]  # fmt: skip
+        return comparison(goal, (falling + level) ** (2 * order), denominators=denominators, lemmas=lemmas)
+
+    @claim(
+        f"prop/v-estimate-without-{tag}", f"V stays below its decay, where there is no input ({words})",
+        le(W(tau), decay(begun, tau - start, order, H) ** (2 * order)),
+        given=[ge(tau, start), *falls(order, sp.S.Zero, *on_it, rate=H)], place="Proof of the Proposition",
+    )  # fmt: skip
+    def without(goal: Goal) -> Evidence:
+        """Then the rate is Lipschitz also at the source, and the barrier may be 0."""
+        return comparison(goal, falling ** (2 * order), denominators=denominators, lemmas=defined)
+
+    @claim(
+        f"prop/v-estimate-zero-{tag}", f"The same with the letter of the input ({words})", below,
+        given=[ge(tau, start), eq(Z, 0), *falls(order, Z, *on_it, rate=H)], place="Proof of the Proposition",
+        uses=[without],
+    )  # fmt: skip
+    def zero(goal: Goal) -> Evidence:
+        """The level is not negative."""
+        then = decay(begun, tau - start, order, H)
+        return reals(
+            goal, *specialise(goal, without, {}), *instances(goal, start), *defined, power_monotone(
+                then, then + level, 2 * order), *regular(order, begun, tau - start, H),
+        )  # fmt: skip
+
+    @claim(
+        f"prop/v-estimate-{tag}", f"V stays below the barrier ({words})", below,
+        given=[ge(tau, start), *falls(order, Z, *on_it, rate=H)], place="Proof of the Proposition",
+        uses=[with_input, zero],
+    )  # fmt: skip
+    def either(goal: Goal) -> Evidence:
+        """With an input, and without."""
+        return reals(
+            goal, *specialise(goal, with_input, {}), *specialise(goal, zero, {}), *instances(goal, start), *defined,
+            *regular(order, begun, tau - start, H),
+        )  # fmt: skip
+
+    return either
+
+
+some_v, some_u = sp.symbols("V_some U_some", nonnegative=True)
+
+
+@claim(
+    "prop/root-of-a-bound", "A bound of V by a power 2κ is one of U", le(some_v ** (1 / (2 * kappa)), some_u),
+    given=[le(some_v, some_u ** (2 * kappa))], place="Proof of the Proposition",
+)  # fmt: skip
+def root_of_a_bound(goal: Goal) -> Evidence:
+    """The root increases."""
+    return reals(goal, power_monotone(some_v, some_u ** (2 * kappa), 1 / (2 * kappa)))
+
+
 def one_interval(order: sp.Expr, tag: str, words: str, decay_monotone: Claim) -> tuple[Claim, Claim]:
     """The estimates of U and of the distance on [p, τ], for one kind of κ."""
-    linear, h, root, exponent = order == 1, rate_of(order), 1 / (2 * order), 2 * order - 1
+    h, root, exponent = rate_of(order), 1 / (2 * order), 2 * order - 1
+    v_estimate = below_the_barrier(order, tag, words)
+    falling = falls(order, Z, ge(s, start), le(s, tau))
+    begun = U_at(start, order)
+
+    def known(goal: Goal) -> list[Fact]:
+        """V ≥ 0 at both ends, and that the decay is defined."""
+        return [
+            *instances(goal, start, tau), power_nonnegative(W(start), root),
+            power_nonnegative(begun, 2 * order - 2), *regular(order, begun, tau - start),
+        ]  # fmt: skip
 
     @claim(
         f"prop/u-estimate-{tag}", f"U stays below its decay plus the level where ζ balances it ({words})",
-        le(U_at(tau), decay(U_at(start), tau - start, order) + (Z / h) ** (1 / exponent)),
-        given=[ge(tau, start), falls(order, Z, ge(s, start), le(s, tau))],
-        place="Proof of the Proposition", uses=[u_inequality, no_increase],
+        le(U_at(tau, order), decay(begun, tau - start, order) + (Z / h) ** (1 / exponent)),
+        given=[ge(tau, start), *falling], place="Proof of the Proposition", uses=[v_estimate, root_of_a_bound],
     )  # fmt: skip
     def u_estimate(goal: Goal) -> Evidence:
         """This replaces the step that does not follow. Let w decay by w' = −h₁w^r and let u* be the level with
-        h₁u*^r = Z. Powers of at least 1 are superadditive, so w + u* falls no faster than the inequality for U asks,
-        and the comparison lemma puts U below it. At the source U = 0 has no derivative, but nothing to show either:
-        after a visit there the estimate starts again from 0."""
-        level = (Z / h) ** (1 / exponent)
-        falling = decay(U_at(start), s - start, order)
-        denominators = [] if linear else [denominator(U_at(start), s - start, order)]
-        lemmas = [] if linear else [superadditive(falling, level, exponent)]
-        return comparison(goal, falling + level, denominators=denominators, lemmas=lemmas)
+        h₁u*^r = Z. The comparison lemma puts V below (w + u*)^(2κ), which has derivatives where U has none: at the
+        source."""
+        bound = decay(begun, tau - start, order) + (Z / h) ** (1 / exponent)
+        values, said = {kappa: order, some_v: W(tau), some_u: bound}, known(goal)
+        return reals(
+            goal, *said, *specialise(goal, v_estimate, {H: h}, said),
+            *specialise(goal, root_of_a_bound, values, said),
+        )  # fmt: skip
 
     @claim(
         f"prop/upper-bound-{tag}", f"The input-to-state estimate with the printed gain ({words})",
         le(distance(tau), beta(distance(start), tau - start, order) + gamma(Z, order)),
-        given=[ge(tau, start), falls(order, Z, ge(s, start), le(s, tau)), le(a2, a1), *bounds_at(order, tau, start)],
-        labels=["eq:upper_bound"], uses=[u_estimate, decay_monotone, u_bounds, constants_ordered],
+        given=[ge(tau, start), *falling, le(a2, a1), *bounds_at(order, tau, start)],
+        labels=["eq:upper_bound"], uses=[u_estimate, decay_monotone],
     )  # fmt: skip
     def upper_bound(goal: Goal) -> Evidence:
         """The printed gain is right although the printed inequality before it is not: the direct comparison gives the
         gain a₂^(−1/2κ)(s/h₁)^(1/r), and the printed one is larger by (a₁/a₂)^(1/2κ) ≥ 1."""
-        values = {first: U_at(start), second: a1**root * distance(start), elapsed: tau - start}
+        values, said = {first: begun, second: a1**root * distance(start), elapsed: tau - start}, known(goal)
         return reals(
-            goal, *specialise(goal, u_estimate, {}), *specialise(goal, decay_monotone, values),
-            power_monotone(sp.S.One, a1 / a2, root), *regular(order, U_at(start), tau - start),
-            *regular(order, a1**root * distance(start), tau - start),
+            goal, *said, *specialise(goal, u_estimate, {}), *specialise(goal, decay_monotone, values, said),
+            power_monotone(sp.S.One, a1 / a2, root), *regular(order, a1**root * distance(start), tau - start),
         )  # fmt: skip
 
     return u_estimate, upper_bound
