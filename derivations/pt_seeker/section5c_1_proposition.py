@@ -18,6 +18,7 @@ from ptproof.proof import (
     gt,
     instances,
     le,
+    lt,
     power_monotone,
     power_nonnegative,
     power_positive,
@@ -70,6 +71,7 @@ from .section5b_0_trajectory import (
     later,
     m,
     order,
+    s,
     solves,
     v_bounds,
 )
@@ -100,9 +102,10 @@ d_of = sp.Function("d_t", nonnegative=True)
 assumption_3b = ForAll((t, *position), le(sp.sqrt(f[0] ** 2 + f[1] ** 2), d_of(t)), in_time)
 
 
-def largest(until: sp.Expr) -> ForAll:
-    """d_of ≤ d from t₀ up to the instant of the original time that belongs to ``until``."""
-    return ForAll((t,), le(d_of(t), d), (ge(t, t0), le(t, chain.clock.to_t.subs(tau, until))))
+def largest(until: sp.Expr | None) -> ForAll:
+    """d_of ≤ d from t₀ up to the instant of the original time that belongs to ``until``, or always."""
+    last = lt(s, t0 + T) if until is None else le(s, chain.clock.to_t.subs(tau, until))
+    return ForAll((s,), le(d_of(s), d), (ge(s, t0), last))
 
 
 pushed = [*solves(tau), *later, *assumption_2, assumption_3b, largest(tau)]
