@@ -177,6 +177,8 @@ def driftless_definite(goal: Goal) -> Evidence:
     )  # fmt: skip
 
 
+V_away = sp.Function("V", positive=True)  # V along a trajectory that has not met the source
+
 # Along a trajectory W(s) stands for V(X(s)): not negative, and 0 where the source is met. In the last three claims of
 # this part W is put in.
 W = sp.Function("W", real=True)
@@ -241,6 +243,7 @@ V_start = V_along.subs(tau, start)
 )  # fmt: skip
 def driftless_bound(goal: Goal) -> Evidence:
     """From every initial time and every initial position, also where the solution meets the source."""
+
     def along(there: Goal, point: sp.Expr) -> list[Fact]:
         position_then = {x1: X1(point), x2: X2(point)}
         return [
