@@ -19,7 +19,7 @@ from ptproof.errors import InputError
 from ptproof.proof.declarations import everywhere, is_kind
 from ptproof.proof.definedness import Obligation, obligations
 from ptproof.proof.signs import holds
-from ptproof.proof.statement import ForAll, Relation
+from ptproof.proof.statement import ForAll, Relation, expressions_of
 
 _WITH_LIMITS = (sp.Integral, sp.Sum, sp.Product)
 BINDERS = (sp.Derivative, sp.Limit, sp.Subs, sp.Lambda, *_WITH_LIMITS)
@@ -84,27 +84,42 @@ class Substitution:
 
     def into(self, expression: sp.Expr) -> sp.Expr:
         """The expression with the values put in; limits, integrals and derivatives are not carried out."""
-        symbols = {letter: value for letter, value in self.values.items() if isinstance(letter, sp.Symbol)}
-        functions = {letter: value for letter, value in self.values.items() if isinstance(letter, AppliedUndef)}
-        return _put(sp.sympify(expression), symbols, {letter.func: (letter, v) for letter, v in functions.items()})
+        return _put(sp.sympify(expression), *self._split())
 
     def relation(self, relation: Relation) -> Relation:
         """Both sides with the values put in."""
         return relation.map(self.into)
 
     def quantified(self, item: ForAll) -> ForAll:
-        """An assumption for all values of its variables, which stay what they are.
+        """An assumption for all values of its variables, which stay what they are: it says nothing about a free letter.
 
         Raises
         ------
         InputError
             If a value would be caught by the quantifier.
         """
-        for letter, value in self.values.items():
-            own = set(letter.args) if isinstance(letter, AppliedUndef) else set()
-            if letter in item.variables or (value.free_symbols - own) & set(item.variables):
-                raise InputError(f"the value of {letter} would be caught by the quantifier of {item}")
-        return ForAll(item.variables, self.relation(item.relation), tuple(map(self.relation, item.domain)))
+        symbols, functions = self._split()
+        said = list(expressions_of([item]))
+        within = set().union(*(side.free_symbols for side in said)) - set(item.variables)
+        called = {node.func for side in said for node in side.atoms(AppliedUndef)}
+        symbols = {letter: value for letter, value in symbols.items() if letter in within}
+        functions = {function: value for function, value in functions.items() if function in called}
+        if caught := _free(symbols.values(), functions) & set(item.variables):
+            names = ", ".join(sorted(map(str, caught)))
+            raise InputError(f"a value with {names} would be caught by the quantifier of {item}")
+
+        def change(relation: Relation) -> Relation:
+            return relation.map(lambda side: _put(sp.sympify(side), symbols, functions))
+
+        return ForAll(item.variables, change(item.relation), tuple(map(change, item.domain)))
+
+    def _split(self) -> tuple[dict[sp.Symbol, sp.Expr], Functions]:
+        """The values of symbols, and those of functions with the letters in which they are written."""
+        symbols = {letter: value for letter, value in self.values.items() if isinstance(letter, sp.Symbol)}
+        functions = {
+            letter.func: (letter, value) for letter, value in self.values.items() if isinstance(letter, AppliedUndef)
+        }
+        return symbols, functions
 
 
 def holds_at(relations: Iterable[Relation], values: Mapping[Any, Any]) -> bool:
