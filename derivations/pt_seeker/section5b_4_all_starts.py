@@ -7,12 +7,14 @@ import sympy as sp
 from ptproof.proof import (
     Claim,
     Evidence,
+    ForAll,
     Goal,
     claim,
     comparison,
     eq,
     every,
     exp_monotone,
+    ge,
     gt,
     le,
     limits,
@@ -21,11 +23,10 @@ from ptproof.proof import (
     specialise,
 )
 
-from .notation import R0, V0, R, T, V, a1, a2, t0, tau
+from .notation import R0, V0, E_norm, R, T, V, a1, a2, c, k, t0, tau
 from .section5a_3_uniformity import drift_factor
 from .section5a_6_extended import extended_average, extended_rho
-from .section5b_1_lyapunov import V_t, s, v_bounds
-from .section5b_2_gradient_drift import decay_rate, drift_rate, elapsed
+from .section5b_1_lyapunov import v_bounds
 
 SECTION = "5.2 Theorem, Steps 4 to 6: stability"
 
