@@ -10,8 +10,9 @@ from ptproof.system import lie_bracket
 from . import chain, extended
 from .extended import pushed, rho, sigma
 from .notation import IN_TAU, E, F, T, f, k, position, t, t0, tau, y_tilde, z
-from .section5a_2_averaging import assumption_b_drift_printed, averaged_system
+from .section5a_2_averaging import averaged_system
 from .section5a_3_uniformity import damping, drift_factor, one_system
+from .section5a_bounds import assumption_b_drift_printed
 
 SECTION = "5.1 Theorem, Steps 1 to 3: one system for all starts"
 

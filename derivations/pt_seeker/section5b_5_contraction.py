@@ -32,10 +32,9 @@ from .section2_change_of_time import contraction_rate, inverse_map
 from .section2_ranges import dilation_range
 from .section4_design import closed_loop_in_t
 from .section5a_1_reduction import boundary_layer, quasi_steady_state
-from .section5a_2_averaging import assumption_1
 from .section5a_3_uniformity import bounds_with_phase, bracket_with_phase, mu_one, one_start, one_system
 from .section5a_6_extended import extended_assumptions, extended_is_averaged, extended_other_data
-from .section5a_bounds import assumption_a_drift, assumption_b_drift_derivatives
+from .section5a_bounds import assumption_1
 from .section5b_1_lyapunov import lyapunov_theorem
 from .section5b_2_gradient_drift import guas
 from .section5b_4_all_starts import seeker_distance, stable_average
@@ -84,7 +83,7 @@ step_five = claim(
           "f = E∇F for κ = 1"),
     expected="cited", place="Step 5",
     uses=[
-        averaging_theorem, *assumption_1, assumption_a_drift, assumption_b_drift_derivatives, *extended_assumptions,
+        averaging_theorem, *assumption_1, *extended_assumptions,
         quasi_steady_state, layer_bounds, lyapunov_theorem, guas, *stable_average, extended_is_averaged,
         extended_other_data, mu_one, bounds_with_phase, bracket_with_phase,
     ],

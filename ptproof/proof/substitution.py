@@ -149,6 +149,8 @@ def _put(node: sp.Basic, symbols: Mapping[sp.Symbol, sp.Expr], functions: Functi
     if not node.args or not (node.free_symbols & symbols.keys() or _calls(node, functions)):
         return node
     match node:
+        case sp.Derivative() if not all(isinstance(variable, sp.Symbol) for variable in node.variables):
+            return _put(_by_a_letter(node), symbols, functions)
         case sp.Derivative():
             return _put_derivative(node, symbols, functions)
         case sp.Integral() | sp.Sum() | sp.Product():
@@ -234,6 +236,17 @@ def _put_derivative(node: sp.Derivative, symbols: Mapping[sp.Symbol, sp.Expr], f
     derivative = sp.Derivative(inside, *((plain.get(name, name), count) for name, count in names))
     left = [(new, value) for new, value in points if new not in plain]
     return sp.Subs(derivative, *zip(*left, strict=True)) if left else derivative
+
+
+def _by_a_letter(node: sp.Derivative) -> sp.Subs:
+    """∂g/∂l(x), as SymPy's chain rule writes it, as a derivative by a letter that then gets the value l(x)."""
+    place = node.variables[0]
+    if set(node.variables) != {place} or not isinstance(place, AppliedUndef) or not place.is_real:
+        raise InputError(f"values cannot be put into {node}, a derivative by what is not one function")
+    if node.expr.has(*BINDERS):
+        raise InputError(f"values cannot be put into {node}, where it may be asked whether {place} varies")
+    letter = _fresh(sp.Symbol(place.func.__name__, real=True), [node.expr])
+    return sp.Subs(sp.Derivative(node.expr.xreplace({place: letter}), (letter, len(node.variables))), letter, place)
 
 
 def _bodies(functions: Functions) -> list[sp.Expr]:
