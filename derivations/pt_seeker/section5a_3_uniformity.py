@@ -90,7 +90,7 @@ damping = stretch ** sp.Rational(-1, 2)
         sp.Matrix([sp.Subs(rate, tau, t0 + sigma) for rate in extended.in_tau.rhs]),
         sp.Matrix([sp.Subs(rate, (t0, tau), (0, sigma)) for rate in extended.in_tau.rhs]),
     ),
-    given=[ge(sigma, 0)], place="Step 2", uses=[p_start],
+    given=[ge(sigma, 0)], uses=[p_start],
 )  # fmt: skip
 def shift_takes_t0_out(goal: Goal) -> Evidence:
     """At τ = t₀ + σ the rates are those for t₀ = 0 at σ. So b₀ contains t₀, but all initial times give the same
@@ -104,7 +104,7 @@ def shift_takes_t0_out(goal: Goal) -> Evidence:
         eq(sp.Derivative(damping, tau), -(damping**3) / (2 * T)), eq(sp.Subs(damping, tau, t0), 1),
         eq(damping**4, 1 / stretch**2), gt(damping, 0), le(damping, 1),
     ),
-    given=IN_TAU, place="Step 2",
+    given=IN_TAU,
 )  # fmt: skip
 def drift_factor(goal: Goal) -> Evidence:
     """ρ = (1 + (τ − t₀)/T)^(−1/2): the factor is the fourth power of one more slow state, within (0, 1]."""
@@ -117,7 +117,7 @@ def drift_factor(goal: Goal) -> Evidence:
         (mu * sp.Matrix([*extended.in_tau.rhs])).subs(tau, tau_of_fast),
         sp.Matrix([*extended.fast_time.rhs[:2], extended.fast_time.rhs[3]]).subs(rho, damping.subs(tau, tau_of_fast)),
     ),
-    given=[ge(sigma_fast, fast_start)], place="Step 2", uses=[p_start, drift_factor],
+    given=[ge(sigma_fast, fast_start)], uses=[p_start, drift_factor],
 )  # fmt: skip
 def one_system(goal: Goal) -> Evidence:
     """With the fast time counted from (θ₀ + kz₀ − 2πn)/(ωμ) at the start, the phase of the dithers is ω times the slow
@@ -129,7 +129,7 @@ def one_system(goal: Goal) -> Evidence:
 @claim(
     "5/one-start", "Its start lies at fast time 0 or later, and is t₀ on the seeker's clock",
     every(ge(fast_start, 0), eq(sp.Subs(tau_of_fast, sigma_fast, fast_start), t0)),
-    given=[ge(heading, 0)], place="Step 2", uses=[one_system],
+    given=[ge(heading, 0)], uses=[one_system],
 )  # fmt: skip
 def one_start(goal: Goal) -> Evidence:
     """Some n puts θ₀ + kz₀ − 2πn into [0, 2π)."""

@@ -30,7 +30,7 @@ b2 = (sp.sin(k * z), sp.cos(k * z), 0)
           for field, derived in zip((b1, b2), extended.dithered_with_z.fields, strict=True)),
         eq(-y_tilde, extended.boundary_layer.rhs[0]),
     ),
-    place="Step 2", uses=[one_system],
+    uses=[one_system],
 )  # fmt: skip
 def extended_fields(goal: Goal) -> Evidence:
     """Three slow states x₁, x₂, ρ, the dithers cos and sin as before, and the same boundary layer. No field depends
@@ -62,7 +62,7 @@ _composed = lie_bracket(*extended.dithered.fields, slow_state)
 @claim(
     "5/extended-bracket", "The bracket of its composed fields is (k∇F, 0)",
     eq(sp.Matrix([*(k * chain.gradient_F), 0]), sp.Matrix(_composed)),
-    place="Step 3", uses=[extended_fields],
+    uses=[extended_fields],
 )  # fmt: skip
 def extended_bracket(goal: Goal) -> Evidence:
     """They have no third component and do not depend on ρ."""
@@ -84,7 +84,7 @@ def extended_bracket_smooth(goal: Goal) -> Evidence:
         sp.Matrix([*(rho**4 * E * chain.gradient_F + k / 2 * chain.gradient_F), -(rho**3) / (2 * T)]),
         extended.averaged.vector,
     ),
-    place="Step 3", uses=[extended_bracket],
+    uses=[extended_bracket],
 )  # fmt: skip
 def extended_average(goal: Goal) -> Evidence:
     """ρ⁴E∇F + (k/2)∇F and −ρ³/(2T), from the pipeline; autonomous."""
@@ -102,7 +102,7 @@ _drifted = dict(zip((entry.func for entry in f), pushed, strict=True))
             lambda node: isinstance(node, sp.Function) and node.func in _drifted, lambda node: _drifted[node.func]
         ),
     ),
-    given=IN_TAU, place="Step 3", labels=["eq:lie_bracket_system_real"],
+    given=IN_TAU, labels=["eq:lie_bracket_system_real"],
     uses=[extended_average, averaged_system, drift_factor],
 )  # fmt: skip
 def extended_is_averaged(goal: Goal) -> Evidence:

@@ -50,7 +50,7 @@ growth = sp.exp(drift_rate * T * rho0**2)
         ForAll((s,), le(sp.Derivative(V_t(s), s), _rate * V_t(s)), (ge(s, t0), le(s, tau))),
         ge(tau, t0),
     ],
-    place="Step 4, case ii", uses=[extended_rho, extended_average],
+    uses=[extended_rho, extended_average],
 )  # fmt: skip
 def all_starts_v(goal: Goal) -> Evidence:
     """ρ⁴ = ρ₀⁴/(1 + ρ₀²(τ − t₀)/T)² has the integral Tρ₀² over all times. ρ₀ = 1 is the seeker, and ρ₀ < 1 the average
@@ -68,7 +68,7 @@ def distance_bound(start: sp.Expr, factor: sp.Expr, passed: sp.Expr) -> sp.Expr:
     "5/step4-all-starts-distance", "And the distance by at most the root of that",
     le(R, distance_bound(R0, rho0, elapsed)),
     given=[le(a2 * R**2, V), le(V0, a1 * R0**2), le(V, V0 * growth * sp.exp(-decay_rate * elapsed))],
-    place="Step 4, case ii", uses=[all_starts_v, v_bounds],
+    uses=[all_starts_v, v_bounds],
 )  # fmt: skip
 def all_starts_distance(goal: Goal) -> Evidence:
     """V lies between multiples of the squared distance; for ρ₀ = 1 this is eq:x_bar_upper_bound."""
@@ -100,7 +100,7 @@ def kl(start: sp.Expr, passed: sp.Expr) -> sp.Expr:
 
 @claim(
     "5/step4-seeker-distance", "For the seeker, where 0 < ρ ≤ 1, the distance from the set is that from the source",
-    eq(away(R, rho), R), given=[gt(rho, 0), le(rho, 1)], place="Step 5", uses=[drift_factor],
+    eq(away(R, rho), R), given=[gt(rho, 0), le(rho, 1)], uses=[drift_factor],
 )  # fmt: skip
 def seeker_distance(goal: Goal) -> Evidence:
     """So what holds within δ and ε of the set {x*} × [−1, 1] holds within δ and ε of the source."""
@@ -110,25 +110,39 @@ def seeker_distance(goal: Goal) -> Evidence:
 @claim(
     "5/step4-rho-part", "ρ enters [−1, 1] by the time T, and before that does not leave it further",
     le(beyond(rho), beyond(rho0) * sp.exp(1 - lag / T)), given=[eq(rho**2 * (1 + rho0**2 * lag / T), rho0**2)],
-    place="Step 5", uses=[extended_rho],
+    uses=[extended_rho],
 )  # fmt: skip
 def rho_part(goal: Goal) -> Evidence:
     """From τ − t₀ = T on ρ² ≤ ρ₀²/(1 + ρ₀²) < 1; until then the exponential is at least 1."""
     return reals(goal, exp_monotone(0, 1 - lag / T))
 
 
+B = sp.Symbol("B", nonnegative=True)
+
+
+@claim(
+    "5/step4-all-starts-parts", "ρ adds at most D₀ exp(1 − (τ − t₀)/T) to any bound of the position",
+    le(away(R, rho), B + away(R0, rho0) * sp.exp(1 - lag / T)),
+    given=[le(R, B), eq(rho**2 * (1 + rho0**2 * lag / T), rho0**2)], uses=[rho_part],
+)  # fmt: skip
+def all_starts_parts(goal: Goal) -> Evidence:
+    """Without drift, where the position does not depend on ρ, this is all that is needed: B is then the bound of Step 4
+    for every κ."""
+    return reals(goal, *specialise(goal, rho_part, {}))
+
+
 @claim(
     "5/step4-all-starts-guas", "The distance from the set {x*} × [−1, 1] has a class-KL bound along the average",
     le(away(R, rho), kl(away(R0, rho0), lag)),
     given=[le(R, distance_bound(R0, rho0, lag)), eq(rho**2 * (1 + rho0**2 * lag / T), rho0**2)],
-    place="Step 5", uses=[all_starts_distance, rho_part],
+    uses=[all_starts_distance, all_starts_parts],
 )  # fmt: skip
 def all_starts_guas(goal: Goal) -> Evidence:
     """The position and ρ one after the other. The average does not depend on time, so the bound is uniform in the
     initial time; that it is of class KL is the next claim."""
     start = away(R0, rho0)
     return reals(
-        goal, *specialise(goal, rho_part, {}),
+        goal, *specialise(goal, all_starts_parts, {B: distance_bound(R0, rho0, lag)}),
         exp_monotone(drift_rate * T * rho0**2 / 2, drift_rate * T * (1 + start) ** 2 / 2),
     )  # fmt: skip
 
@@ -138,7 +152,7 @@ def all_starts_guas(goal: Goal) -> Evidence:
     every(
         eq(kl(sp.S.Zero, lag), 0), lt(kl(D0, lag), kl(D1, lag)),
     ),
-    given=[lt(D0, D1)], place="Step 5", uses=[all_starts_guas],
+    given=[lt(D0, D1)], uses=[all_starts_guas],
 )  # fmt: skip
 def all_starts_class_kl(goal: Goal) -> Evidence:
     """It is 0 at 0 and increases with the distance at the start."""
@@ -150,7 +164,7 @@ D2 = sp.Symbol("D_2", positive=True)
 
 @claim(
     "5/step4-all-starts-vanishes", "It decreases with time, to 0",
-    eq(sp.Limit(kl(D2, tau), tau, sp.oo, "-"), 0), place="Step 5", uses=[all_starts_class_kl],
+    eq(sp.Limit(kl(D2, tau), tau, sp.oo, "-"), 0), uses=[all_starts_class_kl],
 )  # fmt: skip
 def all_starts_vanishes(goal: Goal) -> Evidence:
     """Two exponentials."""
@@ -158,7 +172,7 @@ def all_starts_vanishes(goal: Goal) -> Evidence:
 
 
 @claim(
-    "5/step4-all-starts-decreases", "Strictly", lt(sp.Derivative(kl(D2, lag), lag), 0), place="Step 5",
+    "5/step4-all-starts-decreases", "Strictly", lt(sp.Derivative(kl(D2, lag), lag), 0),
     uses=[all_starts_vanishes],
 )  # fmt: skip
 def all_starts_decreases(goal: Goal) -> Evidence:
