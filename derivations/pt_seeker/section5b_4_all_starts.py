@@ -150,7 +150,7 @@ def all_starts_guas(goal: Goal) -> Evidence:
 @claim(
     "5/step4-all-starts-class-kl", "The bound is of class KL",
     every(
-        eq(kl(sp.S.Zero, lag), 0), lt(kl(D0, lag), kl(D1, lag)),
+        eq(sp.Subs(kl(D0, lag), D0, 0), 0), lt(kl(D0, lag), kl(D1, lag)),
     ),
     given=[lt(D0, D1)], uses=[all_starts_guas],
 )  # fmt: skip
