@@ -55,7 +55,7 @@ def extended_smooth(goal: Goal) -> Evidence:
     return smooth(goal)
 
 
-_composed = lie_bracket(*extended.dithered.fields, slow_state)
+_composed = lie_bracket(extended.dithered.fields[0], extended.dithered.fields[1], slow_state)
 
 
 @claim(
