@@ -84,27 +84,38 @@ class Substitution:
 
     def into(self, expression: sp.Expr) -> sp.Expr:
         """The expression with the values put in; limits, integrals and derivatives are not carried out."""
-        symbols = {letter: value for letter, value in self.values.items() if isinstance(letter, sp.Symbol)}
-        functions = {letter: value for letter, value in self.values.items() if isinstance(letter, AppliedUndef)}
-        return _put(sp.sympify(expression), symbols, {letter.func: (letter, v) for letter, v in functions.items()})
+        return _put(sp.sympify(expression), *self._split())
 
     def relation(self, relation: Relation) -> Relation:
         """Both sides with the values put in."""
         return relation.map(self.into)
 
     def quantified(self, item: ForAll) -> ForAll:
-        """An assumption for all values of its variables, which stay what they are.
+        """An assumption for all values of its variables, which stay what they are: it says nothing about a free letter.
 
         Raises
         ------
         InputError
             If a value would be caught by the quantifier.
         """
-        for letter, value in self.values.items():
-            own = set(letter.args) if isinstance(letter, AppliedUndef) else set()
-            if letter in item.variables or (value.free_symbols - own) & set(item.variables):
-                raise InputError(f"the value of {letter} would be caught by the quantifier of {item}")
-        return ForAll(item.variables, self.relation(item.relation), tuple(map(self.relation, item.domain)))
+        symbols, functions = self._split()
+        symbols = {letter: value for letter, value in symbols.items() if letter not in item.variables}
+        if caught := _free(symbols.values(), functions) & set(item.variables):
+            names = ", ".join(sorted(map(str, caught)))
+            raise InputError(f"a value with {names} would be caught by the quantifier of {item}")
+
+        def change(relation: Relation) -> Relation:
+            return relation.map(lambda side: _put(sp.sympify(side), symbols, functions))
+
+        return ForAll(item.variables, change(item.relation), tuple(map(change, item.domain)))
+
+    def _split(self) -> tuple[dict[sp.Symbol, sp.Expr], Functions]:
+        """The values of symbols, and those of functions with the letters in which they are written."""
+        symbols = {letter: value for letter, value in self.values.items() if isinstance(letter, sp.Symbol)}
+        functions = {
+            letter.func: (letter, value) for letter, value in self.values.items() if isinstance(letter, AppliedUndef)
+        }
+        return symbols, functions
 
 
 def holds_at(relations: Iterable[Relation], values: Mapping[Any, Any]) -> bool:

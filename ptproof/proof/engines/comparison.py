@@ -6,6 +6,11 @@ its second argument, then v ≤ u on [τ₀, τ₁] (Khalil, Nonlinear Systems, 
 it: that the inequality is assumed on the whole of [τ₀, τ], that u solves the equation (exact algebra) or rises
 faster (z3), starts at v(τ₀) or above, stays where φ is Lipschitz, and is regular on the interval together with φ; the
 rest of the bound is a real inequality.
+
+Where φ is not Lipschitz at 0, as v^q with q < 1, u has to be positive on the interval, and φ a combination of powers of
+its second argument. If v(τ₁) > u(τ₁), let τ₂ be the last time before with v ≤ u. There v = u > 0, and from there on to
+τ₁ both lie between two positive numbers, where φ is Lipschitz; so (v − u)' ≤ φ(τ, v) − φ(τ, u) ≤ L(v − u), and v − u
+stays at or below 0.
 """
 
 from __future__ import annotations
@@ -18,7 +23,7 @@ from sympy.core.function import AppliedUndef
 
 from ptproof.proof.claim import Goal, engine
 from ptproof.proof.declarations import is_plainly_real
-from ptproof.proof.engines.quantified import at_point, mask_positive
+from ptproof.proof.engines.quantified import at_point, instances, mask_positive
 from ptproof.proof.engines.reals import follows
 from ptproof.proof.facts import Fact, usable
 from ptproof.proof.signs import vanishes
@@ -48,11 +53,15 @@ def comparison(
     lemmas
         Facts for the real inequalities.
     """
-    try:
-        detail = _check(goal, solution, denominators, lemmas)
-    except _Failed as failure:
-        return Evidence(ENGINE, Verdict.UNDECIDED, str(failure))
-    return Evidence(ENGINE, Verdict.PROVED, detail)
+    reasons = []
+    for cases in _cases(goal):
+        try:
+            details = [_check(goal, solution, denominators, lemmas, first) for first in cases]
+        except _Failed as failure:
+            reasons.append(str(failure))
+            continue
+        return Evidence(ENGINE, Verdict.PROVED, details[0], facts=(*lemmas, *_at_the_ends(goal)))
+    return Evidence(ENGINE, Verdict.UNDECIDED, reasons[0])
 
 
 class _Failed(Exception):
@@ -71,16 +80,41 @@ class _Interval:
         return bool(expression.is_positive) or follows(gt(expression, 0), self.known, self.facts).shown
 
 
-def _check(goal: Goal, solution: sp.Expr, denominators: Sequence[sp.Expr], lemmas: Sequence[Fact]) -> str:
+def _cases(goal: Goal) -> list[tuple[sp.Expr, ...]]:
+    """What v(τ₀) may be, in one case or in two: of what is not negative, 0 may have to be looked at by itself."""
+    positive = sp.Dummy("v0", positive=True)
+    try:
+        inequality, _, v = _differential_inequality(goal, _bounded(goal).left)
+    except _Failed:
+        return [(sp.Dummy("v0", real=True),)]
+    if _signed(goal, v, "positive", inequality):
+        return [(positive,)]
+    if _signed(goal, v, "nonnegative", inequality):
+        return [(sp.Dummy("v0", nonnegative=True),), (positive, sp.S.Zero)]
+    return [(sp.Dummy("v0", real=True),)]
+
+
+def _at_the_ends(goal: Goal) -> list[Fact]:
+    """What the goal assumes for all times, at both ends: by this the bound may be defined."""
+    inequality, s, _ = _differential_inequality(goal, _bounded(goal).left)
+    return instances(goal, _initial_time(inequality, s), _bounded(goal).left.args[0])
+
+
+def _bounded(goal: Goal) -> Relation:
     (statement,) = relations_of(goal.statement)
     if statement.sign != "<=" or not isinstance(statement.left, AppliedUndef):
         raise _Failed(f"not of the form v(time) <= bound: {statement}")
+    return statement
+
+
+def _check(
+    goal: Goal, solution: sp.Expr, denominators: Sequence[sp.Expr], lemmas: Sequence[Fact], first: sp.Expr
+) -> str:
+    statement = _bounded(goal)
     at = statement.left
     inequality, s, v = _differential_inequality(goal, at)
     start, end = _initial_time(inequality, s), at.args[0]
     initial = v.subs(s, start)
-    first = sp.Dummy("v0", positive=True) if _signed(goal, v, "positive") else (
-        sp.Dummy("v0", nonnegative=True) if _signed(goal, v, "nonnegative") else sp.Dummy("v0", real=True))  # fmt: skip
 
     def read(item: Relation) -> Relation:
         return item.map(lambda side: side.subs(initial, first))
@@ -94,17 +128,19 @@ def _check(goal: Goal, solution: sp.Expr, denominators: Sequence[sp.Expr], lemma
         if not interval.positive(denominator.subs(initial, first)):
             raise _Failed(f"{denominator} > 0 is not shown on the whole interval")
 
-    value = sp.Dummy("v", real=True) if first.is_nonnegative is None else sp.Dummy("v", nonnegative=True)
+    u = solution.subs(initial, first)
+    hints = [item.subs(initial, first) for item in denominators]
+    above = _above(u, interval, hints)
+    value = sp.Dummy("v", positive=True) if above else (
+        sp.Dummy("v", real=True) if first.is_nonnegative is None else sp.Dummy("v", nonnegative=True))  # fmt: skip
     phi = inequality.relation.right.subs(v, value)
     if phi.has(AppliedUndef):
         raise _Failed("the rate depends on the function otherwise than through its value")
     if not _lipschitz(phi, value):
         raise _Failed(f"the rate {inequality.relation.right} is not recognised as locally Lipschitz in {v}")
-    u = solution.subs(initial, first)
-    hints = [item.subs(initial, first) for item in denominators]
     _regular(phi, interval, hints, choices=(sp.Max, sp.Min))  # the rate has to be continuous, the solution smooth
     _regular(u, interval, hints)
-    if value.is_nonnegative and not _polynomial(phi, value):
+    if value.is_nonnegative and not above and not _polynomial(phi, value):
         _stays(u, interval)
     how = _solves(u, phi.subs(value, u), interval, hints, solution)
     begin = u.subs(s, start)
@@ -161,8 +197,8 @@ def _interval(
 def _lipschitz(phi: sp.Expr, value: sp.Symbol) -> bool:
     """Combinations of powers of the value, with exponents 0 or ≥ 1, or integers ≥ 0, are locally Lipschitz.
 
-    A power that is not an integer is so on [0, ∞), where a value that is declared not negative stays. The larger and
-    the smaller of such expressions are so as well.
+    A power that is not an integer is so on [0, ∞), where a value that is declared not negative stays, and every power
+    on (0, ∞), where one that is declared positive stays. The larger and the smaller of such expressions are so as well.
     """
     choices = {node for node in phi.atoms(sp.Max, sp.Min) if node.has(value)}
     if choices:
@@ -181,7 +217,11 @@ def _lipschitz(phi: sp.Expr, value: sp.Symbol) -> bool:
         if dependent == 1:
             continue
         base, exponent = dependent.as_base_exp()
-        if base != value or exponent.has(value) or not sp.factor(sp.together(exponent - 1)).is_nonnegative:
+        if base != value or exponent.has(value):
+            return False
+        if value.is_positive and exponent.is_real:
+            continue
+        if not sp.factor(sp.together(exponent - 1)).is_nonnegative:
             return False
         if not value.is_nonnegative and not exponent.is_integer:
             return False
@@ -198,15 +238,21 @@ def _polynomial(phi: sp.Expr, value: sp.Symbol) -> bool:
     return all(node.exp.is_integer for node in powers)
 
 
-def _signed(goal: Goal, v: AppliedUndef, sign: str) -> bool:
+def _signed(goal: Goal, v: AppliedUndef, sign: str, inequality: ForAll) -> bool:
     if getattr(v, f"is_{sign}"):
         return True
     wanted = gt(v, 0) if sign == "positive" else ge(v, 0)
-    # Only without a domain: the sign is needed at every time of the interval.
+    # The sign is needed at every time of the interval, on all of which the inequality is shown to be assumed.
     return any(
-        isinstance(item, ForAll) and item.relation == wanted and not item.domain
-        and all(map(is_plainly_real, item.variables)) for item in goal.assumptions
+        isinstance(item, ForAll) and item.relation == wanted and item.variables == inequality.variables
+        and set(item.domain) <= set(inequality.domain) for item in goal.assumptions
     )  # fmt: skip
+
+
+def _above(u: sp.Expr, interval: _Interval, hints: Sequence[sp.Expr]) -> bool:
+    """Whether u is shown to be positive on the whole interval; the ``hints`` were shown positive there."""
+    masks = {item: sp.Dummy(f"D{i}", positive=True) for i, item in enumerate(hints)}
+    return bool(mask_positive(u.xreplace(masks), interval.known, interval.facts).is_positive)
 
 
 def _stays(u: sp.Expr, interval: _Interval) -> None:
