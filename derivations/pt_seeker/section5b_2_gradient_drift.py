@@ -8,9 +8,7 @@ from ptproof.proof import (
     Evidence,
     Fact,
     Goal,
-    Prose,
     Relation,
-    cited,
     claim,
     comparison,
     eq,
@@ -37,17 +35,9 @@ from .notation import (
     t0,
     tau,
     x1,
-<<<<<<< HEAD
     x2,
-    y_tilde,
 )  # fmt: skip
-from .section2_averaging import averaging_theorem
-from .section2_averaging import boundary_layer as general_boundary_layer
-from .section2_change_of_time import contraction_rate
-from .section4_design import closed_loop_in_t
-from .section5a_1_reduction import boundary_layer, stretch
-from .section5a_2_averaging import assumption_1, qualitative
-from .section5a_bounds import assumption_a_drift, assumption_b_drift_derivatives
+from .section5a_1_reduction import stretch
 from .section5b_0_trajectory import (
     EXAMPLE,
     R_0,
@@ -63,21 +53,6 @@ from .section5b_0_trajectory import (
     gradient_drift_inequality,
     later,
     norm_of_E,
-=======
-)  # fmt: skip
-from .section3_problem import spectral_norm
-from .section5a_1_reduction import stretch
-from .section5b_1_lyapunov import (
-    ONE,
-    V_dot,
-    V_t,
-    after,
-    between,
-    derivative_given,
-    gradient_between,
-    gradient_bounds,
-    on_interval,
->>>>>>> main
     s,
     solves,
     start,
@@ -273,58 +248,3 @@ def guas(goal: Goal) -> Evidence:
     limit 0; neither τ₀ nor t₀ stands in it. With the bound for every solution from every start that is global uniform asymptotic
     stability, and no theorem on Lyapunov functions is needed."""
     return reals(goal)
-
-
-<<<<<<< HEAD
-# --- Steps 5 and 6 ------------------------------------------------------------------------------------------
-
-V_layer = y_tilde**2 / 2
-
-
-@claim(
-    "5/step5-layer-rate", "The boundary layer's Lyapunov function",
-    eq(-(y_tilde**2), chain.boundary_layer.derivative_along(V_layer)),
-    labels=["eq:blm_req_2"], uses=[boundary_layer, general_boundary_layer],
-)  # fmt: skip
-def layer_rate(goal: Goal) -> Evidence:
-    """V(ỹ) = ỹ²/2 decreases at the rate ỹ², which is a class-K function of |ỹ|."""
-    return exact(goal)
-
-
-@claim(
-    "5/step5-layer-bounds", "It lies between class-K∞ functions, and so does its rate",
-    every(
-        le(sp.Abs(y_tilde) ** 2 / 2, V_layer), le(V_layer, sp.Abs(y_tilde) ** 2 / 2),
-        le(chain.boundary_layer.derivative_along(V_layer), -(sp.Abs(y_tilde) ** 2)),
-    ),
-    labels=["eq:blm_req_1", "eq:blm_req_2"], uses=[layer_rate],
-)  # fmt: skip
-def layer_bounds(goal: Goal) -> Evidence:
-    """α₁ = α₂ = s²/2 and α₃ = s²."""
-    return reals(goal)
-
-
-step_five = claim(
-    "5/step5-averaging-applies", "The source is sSPUAS for the closed loop in dilated time",
-    Prose("By Theorem 1 the source is singularly semi-globally practically uniformly asymptotically stable for the "
-          "closed loop in τ, in both cases of Theorem 2"),
-    expected="cited", place="Step 5",
-    uses=[
-        averaging_theorem, *assumption_1, assumption_a_drift, assumption_b_drift_derivatives, layer_bounds,
-        guas, qualitative,
-    ],
-)(cited("the paper's Theorem 1, whose hypotheses are the claims listed"))  # fmt: skip
-
-main_theorem = claim(
-    "5/main-theorem", "Theorem 2: prescribed-time seeking under vanishing drift",
-    Prose("The source is FxT-sSPUAS for the closed loop in t, without drift for every κ, and with drift E∇F for κ = 1"),
-    expected="cited", labels=["thm:main_theorem"], place="Theorem 2",
-    uses=[step_five, closed_loop_in_t, contraction_rate],
-)(cited("Step 5 and the time contraction, which is increasing and carries trajectories to trajectories"))  # fmt: skip
-=======
-guas = claim(
-    "5/step4-guas", "With gradient drift and κ = 1 the source is globally uniformly asymptotically stable",
-    Prose("x* is globally uniformly asymptotically stable for the averaged system in τ, by the class-KL bound"),
-    expected="cited", place="Step 4, case ii", uses=[distance_bound_tau, distance_limit, uniform],
-)(cited("Khalil, Nonlinear Systems, Lemma 4.5: a class-KL bound that is uniform in the initial time"))  # fmt: skip
->>>>>>> main
