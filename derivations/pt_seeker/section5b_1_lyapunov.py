@@ -241,6 +241,7 @@ V_start = V_along.subs(tau, start)
 )  # fmt: skip
 def driftless_bound(goal: Goal) -> Evidence:
     """From every initial time and every initial position, also where the solution meets the source."""
+
     def along(there: Goal, point: sp.Expr) -> list[Fact]:
         position_then = {x1: X1(point), x2: X2(point)}
         return [

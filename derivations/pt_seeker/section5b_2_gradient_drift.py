@@ -153,6 +153,7 @@ def bounded(since: sp.Expr) -> Relation:
 def exponential_bound(goal: Goal) -> Evidence:
     """V along the solution is put into the comparison, with V ≥ 0 by Assumption 2. The printed bound is the one from
     τ₀ = t₀."""
+
     def along(there: Goal, point: sp.Expr) -> list[Fact]:
         return [
             *specialise(there, gradient_drift, {tau: point}),
@@ -207,9 +208,7 @@ def distance_bound_tau(goal: Goal) -> Evidence:
     values = {
         R_0: distance_at(tau), R_start: distance_at(start), V_end: V_along, V_start: V_along.subs(tau, start),
     }  # fmt: skip
-    return reals(
-        goal, *said, *specialise(goal, exponential_bound, {}), *specialise(goal, distance_by_v, values, said)
-    )
+    return reals(goal, *said, *specialise(goal, exponential_bound, {}), *specialise(goal, distance_by_v, values, said))
 
 
 r_1, r_2 = sp.symbols("r_1 r_2", positive=True)
@@ -245,6 +244,6 @@ def distance_limit(goal: Goal) -> Evidence:
 )  # fmt: skip
 def guas(goal: Goal) -> Evidence:
     """It tends to 0 at the source, increases with the distance, and decreases with the time since the start to the
-    limit 0; neither τ₀ nor t₀ stands in it. With the bound for every solution from every start that is global uniform asymptotic
-    stability, and no theorem on Lyapunov functions is needed."""
+    limit 0; neither τ₀ nor t₀ stands in it. With the bound for every solution from every start that is global uniform
+    asymptotic stability, and no theorem on Lyapunov functions is needed."""
     return reals(goal)
