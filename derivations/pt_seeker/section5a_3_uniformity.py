@@ -53,7 +53,8 @@ composed = split_dithers(_with_phase.reduced_model(), omega)
 
 @claim(
     "5/step3-bracket-with-phase", "The bracket of the composed fields is k∇F for every p₀",
-    eq(k * chain.gradient_F, sp.Matrix(lie_bracket(composed.fields[0], composed.fields[1], position))), place="Step 3", uses=[p_start],
+    eq(k * chain.gradient_F, sp.Matrix(lie_bracket(composed.fields[0], composed.fields[1], position))),
+    place="Step 3", uses=[p_start],
 )  # fmt: skip
 def bracket_with_phase(goal: Goal) -> Evidence:
     """p₀ turns both fields by the same angle, and the bracket does not see it."""

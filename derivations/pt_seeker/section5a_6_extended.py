@@ -70,7 +70,8 @@ def extended_bracket(goal: Goal) -> Evidence:
 
 @claim(
     "5/extended-bracket-smooth", "Assumption 1B: the derivatives of its bracket are continuous",
-    Smooth(tuple(k * chain.gradient_F), (sigma, *slow_state, z), 1, ((F, 2),)), place="Assumption 1B", uses=[extended_bracket],
+    Smooth(tuple(k * chain.gradient_F), (sigma, *slow_state, z), 1, ((F, 2),)), place="Assumption 1B",
+    uses=[extended_bracket],
 )  # fmt: skip
 def extended_bracket_smooth(goal: Goal) -> Evidence:
     """k∇F is in C¹ because F is in C², so A₅ exists on each compact set."""
