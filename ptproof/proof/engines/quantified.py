@@ -74,21 +74,20 @@ def instances(goal: Goal, *points: Point) -> list[Fact]:
 
 
 def entailed(needed: ForAll, goal: Goal, facts: Sequence[Fact] = (), along: Along | None = None) -> Answer:
-    """Whether ``needed`` follows from the goal's assumptions: shown at one arbitrary value of its variable.
+    """Whether ``needed`` follows from the goal's assumptions: shown at one arbitrary value of its variables.
 
-    Quantified assumptions are used at that same value, where it is in their domain. ``along`` gives facts about it: it
-    gets the goal that has, in addition, the value in the domain of ``needed``, and the value.
+    Quantified assumptions on as many variables are used at that same value, where it is in their domain. ``along``
+    gives facts about the value of a single variable: it gets the goal that has, in addition, the value in the domain
+    of ``needed``, and the value.
     """
     if needed in goal.assumptions:
         return Answer(True, "it is assumed")
-    if len(needed.variables) != 1:
-        return Answer(False, "more than one bound variable")
-    (variable,) = needed.variables
-    # A fresh symbol: nothing that is assumed about a free symbol of the same name may be used.
-    point = like(variable)
-    there = Substitution({variable: point})
+    # Fresh symbols: nothing that is assumed about a free symbol of the same name may be used.
+    fresh = tuple(map(like, needed.variables))
+    point: Point = fresh if len(fresh) > 1 else fresh[0]
+    there = Substitution(dict(zip(needed.variables, fresh, strict=True)))
     inside = replace(goal, assumptions=(*goal.assumptions, *map(there.relation, needed.domain)))
-    said = usable(inside, [*facts, *(along(inside, point) if along else ())])
+    said = usable(inside, [*facts, *(along(inside, fresh[0]) if along and len(fresh) == 1 else ())])
     known = list(inside.relations)
     for item in goal.assumptions:
         if isinstance(item, ForAll):
