@@ -30,9 +30,12 @@ from .section6b_1_comparison import W
 from .section6b_2_critical import A as drift_letter
 from .section6b_2_critical import B as feed_letter
 from .section6b_2_critical import duration, finite_small_start, positive_small_start, smallest_attained
-from .section9_1_gain import V_dot, drifted, form, half, norm_suffices, nu_min, slope
+from .section9_1_gain import drifted, half, norm_suffices, slope
 
 SECTION = "Beyond the paper"
+
+V_dot, form = sp.symbols("V_dot g_E_g", real=True)
+nu_min = sp.Symbol("nu_min", positive=True)
 
 # --- (b) The critical initial value -----------------------------------------------------------------------------------
 
