@@ -25,6 +25,7 @@ from .lemmas import cosine_quartic as cosine_quartic
 from .lemmas import exp_monotone as exp_monotone
 from .lemmas import norm_below as norm_below
 from .lemmas import power_monotone as power_monotone
+from .lemmas import power_nonnegative as power_nonnegative
 from .lemmas import power_of_root as power_of_root
 from .lemmas import power_positive as power_positive
 from .lemmas import power_strict as power_strict

@@ -139,6 +139,8 @@ class Generators:
         common = sp.Integer(1)
         for _, denominator in fractions:
             common = sp.lcm(common, denominator)
+        if not base.is_positive and _multiples(exponents):
+            common = 1 / exponents[0]  # no quotient of roots, which says nothing where the base is 0
         parts: dict[sp.Expr, list[sp.Rational]] = defaultdict(list)
         for exponent in exponents:
             for monomial, coefficient in exponent_terms(exponent, common):
@@ -150,7 +152,7 @@ class Generators:
             root = base ** (monomial / common / lcm)
             sign = "positive" if base.is_positive else "nonnegative" if base.is_nonnegative else None
             # A quotient of real numbers is real wherever it is defined.
-            known = {sign: True} if sign and monomial.is_real and common.is_real else {}
+            known = {sign: True} if sign and (monomial / common).is_real else {}
             generator = self.symbol(root, **known)
             self._roots[base][monomial] = (generator, lcm)
             if not base.is_nonnegative:
@@ -245,6 +247,13 @@ class Generators:
         entry = (generator, generator**degree - value)
         if entry not in self.relations:
             self.relations.append(entry)
+
+
+def _multiples(exponents: Sequence[sp.Expr]) -> bool:
+    """Whether the exponents are positive rational multiples of the first, which is no number."""
+    first, *others = exponents
+    ratios = (sp.cancel(exponent / first) for exponent in others)
+    return not first.is_number and all(ratio.is_Rational and ratio.is_positive for ratio in ratios)
 
 
 def _known_of(node: sp.Expr) -> dict[str, bool]:

@@ -18,7 +18,7 @@ def run_one(claim: Claim) -> Evidence:
     except Exception as error:
         evidence = Evidence("crash", Verdict.UNDECIDED, f"{type(error).__name__}: {error}")
     seconds = time.perf_counter() - start
-    return replace(evidence, certifies=None, found={}, suspect=None, seconds=seconds, content=claim.content)
+    return replace(evidence, certifies=None, found={}, suspect=None, facts=(), seconds=seconds, content=claim.content)
 
 
 def _examined(claim: Claim) -> Evidence:

@@ -34,6 +34,12 @@ def power_positive(base: sp.Expr, exponent: sp.Expr) -> Implication:
 
 
 @lemma
+def power_nonnegative(base: sp.Expr, exponent: sp.Expr) -> Implication:
+    """b ≥ 0 and p > 0 give b^p ≥ 0."""
+    return Implication((ge(base, 0), gt(exponent, 0)), ge(base**exponent, 0), "power of what is not negative")
+
+
+@lemma
 def superadditive(smaller: sp.Expr, rest: sp.Expr, exponent: sp.Expr) -> Implication:
     """a, b ≥ 0 and p ≥ 1 give a^p + b^p ≤ (a + b)^p: with s = a/(a + b), s^p + (1 − s)^p ≤ s + (1 − s) = 1."""
     hypotheses = (ge(smaller, 0), ge(rest, 0), ge(exponent, 1))

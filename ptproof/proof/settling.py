@@ -112,7 +112,7 @@ def where_defined(goal: Goal, evidence: Evidence) -> Answer:
     if not isinstance(goal.statement, Relation | All):
         return Answer(True, "")
     needs = [need for part in relations_of(goal.statement) for need in domain_of(part, evidence.found)]
-    return are_met(list(dict.fromkeys(needs)), goal.relations, usable(goal, goal.facts))
+    return are_met(list(dict.fromkeys(needs)), goal.relations, usable(goal, (*goal.facts, *evidence.facts)))
 
 
 def _as_written(goal: Goal) -> tuple[Evidence, ...]:

@@ -84,27 +84,38 @@ class Substitution:
 
     def into(self, expression: sp.Expr) -> sp.Expr:
         """The expression with the values put in; limits, integrals and derivatives are not carried out."""
-        symbols = {letter: value for letter, value in self.values.items() if isinstance(letter, sp.Symbol)}
-        functions = {letter: value for letter, value in self.values.items() if isinstance(letter, AppliedUndef)}
-        return _put(sp.sympify(expression), symbols, {letter.func: (letter, v) for letter, v in functions.items()})
+        return _put(sp.sympify(expression), *self._split())
 
     def relation(self, relation: Relation) -> Relation:
         """Both sides with the values put in."""
         return relation.map(self.into)
 
     def quantified(self, item: ForAll) -> ForAll:
-        """An assumption for all values of its variables, which stay what they are.
+        """An assumption for all values of its variables, which stay what they are: it says nothing about a free letter.
 
         Raises
         ------
         InputError
             If a value would be caught by the quantifier.
         """
-        for letter, value in self.values.items():
-            own = set(letter.args) if isinstance(letter, AppliedUndef) else set()
-            if letter in item.variables or (value.free_symbols - own) & set(item.variables):
-                raise InputError(f"the value of {letter} would be caught by the quantifier of {item}")
-        return ForAll(item.variables, self.relation(item.relation), tuple(map(self.relation, item.domain)))
+        symbols, functions = self._split()
+        symbols = {letter: value for letter, value in symbols.items() if letter not in item.variables}
+        if caught := _free(symbols.values(), functions) & set(item.variables):
+            names = ", ".join(sorted(map(str, caught)))
+            raise InputError(f"a value with {names} would be caught by the quantifier of {item}")
+
+        def change(relation: Relation) -> Relation:
+            return relation.map(lambda side: _put(sp.sympify(side), symbols, functions))
+
+        return ForAll(item.variables, change(item.relation), tuple(map(change, item.domain)))
+
+    def _split(self) -> tuple[dict[sp.Symbol, sp.Expr], Functions]:
+        """The values of symbols, and those of functions with the letters in which they are written."""
+        symbols = {letter: value for letter, value in self.values.items() if isinstance(letter, sp.Symbol)}
+        functions = {
+            letter.func: (letter, value) for letter, value in self.values.items() if isinstance(letter, AppliedUndef)
+        }
+        return symbols, functions
 
 
 def holds_at(relations: Iterable[Relation], values: Mapping[Any, Any]) -> bool:
@@ -214,6 +225,8 @@ def _put_limits(node: Any, symbols: Mapping[sp.Symbol, sp.Expr], functions: Func
 
 
 def _put_derivative(node: sp.Derivative, symbols: Mapping[sp.Symbol, sp.Expr], functions: Functions) -> sp.Expr:
+    if not all(isinstance(variable, sp.Symbol) for variable in node.variables):
+        return _put(_by_symbols(node), symbols, functions)
     inside, within = node.expr, dict(symbols)
     names, points = [], []
     for variable, count in node.variable_count:
@@ -234,6 +247,23 @@ def _put_derivative(node: sp.Derivative, symbols: Mapping[sp.Symbol, sp.Expr], f
     derivative = sp.Derivative(inside, *((plain.get(name, name), count) for name, count in names))
     left = [(new, value) for new, value in points if new not in plain]
     return sp.Subs(derivative, *zip(*left, strict=True)) if left else derivative
+
+
+def _by_symbols(node: sp.Derivative) -> sp.Subs:
+    """A derivative with respect to the value of a function: that of the expression with a letter for the value, there.
+
+    >>> s = sp.Symbol("s", real=True)
+    >>> g, X = sp.Function("g"), sp.Function("X")
+    >>> print(_by_symbols(sp.Derivative(g(s, X(s)), X(s))))
+    Subs(Derivative(g(s, X_1), X_1), X_1, X(s))
+    """
+    letters = {
+        variable: sp.Symbol(_fresh(sp.Symbol(variable.func.__name__), [node]).name, real=True)
+        for variable in dict.fromkeys(node.variables) if not isinstance(variable, sp.Symbol)
+    }  # fmt: skip
+    counted = ((letters.get(variable, variable), count) for variable, count in node.variable_count)
+    derivative = sp.Derivative(node.expr.xreplace(letters), *counted)
+    return sp.Subs(derivative, list(letters.values()), list(letters))
 
 
 def _bodies(functions: Functions) -> list[sp.Expr]:

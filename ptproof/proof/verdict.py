@@ -57,6 +57,8 @@ class Evidence:
         The values of integrals and limits that the engine has found, for whoever looks for a witness.
     suspect
         Exact values at which the engine expects the statement to fail: a witness, if they stand the check.
+    facts
+        The facts that the engine was given beside those of the goal, for whoever asks where the goal is defined.
     certifies
         What the engine was asked about and what it said, sealed by :func:`ptproof.proof.claim.engine`; evidence
         without it counts for nothing.
@@ -73,6 +75,7 @@ class Evidence:
     witness: Witness | None = None
     found: Mapping[Any, Any] = field(default_factory=dict, compare=False, repr=False)
     suspect: Mapping[Any, Any] | None = field(default=None, compare=False, repr=False)
+    facts: tuple[Any, ...] = field(default=(), compare=False, repr=False)
     certifies: Any = field(default=None, compare=False, repr=False)
     content: str = field(default="", compare=False, repr=False)
     besides: tuple[Evidence, ...] = ()

@@ -64,7 +64,7 @@ def test_json_and_nothing_else_on_standard_output(ptproof: Run, tmp_path: Path) 
     assert done.returncode == 0, done.stderr
     found = json.loads(done.stdout)
     assert {"claims", "summary"} <= set(found)
-    keys = "id labels title kind statement verdict expected fully_proved uses evidence witness"
+    keys = "id labels title kind statement verdict expected fully_proved uses evidence witness erratum"
     assert set(found["claims"][0]) == set(keys.split())
     false = next(item for item in found["claims"] if item["id"] == "false")
     assert set(false["witness"]) == {"values", "left", "right"}

@@ -8,7 +8,8 @@ from the goal's own assumptions. What is left, its plain assumptions, z3 dischar
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from dataclasses import replace
+from typing import Any, TypeAlias
 
 import sympy as sp
 
@@ -32,6 +33,8 @@ from ptproof.proof.statement import (
 )
 from ptproof.proof.substitution import NotOfKind, Substitution
 
+Point: TypeAlias = sp.Expr | tuple[sp.Expr, ...]
+Along: TypeAlias = Callable[[Goal, sp.Expr], Sequence[Fact]]
 _SECONDS = 4.0
 _SAYS: dict[str, RelationSign] = {
     "positive": ">", "nonnegative": ">=", "negative": "<", "nonpositive": "<=", "nonzero": "!="
@@ -39,13 +42,17 @@ _SAYS: dict[str, RelationSign] = {
 
 
 def at_point(
-    quantified: ForAll, point: sp.Expr, known: Sequence[Relation], facts: Sequence[Implication] = ()
+    quantified: ForAll, point: Point, known: Sequence[Relation], facts: Sequence[Implication] = ()
 ) -> Relation | None:
-    """What an assumption for all values of one variable says at ``point``, if that is shown to be in its domain."""
-    if len(quantified.variables) != 1:
+    """What an assumption for all values of its variables says at ``point``, if that is shown to be in its domain.
+
+    ``point`` is an expression, or one for each variable.
+    """
+    values = tuple(point) if isinstance(point, tuple | sp.Tuple) else (point,)
+    if len(quantified.variables) != len(values):
         return None
     try:
-        there = Substitution({quantified.variables[0]: point}, shown_sign(known, facts))
+        there = Substitution(dict(zip(quantified.variables, values, strict=True)), shown_sign(known, facts))
     except NotOfKind:
         return None
     if not are_met(there.domain, known, facts, seconds=_SECONDS).shown:
@@ -56,20 +63,24 @@ def at_point(
     return there.relation(quantified.relation)
 
 
-def instances(goal: Goal, *points: sp.Expr) -> list[Fact]:
-    """The goal's quantified assumptions at these points, where they are shown to be in the domain, as facts."""
+def instances(goal: Goal, *points: Point) -> list[Fact]:
+    """The goal's quantified assumptions at these points, where they are shown to be in the domain, as facts.
+
+    A point of an assumption on several variables is a tuple.
+    """
     known = goal.relations
     found = (at_point(item, sp.sympify(point), known) for item in goal.assumptions if isinstance(item, ForAll)
-             and not item.relation.left.has(sp.Derivative) for point in points)  # fmt: skip
+             for point in points)  # fmt: skip
     return [resting_on(goal, Implication((), relation)) for relation in found if relation is not None]
 
 
-def entailed(needed: ForAll, given: Sequence[Assumption], facts: Sequence[Implication] = ()) -> Answer:
-    """Whether ``needed`` follows from ``given``: shown at one arbitrary value of its variable.
+def entailed(needed: ForAll, goal: Goal, facts: Sequence[Fact] = (), along: Along | None = None) -> Answer:
+    """Whether ``needed`` follows from the goal's assumptions: shown at one arbitrary value of its variable.
 
-    Quantified assumptions among ``given`` are used at that same value, where it is in their domain.
+    Quantified assumptions are used at that same value, where it is in their domain. ``along`` gives facts about it: it
+    gets the goal that has, in addition, the value in the domain of ``needed``, and the value.
     """
-    if needed in given:
+    if needed in goal.assumptions:
         return Answer(True, "it is assumed")
     if len(needed.variables) != 1:
         return Answer(False, "more than one bound variable")
@@ -77,20 +88,25 @@ def entailed(needed: ForAll, given: Sequence[Assumption], facts: Sequence[Implic
     # A fresh symbol: nothing that is assumed about a free symbol of the same name may be used.
     point = like(variable)
     there = Substitution({variable: point})
-    known = [*plain(given), *map(there.relation, needed.domain)]
-    for item in given:
+    inside = replace(goal, assumptions=(*goal.assumptions, *map(there.relation, needed.domain)))
+    said = usable(inside, [*facts, *(along(inside, point) if along else ())])
+    known = list(inside.relations)
+    for item in goal.assumptions:
         if isinstance(item, ForAll):
-            said = at_point(item, point, known, facts)
-            if said is not None:
-                known.append(said)
-    return follows(there.relation(needed.relation), known, facts, seconds=_SECONDS)
+            here = at_point(item, point, known, said)
+            if here is not None:
+                known.append(here)
+    return follows(there.relation(needed.relation), known, said, seconds=_SECONDS)
 
 
-def specialise(goal: Goal, used: Claim, values: Mapping[Any, Any], facts: Sequence[Fact] = ()) -> list[Fact]:
+def specialise(
+    goal: Goal, used: Claim, values: Mapping[Any, Any], facts: Sequence[Fact] = (), *, along: Along | None = None
+) -> list[Fact]:
     """The statement of a claim that the goal uses, with ``values`` for its symbols and functions, as facts.
 
     A key is a symbol, or an undefined function applied to symbols, whose value is an expression in them. What the
-    values need in order to be defined is among the hypotheses.
+    values need in order to be defined is among the hypotheses. ``along`` helps to show the quantified assumptions of the
+    claim: as in :func:`entailed`.
 
     Raises
     ------
@@ -109,7 +125,7 @@ def specialise(goal: Goal, used: Claim, values: Mapping[Any, Any], facts: Sequen
     except InputError as error:
         raise InputError(f"{goal.id}: {used.id} is specialised, but {error}") from error
     for item in quantified:
-        answer = entailed(item, goal.assumptions, said)
+        answer = entailed(item, goal, facts, along)
         if not answer.shown:
             raise InputError(f"{goal.id}: what {used.id} assumes does not follow: {item} ({answer.how})")
     hypotheses = [there.relation(part) for part in plain(used.assumptions)]
@@ -117,13 +133,15 @@ def specialise(goal: Goal, used: Claim, values: Mapping[Any, Any], facts: Sequen
         if need.given or need.relation is None:
             raise InputError(f"{goal.id}: nothing shows where the values put into {used.id} are defined: {need}")
         hypotheses.append(need.relation)
+    # What is shown along an arbitrary value may rest on any claim that the goal uses.
+    claims = [used.content] if along is None else [other.content for other in goal.uses]
     found = []
     for part in relations_of(used.statement):
         says: Implication | None = Implication(tuple(hypotheses), there.relation(part), source=used.id)
         if used.where_defined and says is not None:
             says = guarded(says)
         if says is not None:
-            found.append(resting_on(goal, says, [used.content], *facts))
+            found.append(resting_on(goal, says, claims, *facts))
     return found
 
 

@@ -50,7 +50,7 @@ def reals(goal: Goal, *lemmas: Fact, seconds: float | None = None) -> Evidence:
     detail = f"the negation is unsatisfiable over the reals{told}"
     if len(parts) > 1:
         detail += f" ({len(parts)} parts)"
-    return Evidence("z3", Verdict.PROVED, detail)
+    return Evidence("z3", Verdict.PROVED, detail, facts=lemmas)
 
 
 def contradictory(assumptions: Sequence[Relation]) -> bool:
