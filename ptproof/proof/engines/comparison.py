@@ -75,12 +75,27 @@ def _check(goal: Goal, solution: sp.Expr, denominators: Sequence[sp.Expr], lemma
     (statement,) = relations_of(goal.statement)
     if statement.sign != "<=" or not isinstance(statement.left, AppliedUndef):
         raise _Failed(f"not of the form v(time) <= bound: {statement}")
-    at = statement.left
-    inequality, s, v = _differential_inequality(goal, at)
-    start, end = _initial_time(inequality, s), at.args[0]
+    inequality, s, v = _differential_inequality(goal, statement.left)
+    positive = sp.Dummy("v0", positive=True)
+    if _signed(goal, v, "positive"):
+        return _from(positive, goal, inequality, s, v, solution, denominators, lemmas)
+    if not _signed(goal, v, "nonnegative"):
+        return _from(sp.Dummy("v0", real=True), goal, inequality, s, v, solution, denominators, lemmas)
+    try:  # of powers of what may be 0 less is known
+        _from(sp.S.Zero, goal, inequality, s, v, solution, denominators, lemmas)
+        return _from(positive, goal, inequality, s, v, solution, denominators, lemmas)
+    except _Failed:
+        return _from(sp.Dummy("v0", nonnegative=True), goal, inequality, s, v, solution, denominators, lemmas)
+
+
+def _from(
+    first: sp.Expr, goal: Goal, inequality: ForAll, s: sp.Symbol, v: AppliedUndef, solution: sp.Expr,
+    denominators: Sequence[sp.Expr], lemmas: Sequence[Fact],
+) -> str:  # fmt: skip
+    """The lemma with ``first`` for the value at the initial time."""
+    (statement,) = relations_of(goal.statement)
+    start, end = _initial_time(inequality, s), statement.left.args[0]
     initial = v.subs(s, start)
-    first = sp.Dummy("v0", positive=True) if _signed(goal, v, "positive") else (
-        sp.Dummy("v0", nonnegative=True) if _signed(goal, v, "nonnegative") else sp.Dummy("v0", real=True))  # fmt: skip
 
     def read(item: Relation) -> Relation:
         return item.map(lambda side: side.subs(initial, first))
@@ -111,6 +126,8 @@ def _check(goal: Goal, solution: sp.Expr, denominators: Sequence[sp.Expr], lemma
     if not vanishes(begin - first) and not follows(ge(begin, first), outside, facts).shown:
         raise _Failed(f"{solution} does not start at {initial}, nor above it")
     bound, reached = statement.right.subs(initial, first), u.subs(s, end)
+    if any(item.has(sp.nan, sp.zoo, sp.oo) for item in (bound, u, phi)):
+        raise _Failed(f"{solution} or the bound has no value where {initial} is {first}")
     if not vanishes(bound - reached):
         below = follows(ge(bound, reached), outside, facts)
         if not below.shown:

@@ -1,0 +1,142 @@
+"""Beyond the paper: where the drift is never stronger than the feedback, the average converges for every κ.
+
+The condition on the drift is ∇F·f ≥ −(k/2)‖∇F‖² at every time and position. It holds for f = E∇F if
+(k/2)I + (E + Eᵀ)/2 is positive semidefinite, and so whenever k ≥ 2‖E‖.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import sympy as sp
+
+from ptproof.proof import (
+    Claim,
+    Evidence,
+    Fact,
+    ForAll,
+    Goal,
+    claim,
+    comparison,
+    eq,
+    exact,
+    ge,
+    gt,
+    instances,
+    le,
+    limits,
+    lt,
+    power_nonnegative,
+    reals,
+    specialise,
+)
+
+from . import chain
+from .notation import E11, E12, E21, E22, E, E_norm, F, T, c, f, k, kappa, position, q, t, t0, tau
+from .section5a_1_reduction import stretch
+from .section5b_0_trajectory import (
+    F_1,
+    F_2,
+    V_along,
+    V_of_x,
+    V_rate,
+    X1,
+    X2,
+    assumption_2,
+    at,
+    derivative,
+    gradient_bounds,
+    here,
+    later,
+    s,
+    solves,
+    start,
+    v_nonnegative,
+)
+from .section5b_1_lyapunov import n
+from .section6b_3_only import rate_by_norm
+
+SECTION = "Beyond the paper"
+
+square = F_1**2 + F_2**2
+never_stronger = ForAll((t, *position), ge(F_1 * f[0] + F_2 * f[1] + k / 2 * square, 0))
+
+
+@claim(
+    "beyond/rate-without-c2", "If the drift is never stronger, V of the average falls at the rate (k/2)(1 − ρ)‖∇F‖² at least",
+    le(V_rate, at(-k / 2 * (1 - 1 / stretch**2) * square, tau)),
+    given=[*solves(tau), *later, never_stronger], uses=[derivative],
+)  # fmt: skip
+def rate_without_c2(goal: Goal) -> Evidence:
+    """Of the feedback's k/2 the share ρ = 1/(1 + (τ − t₀)/T)² pays for the drift, the rest remains."""
+    now = chain.clock.to_t
+    return reals(goal, *specialise(goal, derivative, {}), *instances(goal, (now, X1(tau), X2(tau))))
+
+
+def decay(order: sp.Expr, time: sp.Expr) -> sp.Expr:
+    """k c₁²/2 times what remains of the feedback after the share that the drift may take, from τ₀ on."""
+    return k * c(1, order) ** 2 / 2 * (1 - 1 / (1 + (time - start) / T) ** 2)
+
+
+def trajectory_inequality(order: sp.Expr) -> sp.Expr:
+    """−decay · V^(2q) on the trajectory."""
+    return -decay(order, tau) * V_along ** (2 * q(order))
+
+
+@claim(
+    "beyond/v-inequality", "Then V satisfies an inequality without c₂",
+    le(V_rate, trajectory_inequality(kappa)), given=[*solves(tau), *later, never_stronger, *assumption_2],
+    uses=[rate_without_c2, gradient_bounds, v_nonnegative],
+)  # fmt: skip
+def v_inequality(goal: Goal) -> Evidence:
+    """The gradient's lower bound, and a factor that is larger the later the trajectory starts."""
+    return reals(
+        goal, *specialise(goal, rate_without_c2, {}), *specialise(goal, gradient_bounds, here),
+        *specialise(goal, v_nonnegative, here), power_nonnegative(V_along, q()),
+    )  # fmt: skip
+
+
+# --- The scalar bounds ------------------------------------------------------------------------------------------------
+
+V = sp.Function("V", real=True)
+length = tau - start
+saved = length**2 / (T + length)  # the integral of 1 − 1/(1 + (s − τ₀)/T)²
+never_negative = ForAll((s,), ge(V(s), 0))
+above = n + 1  # κ ≥ 2
+sigma = n / (n + 1)
+
+
+def scalar_inequality(order: sp.Expr) -> ForAll:
+    """dV/ds ≤ −decay · V^(2q) on [τ₀, τ]."""
+    relation = le(sp.Derivative(V(s), s), -decay(order, s) * V(s) ** (2 * q(order)))
+    return ForAll((s,), relation, (ge(s, start), le(s, tau)))
+
+
+def bound(order: sp.Expr, value: sp.Expr) -> sp.Expr:
+    """The bound of V(τ) for V(τ₀) = ``value``: of class KL in the value and τ − τ₀."""
+    paid = k * c(1, order) ** 2 / 2 * saved
+    if order == 1:
+        return value * sp.exp(-paid)
+    return value * (1 + sigma * value**sigma * paid) ** (-1 / sigma)
+
+
+@claim(
+    "beyond/v-bound-kappa-1", "What the inequality gives for κ = 1", le(V(tau), bound(sp.S.One, V(start))),
+    given=[ge(tau, start), scalar_inequality(sp.S.One), never_negative],
+)  # fmt: skip
+def v_bound_one(goal: Goal) -> Evidence:
+    """A linear comparison equation: exponential in (τ − τ₀)²/(T + τ − τ₀), which is about τ − τ₀ for long times."""
+    return comparison(goal, bound(sp.S.One, V(start)).subs(tau, s), denominators=[1 + (s - start) / T, T + s - start])
+
+
+@claim(
+    "beyond/v-bound-kappa-2", "What the inequality gives for κ = n + 1 ≥ 2", le(V(tau), bound(above, V(start))),
+    given=[ge(tau, start), scalar_inequality(above), never_negative],
+)  # fmt: skip
+def v_bound_above(goal: Goal) -> Evidence:
+    """A comparison equation of Bernoulli's type; V(τ₀) = 0 is included."""
+    passed = s - start
+    base = 1 + sigma * V(start) ** sigma * k * c(1, above) ** 2 / 2 * passed**2 / (T + passed)
+    return comparison(
+        goal, V(start) * base ** (-1 / sigma), denominators=[1 + passed / T, T + passed, base],
+    )  # fmt: skip
