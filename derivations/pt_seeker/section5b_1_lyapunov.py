@@ -24,9 +24,7 @@ from ptproof.proof import (
     reals,
 )
 
-from . import chain
 from .notation import (
-    IN_TAU,
     F,
     F_source,
     G,
@@ -46,67 +44,28 @@ from .notation import (
     x1,
     x2,
 )  # fmt: skip
-from .section5a_1_reduction import f_tau, stretch
-from .section5a_2_averaging import averaged_system
+from .section5a_1_reduction import stretch
 
 SECTION = "5.2 Theorem, Steps 4 to 6: stability"
 ONE = sp.S.One
 
-# --- Step 4: the derivative of V ----------------------------------------------------------------------------
-
-V_of_x = -(F - F_source)
-F_1, F_2 = sp.diff(F, x1), sp.diff(F, x2)
-gradient_norm = sp.sqrt(F_1**2 + F_2**2)
-drift_norm = sp.sqrt(f_tau[0] ** 2 + f_tau[1] ** 2)
-V_rate = chain.averaged_tau.derivative_along(V_of_x)
-
 lyapunov_function = definition(
-    "5/step4-lyapunov-function", "V = F(x*) − F(x̄)", eq(sp.Function("V")(x1, x2), V_of_x),
+    "5/step4-lyapunov-function", "V = F(x*) − F(x̄)", eq(sp.Function("V")(x1, x2), -(F - F_source)),
     labels=["eq:Lyapunov_function"], prose="How much the field at the averaged vehicle is below its maximum.",
 )  # fmt: skip
-
-
-@claim(
-    "5/step4-derivative", "dV/dτ along the averaged system",
-    eq(-(F_1 * f_tau[0] + F_2 * f_tau[1]) / stretch**2 - k / 2 * gradient_norm**2, V_rate),
-    given=IN_TAU, labels=["eq:Lyapunov_derivative"], uses=[averaged_system],
-)  # fmt: skip
-def derivative(goal: Goal) -> Evidence:
-    """The averaged system from the pipeline, multiplied by the gradient of V."""
-    return exact(goal)
-
-
-@claim(
-    "5/step4-cauchy-schwarz", "The drift against the gradient",
-    le(-(F_1 * f_tau[0] + F_2 * f_tau[1]), drift_norm * gradient_norm), given=IN_TAU, place="Step 4",
-)  # fmt: skip
-def cauchy_schwarz(goal: Goal) -> Evidence:
-    """Written out in two dimensions."""
-    return reals(goal)
-
-
-@claim(
-    "5/step4-derivative-bound", "dV/dτ is at most what the norms give",
-    le(V_rate, drift_norm * gradient_norm / stretch**2 - k / 2 * gradient_norm**2),
-    given=[ge(tau, t0)], labels=["eq:Lyapunov_derivative_inequality"], uses=[derivative, cauchy_schwarz],
-)  # fmt: skip
-def derivative_bound(goal: Goal) -> Evidence:
-    """The scalar product is replaced by the product of the norms; the factor 1/(1 + (τ − t₀)/T)² is positive."""
-    return reals(goal)
-
 
 # From here on one symbol stands for each norm and for V at one instant. R is the distance ‖x̄ − x*‖.
 F_value = sp.Symbol("F_x", real=True)
 
 
 @claim(
-    "5/step4-v-bounds", "V between even powers of the distance",
+    "5/step4-v-bounds-by-letters", "V between even powers of the distance",
     every(le(a2 * R ** (2 * kappa), V), le(V, a1 * R ** (2 * kappa))),
     given=[
         eq(V, -(F_value - F_source)),
         le(F_source - a1 * R ** (2 * kappa), F_value), le(F_value, F_source - a2 * R ** (2 * kappa)),
     ],
-    labels=["eq:ass2"],
+    place="Step 4",
 )  # fmt: skip
 def v_bounds(goal: Goal) -> Evidence:
     """Assumption 2, with F(x̄) moved to the other side."""
@@ -142,25 +101,15 @@ derivative_given = le(V_dot, f_norm * G / stretch**2 - k / 2 * G**2)
 after = ge(tau, t0)
 
 
-@claim(
-    "5/step4-norms-as-symbols", "The bound of dV/dτ with one symbol for each norm",
-    le(V_rate, f_norm * G / stretch**2 - k / 2 * G**2),
-    given=[after, eq(f_norm, drift_norm), eq(G, gradient_norm)], place="Step 4", uses=[derivative_bound],
-)  # fmt: skip
-def norms_as_symbols(goal: Goal) -> Evidence:
-    """So that what follows may speak of ‖f‖ and ‖∇F‖ only."""
-    return reals(goal)
-
-
 def v_inequality(order: sp.Expr) -> sp.Expr:
     """The right-hand side of eq:lyapunov_derivative_inequality_2 as printed, for a given κ."""
     return c(2, order) / stretch**2 * f_norm * V ** q(order) - k * c(1, order) ** 2 / 2 * V ** (2 * q(order))
 
 
 @claim(
-    "5/step4-v-inequality", "A differential inequality for V alone",
+    "5/step4-v-inequality-by-letters", "A differential inequality for V alone",
     le(V_dot, v_inequality(kappa)), given=[after, derivative_given, *between, *gradient_between],
-    labels=["eq:lyapunov_derivative_inequality_2"], uses=[gradient_bounds, norms_as_symbols],
+    place="Step 4", uses=[gradient_bounds],
 )  # fmt: skip
 def v_differential_inequality(goal: Goal) -> Evidence:
     """The gradient's norm is bounded above where it multiplies the drift, and below where it is squared."""

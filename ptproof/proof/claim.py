@@ -7,7 +7,7 @@ that. It is never told the verdict that the author expects.
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property, wraps
 from types import FrameType
@@ -44,6 +44,7 @@ class Goal:
     assumptions: tuple[Assumption, ...] = ()
     uses: tuple[Claim, ...] = ()
     where_defined: bool = False
+    example: tuple[tuple[Any, Any], ...] = ()
 
     @property
     def facts(self) -> tuple[Fact, ...]:
@@ -95,6 +96,9 @@ class Claim:
         all values that the declarations and assumptions allow, is part of what is claimed.
     erratum
         Of a printed claim that is refuted: how grave that is, in words.
+    example
+        Exact values of all symbols and undefined functions at which the assumptions hold, where nobody finds such
+        values by trying. They are checked, and so is the statement there; nothing else rests on them.
     """
 
     id: str
@@ -111,6 +115,7 @@ class Claim:
     place: str = ""
     where_defined: bool = False
     erratum: Erratum | None = None
+    example: tuple[tuple[Any, Any], ...] = ()
 
     def __post_init__(self) -> None:
         for used in (*self.uses, *([self.corrects] if self.corrects is not None else [])):
@@ -148,7 +153,7 @@ class Claim:
 
     def goal(self) -> Goal:
         """What the proof receives."""
-        return Goal(self.id, self.statement, self.assumptions, self.uses, self.where_defined)
+        return Goal(self.id, self.statement, self.assumptions, self.uses, self.where_defined, self.example)
 
 
 @dataclass(frozen=True)
@@ -181,6 +186,7 @@ def claim(
     grade: str = "",
     wrong: str = "",
     survives: str = "",
+    example: Mapping[Any, Any] | None = None,
 ) -> Callable[[Proof], Claim]:
     """Make the decorated proof a :class:`Claim`; its docstring is the prose of the report.
 
@@ -188,12 +194,12 @@ def claim(
     printed claim that is refuted an :class:`~ptproof.proof.erratum.Erratum`.
     """
     section = _section_of_caller(inspect.currentframe())
-    said = erratum(id, expected, grade, wrong, survives)
+    said, values = erratum(id, expected, grade, wrong, survives), tuple((example or {}).items())
 
     def make(prove: Proof) -> Claim:
         return Claim(
             id, title, states, prove, tuple(given), tuple(uses), _labels(id, labels), Verdict(expected),
-            inspect.cleandoc(prove.__doc__ or ""), section, corrects, place, where_defined, said,
+            inspect.cleandoc(prove.__doc__ or ""), section, corrects, place, where_defined, said, values,
         )  # fmt: skip
 
     return make

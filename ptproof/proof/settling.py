@@ -14,7 +14,7 @@ from ptproof.proof.attack import attack, points_of
 from ptproof.proof.claim import Goal
 from ptproof.proof.definedness import domain_of
 from ptproof.proof.engines.reals import Answer, are_met, contradictory
-from ptproof.proof.engines.witnesses import DIFFER, check_witness, search
+from ptproof.proof.engines.witnesses import DIFFER, at_example, check_witness, search
 from ptproof.proof.facts import usable
 from ptproof.proof.statement import All, Exists, Relation, relations_of
 from ptproof.proof.verdict import Evidence, Verdict
@@ -97,6 +97,11 @@ def _attacked(goal: Goal, evidence: Evidence) -> Evidence:
     if met.hit is not None:
         detail = f"{evidence.engine} shows what is false: {met.hit}"
         return replace(evidence, verdict=Verdict.UNDECIDED, detail=detail, besides=beside(Verdict.REFUTED, detail))
+    if goal.example:
+        holds, said = at_example(goal, dict(goal.example))
+        if not holds:
+            return replace(evidence, verdict=Verdict.UNDECIDED, detail=f"{said}; {evidence.detail}")
+        return replace(evidence, besides=beside(Verdict.OBSERVED, f"{met.detail} (seed {SEED}), none is hit; {said}"))
     if met.points == 0 and goal.assumptions and next(points_of(goal, seed=SEED, points=1), None) is None:
         detail = f"no values are found that satisfy the assumptions, so that nothing may be claimed; {evidence.detail}"
         return replace(evidence, verdict=Verdict.UNDECIDED, detail=detail)

@@ -19,7 +19,6 @@ from ptproof.proof.declarations import like
 from ptproof.proof.engines.reals import Answer, are_met, follows
 from ptproof.proof.facts import Fact, guarded, resting_on, usable
 from ptproof.proof.statement import (
-    Assumption,
     Exists,
     ForAll,
     Implication,
@@ -105,8 +104,8 @@ def specialise(
     """The statement of a claim that the goal uses, with ``values`` for its symbols and functions, as facts.
 
     A key is a symbol, or an undefined function applied to symbols, whose value is an expression in them. What the
-    values need in order to be defined is among the hypotheses. ``along`` helps to show the quantified assumptions of the
-    claim: as in :func:`entailed`.
+    values need in order to be defined is among the hypotheses. ``along`` helps to show the quantified assumptions of
+    the claim: as in :func:`entailed`.
 
     Raises
     ------

@@ -72,6 +72,23 @@ def check_witness(goal: Goal, values: Mapping[Any, Any]) -> tuple[Witness | None
     return None, "the statement is not shown to fail there"
 
 
+def at_example(goal: Goal, values: Mapping[Any, Any]) -> tuple[bool, str]:
+    """Whether exact values satisfy every assumption, and the statement does not fail there; and what is said of it."""
+    try:
+        there = Substitution(values)
+    except InputError as error:
+        return False, f"the example is none: {error}"
+    for assumption in goal.assumptions:
+        if not _holds(assumption, there):
+            return False, f"the example is none: {assumption} is not shown to hold there"
+    witness, _ = check_witness(goal, values)
+    if witness is not None:
+        return False, f"the statement fails at the example: {witness.left} against {witness.right}"
+    return True, "the assumptions hold at the example, " + ", ".join(
+        f"{key} = {value}" for key, value in values.items()
+    )
+
+
 def satisfiable(assumptions: Sequence[Relation], seconds: float = 2.0) -> bool:
     """Whether exact values are found at which all the assumptions hold."""
     if not assumptions:
