@@ -31,10 +31,10 @@ from ptproof.proof import (
     specialise,
 )
 
-from . import chain
-from .notation import E11, E12, E21, E22, E, E_norm, F, T, c, f, k, kappa, position, q, t, t0, tau
+from .notation import E11, E12, E21, E22, E, E_norm, F, T, b1, b2, c, f, k, kappa, position, q, t, t0, tau, x1, x2
 from .section5a_1_reduction import stretch
 from .section5b_0_trajectory import (
+    EXAMPLE,
     F_1,
     F_2,
     V_along,
@@ -47,6 +47,8 @@ from .section5b_0_trajectory import (
     derivative,
     gradient_bounds,
     here,
+    in_time,
+    instant,
     later,
     s,
     solves,
@@ -59,18 +61,17 @@ from .section6b_3_only import rate_by_norm
 SECTION = "Beyond the paper"
 
 square = F_1**2 + F_2**2
-never_stronger = ForAll((t, *position), ge(F_1 * f[0] + F_2 * f[1] + k / 2 * square, 0))
+never_stronger = ForAll((t, *position), ge(F_1 * f[0] + F_2 * f[1] + k / 2 * square, 0), in_time)
 
 
 @claim(
     "beyond/rate-without-c2", "If the drift is never stronger, V of the average falls at the rate (k/2)(1 − ρ)‖∇F‖² at least",
     le(V_rate, at(-k / 2 * (1 - 1 / stretch**2) * square, tau)),
-    given=[*solves(tau), *later, never_stronger], uses=[derivative],
+    given=[*solves(tau), *later, never_stronger], uses=[derivative], example=EXAMPLE,
 )  # fmt: skip
 def rate_without_c2(goal: Goal) -> Evidence:
     """Of the feedback's k/2 the share ρ = 1/(1 + (τ − t₀)/T)² pays for the drift, the rest remains."""
-    now = chain.clock.to_t
-    return reals(goal, *specialise(goal, derivative, {}), *instances(goal, (now, X1(tau), X2(tau))))
+    return reals(goal, *specialise(goal, derivative, {}), *instances(goal, instant(tau)))
 
 
 def decay(order: sp.Expr, time: sp.Expr) -> sp.Expr:
@@ -86,7 +87,7 @@ def trajectory_inequality(order: sp.Expr) -> sp.Expr:
 @claim(
     "beyond/v-inequality", "Then V satisfies an inequality without c₂",
     le(V_rate, trajectory_inequality(kappa)), given=[*solves(tau), *later, never_stronger, *assumption_2],
-    uses=[rate_without_c2, gradient_bounds, v_nonnegative],
+    uses=[rate_without_c2, gradient_bounds, v_nonnegative], example=EXAMPLE,
 )  # fmt: skip
 def v_inequality(goal: Goal) -> Evidence:
     """The gradient's lower bound, and a factor that is larger the later the trajectory starts."""
@@ -131,12 +132,56 @@ def v_bound_one(goal: Goal) -> Evidence:
 
 @claim(
     "beyond/v-bound-kappa-2", "What the inequality gives for κ = n + 1 ≥ 2", le(V(tau), bound(above, V(start))),
-    given=[ge(tau, start), scalar_inequality(above), never_negative],
+    given=[ge(tau, start), scalar_inequality(above), never_negative, ge(V(start), 0)],
 )  # fmt: skip
 def v_bound_above(goal: Goal) -> Evidence:
     """A comparison equation of Bernoulli's type; V(τ₀) = 0 is included."""
     passed = s - start
     base = 1 + sigma * V(start) ** sigma * k * c(1, above) ** 2 / 2 * passed**2 / (T + passed)
-    return comparison(
-        goal, V(start) * base ** (-1 / sigma), denominators=[1 + passed / T, T + passed, base],
+    root = power_nonnegative(V(start), sigma)
+    return comparison(goal, V(start) * base ** (-1 / sigma), denominators=[base], lemmas=[root])
+
+
+# --- The trajectories -------------------------------------------------------------------------------------------------
+
+
+def for_order(items: Sequence[ForAll], order: sp.Expr) -> list[ForAll]:
+    """The assumptions for this κ."""
+    return [ForAll(item.variables, item.relation.map(lambda side: side.subs(kappa, order)), item.domain)
+            for item in items]  # fmt: skip
+
+
+def on_trajectories(order: sp.Expr, tag: str, words: str, scalar: Claim, example: dict[sp.Expr, sp.Expr]) -> Claim:
+    """V along every averaged trajectory, for one kind of κ."""
+
+    @claim(
+        f"beyond/every-order-{tag}", f"A drift that is never stronger: V along every averaged trajectory, {words}",
+        le(V_along, bound(order, V_along.subs(tau, start))),
+        given=[*solves(tau), *later, never_stronger, *for_order(assumption_2, order)],
+        uses=[v_inequality, v_nonnegative, scalar], example=example,
     )  # fmt: skip
+    def every_order(goal: Goal) -> Evidence:
+        """From every start and every initial time τ₀ ≥ t₀, as long as the trajectory exists; since V is bounded on it, it
+        exists for all times. The bound is of class KL and does not depend on τ₀: Step 4 holds for this κ, too."""
+
+        def nonnegative(there: Goal, time: sp.Expr) -> list[Fact]:
+            return specialise(there, v_nonnegative, {kappa: order, position[0]: X1(time), position[1]: X2(time)})
+
+        def along(there: Goal, time: sp.Expr) -> list[Fact]:
+            if le(time, tau) not in there.assumptions:
+                return nonnegative(there, time)
+            return [*nonnegative(there, time), *specialise(there, v_inequality, {kappa: order, tau: time})]
+
+        moved = {V(s): V_along.subs(tau, s)}
+        begins = nonnegative(goal, start)
+        roots = [] if order == 1 else [power_nonnegative(V_along.subs(tau, start), sigma)]
+        said = specialise(goal, scalar, moved, begins, along=along)
+        return reals(goal, *said, *begins, *nonnegative(goal, tau), *roots)
+
+    return every_order
+
+
+at_rest = {X1(s): 0, x1: 0}  # a vehicle that starts at the source stays there
+quartic = {F: -((x1**2 + x2**2) ** 2), b1: 4, b2: 4, n: 1}
+every_order_one = on_trajectories(sp.S.One, "kappa-1", "κ = 1", v_bound_one, EXAMPLE)
+every_order_above = on_trajectories(above, "kappa-2", "κ ≥ 2", v_bound_above, {**EXAMPLE, **quartic, **at_rest})

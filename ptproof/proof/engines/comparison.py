@@ -52,7 +52,7 @@ def comparison(
         detail = _check(goal, solution, denominators, lemmas)
     except _Failed as failure:
         return Evidence(ENGINE, Verdict.UNDECIDED, str(failure))
-    return Evidence(ENGINE, Verdict.PROVED, detail)
+    return Evidence(ENGINE, Verdict.PROVED, detail, facts=tuple(lemmas))
 
 
 class _Failed(Exception):
@@ -226,7 +226,7 @@ def _solves(u: sp.Expr, rate: sp.Expr, interval: _Interval, hints: Sequence[sp.E
     def mask(item: Relation) -> Relation:
         return item.map(lambda side: side.xreplace(masks))
 
-    if vanishes(slope - rate) or vanishes((slope - rate).xreplace(masks)):
+    if vanishes((slope - rate).xreplace(masks)) or vanishes(slope - rate):
         return "solves the equation"
     known = [mask(item) for item in interval.known] + [Relation(symbol, "=", item) for item, symbol in masks.items()]
     facts = [_map(fact, mask) for fact in interval.facts]
