@@ -140,6 +140,8 @@ def _rates(item: ForAll) -> list[tuple[Any, Concrete]]:
     right = relation.right.xreplace({applied: value})
     place = _arguments(1)
     found = closed_forms(sp.expand(right), value, time)
+    if not found and not applied.is_nonzero and right.xreplace({value: sp.S.Zero}) == 0:
+        found = [sp.S.Zero]  # at rest
     return [(applied.func, Concrete(place, body.xreplace({time: place[0]}))) for body in found]
 
 

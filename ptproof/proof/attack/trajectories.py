@@ -45,7 +45,11 @@ def _equations(items: Iterable[ForAll]) -> Iterator[tuple[AppliedUndef, sp.Expr]
         if item.relation.sign != "=" or len(item.variables) != 1 or not isinstance(left, sp.Derivative):
             continue
         state = left.expr
-        if isinstance(state, AppliedUndef) and state.args == item.variables and left == sp.Derivative(state, state.args[0]):
+        if (
+            isinstance(state, AppliedUndef)
+            and state.args == item.variables
+            and left == sp.Derivative(state, state.args[0])
+        ):
             yield state, item.relation.right
 
 

@@ -6,6 +6,11 @@ its second argument, then v ≤ u on [τ₀, τ₁] (Khalil, Nonlinear Systems, 
 it: that the inequality is assumed on the whole of [τ₀, τ], that u solves the equation (exact algebra) or rises
 faster (z3), starts at v(τ₀) or above, stays where φ is Lipschitz, and is regular on the interval together with φ; the
 rest of the bound is a real inequality.
+
+Where φ is not Lipschitz at 0, as v^q with q < 1, u has to be positive on the interval, and φ a combination of powers of
+its second argument. If v(τ₁) > u(τ₁), let τ₂ be the last time before with v ≤ u. There v = u > 0, and from there on to
+τ₁ both lie between two positive numbers, where φ is Lipschitz; so (v − u)' ≤ φ(τ, v) − φ(τ, u) ≤ L(v − u), and v − u
+stays at or below 0.
 """
 
 from __future__ import annotations
@@ -109,17 +114,19 @@ def _from(
         if not interval.positive(denominator.subs(initial, first)):
             raise _Failed(f"{denominator} > 0 is not shown on the whole interval")
 
-    value = sp.Dummy("v", real=True) if first.is_nonnegative is None else sp.Dummy("v", nonnegative=True)
+    u = solution.subs(initial, first)
+    hints = [item.subs(initial, first) for item in denominators]
+    above = _above(u, interval, hints)
+    value = sp.Dummy("v", positive=True) if above else (
+        sp.Dummy("v", real=True) if first.is_nonnegative is None else sp.Dummy("v", nonnegative=True))  # fmt: skip
     phi = inequality.relation.right.subs(v, value)
     if phi.has(AppliedUndef):
         raise _Failed("the rate depends on the function otherwise than through its value")
     if not _lipschitz(phi, value):
         raise _Failed(f"the rate {inequality.relation.right} is not recognised as locally Lipschitz in {v}")
-    u = solution.subs(initial, first)
-    hints = [item.subs(initial, first) for item in denominators]
-    for expression in (phi, u):
-        _regular(expression, interval, hints)
-    if value.is_nonnegative and not _polynomial(phi, value):
+    _regular(phi, interval, hints, choices=(sp.Max, sp.Min))  # the rate has to be continuous, the solution smooth
+    _regular(u, interval, hints)
+    if value.is_nonnegative and not above and not _polynomial(phi, value):
         _stays(u, interval)
     how = _solves(u, phi.subs(value, u), interval, hints, solution)
     begin = u.subs(s, start)
@@ -178,8 +185,20 @@ def _interval(
 def _lipschitz(phi: sp.Expr, value: sp.Symbol) -> bool:
     """Combinations of powers of the value, with exponents 0 or ≥ 1, or integers ≥ 0, are locally Lipschitz.
 
-    A power that is not an integer is so on [0, ∞), where a value that is declared not negative stays.
+    A power that is not an integer is so on [0, ∞), where a value that is declared not negative stays, and every power on
+    (0, ∞), where a value that is declared positive stays. The larger and
+    the smaller of such expressions are so as well.
     """
+    choices = {node for node in phi.atoms(sp.Max, sp.Min) if node.has(value)}
+    if choices:
+        if not all(_lipschitz(side, value) for node in choices for side in node.args):
+            return False
+        # As one more value of its own, by which the rate has to depend on it linearly.
+        masks = {node: sp.Dummy(f"choice{i}", real=True) for i, node in enumerate(_outermost(choices))}
+        phi = sp.expand_mul(phi.xreplace(masks))
+        rest = phi.as_independent(*masks.values(), as_Add=True)[0]
+        linear = all(phi.diff(mask).free_symbols.isdisjoint({value, *masks.values()}) for mask in masks.values())
+        return linear and (not rest.has(value) or _lipschitz(rest, value))
     for term in sp.Add.make_args(sp.expand_mul(phi)):
         independent, dependent = term.as_independent(value, as_Add=False)
         if independent.has(value):
@@ -187,11 +206,19 @@ def _lipschitz(phi: sp.Expr, value: sp.Symbol) -> bool:
         if dependent == 1:
             continue
         base, exponent = dependent.as_base_exp()
-        if base != value or exponent.has(value) or not sp.factor(sp.together(exponent - 1)).is_nonnegative:
+        if base != value or exponent.has(value):
+            return False
+        if value.is_positive and exponent.is_real:
+            continue
+        if not sp.factor(sp.together(exponent - 1)).is_nonnegative:
             return False
         if not value.is_nonnegative and not exponent.is_integer:
             return False
     return True
+
+
+def _outermost(nodes: set[sp.Expr]) -> list[sp.Expr]:
+    return sorted((node for node in nodes if not any(node != other and other.has(node) for other in nodes)), key=str)
 
 
 def _polynomial(phi: sp.Expr, value: sp.Symbol) -> bool:
@@ -209,6 +236,12 @@ def _signed(goal: Goal, v: AppliedUndef, sign: str) -> bool:
         isinstance(item, ForAll) and item.relation == wanted and not item.domain
         and all(map(is_plainly_real, item.variables)) for item in goal.assumptions
     )  # fmt: skip
+
+
+def _above(u: sp.Expr, interval: _Interval, hints: Sequence[sp.Expr]) -> bool:
+    """Whether u is shown to be positive on the whole interval; the ``hints`` were shown positive there."""
+    masks = {item: sp.Dummy(f"D{i}", positive=True) for i, item in enumerate(hints)}
+    return bool(mask_positive(u.xreplace(masks), interval.known, interval.facts).is_positive)
 
 
 def _stays(u: sp.Expr, interval: _Interval) -> None:
@@ -239,13 +272,15 @@ def _map(fact: Implication, change: Callable[[Relation], Relation]) -> Implicati
     return Implication(tuple(map(change, fact.hypotheses)), change(fact.conclusion), fact.source)
 
 
-def _regular(expression: sp.Expr, interval: _Interval, hints: Sequence[sp.Expr]) -> None:
+def _regular(
+    expression: sp.Expr, interval: _Interval, hints: Sequence[sp.Expr], choices: tuple[type, ...] = ()
+) -> None:
     """No pole and no root of a negative number on the interval: every such base is shown positive there."""
     shown = {sp.factor(sp.together(item)) for item in hints}
     for node in sp.preorder_traversal(expression):
         if not node.has(interval.s):
             continue
-        if not isinstance(node, _REGULAR):
+        if not isinstance(node, _REGULAR + choices):
             raise _Failed(f"{node} is not known to be regular in {interval.s}")
         if not isinstance(node, sp.Pow) or (node.exp.is_integer and node.exp.is_nonnegative):
             continue

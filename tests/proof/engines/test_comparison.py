@@ -43,6 +43,20 @@ def test_a_solution_above_the_equation():
     assert run(higher, [after, rate(b)], v(t0) + 2 * b * (s - t0)) is Verdict.PROVED
 
 
+def test_a_rate_with_a_saturation():
+    follows = -sp.Min(a, sp.Max(-a, w(s))) + b
+    assert run(le(w(tau), a), [after, le(w(t0), a), le(b, a), rate(follows, w)], a) is Verdict.PROVED
+    assert run(le(w(tau), a), [after, le(w(t0), a), rate(follows, w)], a) is Verdict.UNDECIDED
+    assert run(le(w(tau), a), [after, le(b, a), rate(follows, w)], a) is Verdict.UNDECIDED
+
+
+def test_a_rate_that_is_clipped_in_time():
+    gain = sp.Max(1, s - t0)
+    bound, solution = le(v(tau), v(t0) * sp.exp(-(tau - t0))), v(t0) * sp.exp(-(s - t0))
+    assert run(bound, [after, rate(-gain * v(s))], solution) is Verdict.PROVED
+    assert run(bound, [after, rate(-sp.Min(1, s - t0) * v(s))], solution) is Verdict.UNDECIDED
+
+
 def test_a_rate_without_the_value_needs_no_sign():
     assert run(le(w(tau), w(t0) - tau + t0), [after, rate(-1, w)], w(t0) - (s - t0)) is Verdict.PROVED
 
@@ -61,6 +75,19 @@ NOT_SHOWN = {
     ),
     "a rate that is not Lipschitz": (le(v(tau), (tau - t0) ** 2 / 4), [after, eq(v(t0), 0), rate(sp.sqrt(v(s)))],
                                      (s - t0) ** 2 / 4, {}),
+    "a maximum with a side that is not Lipschitz": (
+        le(v(tau), (tau - t0) ** 2 / 4), [after, eq(v(t0), 0), rate(sp.Max(sp.sqrt(v(s)), v(s)))], (s - t0) ** 2 / 4, {},
+    ),
+    "a root of a maximum": (
+        le(v(tau), (tau - t0) ** 2 / 4), [after, eq(v(t0), 0), rate(sp.sqrt(sp.Max(v(s), v(s) / 2)))],
+        (s - t0) ** 2 / 4, {},
+    ),
+    "a quotient by a minimum": (
+        le(v(tau), v(t0) + tau - t0), [after, rate(1 / sp.Min(1, v(s)))], v(t0) + s - t0, {},
+    ),
+    "a solution with a kink": (
+        le(w(tau), sp.Max(w(t0), tau)), [after, rate(sp.Max(0, s), w)], sp.Max(w(t0), s), {},
+    ),
     "a bound below the solution": (
         le(v(tau), v(t0) * sp.exp(-2 * a * (tau - t0))), [after, rate(-a * v(s))], decay, {},
     ),
