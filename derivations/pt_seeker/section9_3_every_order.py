@@ -6,7 +6,8 @@ The condition on the drift is ∇F·f ≥ −(k/2)‖∇F‖² at every time and
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from typing import TypeAlias
 
 import sympy as sp
 
@@ -16,36 +17,33 @@ from ptproof.proof import (
     Fact,
     ForAll,
     Goal,
+    Relation,
     claim,
     comparison,
-    eq,
-    exact,
     ge,
-    gt,
     instances,
     le,
-    limits,
-    lt,
     power_nonnegative,
     reals,
     specialise,
 )
+from ptproof.proof.substitution import Substitution
 
-from .notation import E11, E12, E21, E22, E, E_norm, F, T, b1, b2, c, f, k, kappa, position, q, t, t0, tau, x1, x2
+from .notation import E12, E21, E, E_norm, F, T, b1, b2, c, f, k, kappa, position, q, t, tau, x1, x2
 from .section5a_1_reduction import stretch
 from .section5b_0_trajectory import (
     EXAMPLE,
     F_1,
     F_2,
-    V_along,
-    V_of_x,
-    V_rate,
     X1,
     X2,
+    V_along,
+    V_rate,
     assumption_2,
     at,
     derivative,
     gradient_bounds,
+    gradient_drift_given,
     here,
     in_time,
     instant,
@@ -56,7 +54,8 @@ from .section5b_0_trajectory import (
     v_nonnegative,
 )
 from .section5b_1_lyapunov import n
-from .section6b_3_only import rate_by_norm
+from .section6b_3_only import f_now, g, rate_by_norm, rho
+from .section9_1_gain import image
 
 SECTION = "Beyond the paper"
 
@@ -185,3 +184,92 @@ at_rest = {X1(s): 0, x1: 0}  # a vehicle that starts at the source stays there
 quartic = {F: -((x1**2 + x2**2) ** 2), b1: 4, b2: 4, n: 1}
 every_order_one = on_trajectories(sp.S.One, "kappa-1", "κ = 1", v_bound_one, EXAMPLE)
 every_order_above = on_trajectories(above, "kappa-2", "κ ≥ 2", v_bound_above, {**EXAMPLE, **quartic, **at_rest})
+
+
+# --- Where the drift is never stronger --------------------------------------------------------------------------------
+
+matrix = E + k / 2 * sp.eye(2)
+semidefinite = (  # (k/2)I + (E + Eᵀ)/2, by its principal minors
+    ge(matrix[0, 0], 0), ge(matrix[1, 1], 0), ge(matrix[0, 0] * matrix[1, 1] - ((E12 + E21) / 2) ** 2, 0),
+)  # fmt: skip
+pushed = sp.symbols("Eg1 Eg2", real=True)
+form_11, form_12, form_22 = sp.symbols("s11 s12 s22", real=True)
+
+
+@claim(
+    "beyond/semidefinite-form", "A symmetric form with principal minors that are not negative is not negative",
+    ge(form_11 * g[0] ** 2 + 2 * form_12 * g[0] * g[1] + form_22 * g[1] ** 2, 0),
+    given=[ge(form_11, 0), ge(form_22, 0), ge(form_11 * form_22 - form_12**2, 0)],
+)  # fmt: skip
+def semidefinite_form(goal: Goal) -> Evidence:
+    """In two dimensions."""
+    return reals(goal)
+
+
+length_squared = g[0] ** 2 + g[1] ** 2
+
+
+@claim(
+    "beyond/form-by-norm", "Then g·Eg ≥ −‖E‖‖g‖²",
+    ge(g[0] * pushed[0] + g[1] * pushed[1] + E_norm * length_squared, 0),
+    given=[le(pushed[0] ** 2 + pushed[1] ** 2, E_norm**2 * length_squared)], uses=[rate_by_norm],
+)  # fmt: skip
+def form_by_norm(goal: Goal) -> Evidence:
+    """The drift against the gradient, at its full size."""
+    return reals(goal, *specialise(goal, rate_by_norm, {f_now[0]: pushed[0], f_now[1]: pushed[1], rho: 1}))
+
+
+At: TypeAlias = Callable[[Goal, dict[sp.Symbol, sp.Expr]], list[Fact]]
+
+
+def corollary(
+    general: Claim, order: sp.Expr, tag: str, words: str, drift: Sequence[Relation], uses: Sequence[Claim], says: At
+) -> Claim:
+    """What holds for every drift that is never stronger, for f = E∇F; ``says`` knows the form at a gradient."""
+
+    @claim(
+        f"beyond/{tag}", f"If {words}, V of the average under f = E∇F has that bound, too",
+        general.statement, given=[*solves(tau), *later, *gradient_drift_given, *drift, *for_order(assumption_2, order)],
+        uses=[general, v_nonnegative, *uses], example=dict(general.example),
+    )  # fmt: skip
+    def on_trajectory(goal: Goal) -> Evidence:
+        """Such a drift is never stronger than the feedback: the class-KL bound holds along every averaged trajectory, from
+        every start and every initial time."""
+
+        def along(there: Goal, point: sp.Tuple) -> list[Fact]:
+            put = Substitution(dict(zip((t, *position), point, strict=True))).into
+            return says(there, dict(zip((*g, *pushed), map(put, (F_1, F_2, *f)), strict=True)))
+
+        begins = specialise(goal, v_nonnegative, {kappa: order, position[0]: X1(start), position[1]: X2(start)})
+        root = power_nonnegative(V_along.subs(tau, start), sigma)
+        return reals(goal, *specialise(goal, general, {}, along=along), *begins, root)
+
+    return on_trajectory
+
+
+def form_of_minors(there: Goal, now: dict[sp.Symbol, sp.Expr]) -> list[Fact]:
+    """The semidefinite form at a gradient."""
+    minors = {form_11: matrix[0, 0], form_22: matrix[1, 1], form_12: (E12 + E21) / 2}
+    return specialise(there, semidefinite_form, {**minors, **{letter: now[letter] for letter in g}})
+
+
+def form_of_norm(there: Goal, now: dict[sp.Symbol, sp.Expr]) -> list[Fact]:
+    """The form at a gradient, by the norm."""
+    here = {letter: now[letter] for letter in g}
+    values = {**here, **dict(zip(pushed, E * sp.Matrix(list(here.values())), strict=True))}
+    return [*instances(there, tuple(here.values())), *specialise(there, form_by_norm, values)]
+
+
+# ‖E‖ is a number with ‖Eg‖ ≤ ‖E‖‖g‖ for all g, as the spectral norm is.
+norm_bounds = ForAll(g, le(image[0] ** 2 + image[1] ** 2, E_norm**2 * length_squared))
+KINDS = ((every_order_one, sp.S.One, "kappa-1", "κ = 1"), (every_order_above, above, "kappa-2", "κ ≥ 2"))
+for_definite = tuple(
+    corollary(general, order, f"semidefinite-{tag}", f"(k/2)I + (E + Eᵀ)/2 is positive semidefinite and {words}",
+              semidefinite, [semidefinite_form], form_of_minors)
+    for general, order, tag, words in KINDS
+)  # fmt: skip
+for_norm = tuple(
+    corollary(general, order, f"gain-twice-the-norm-{tag}", f"k ≥ 2‖E‖ and {words}", [norm_bounds, ge(k, 2 * E_norm)],
+              [form_by_norm], form_of_norm)
+    for general, order, tag, words in KINDS
+)  # fmt: skip
