@@ -1,27 +1,13 @@
-"""Section 2.1: singularly perturbed Lie bracket averaging."""
+"""Section 2.1: singularly perturbed Lie bracket averaging; the Lie bracket system itself is in the next file."""
 
 from __future__ import annotations
 
 import sympy as sp
 
-from ptproof.averaging import average
-from ptproof.proof import (
-    Evidence,
-    Goal,
-    Prose,
-    cited,
-    claim,
-    definition,
-    eq,
-    every,
-    exact,
-    integrals,
-    le,
-    refute,
-)
-from ptproof.system import DitherSystem, System, lie_bracket
+from ptproof.proof import Evidence, Goal, Prose, Smooth, cited, claim, definition, eq, every, exact, le, refute, smooth
+from ptproof.system import System
 
-from .notation import mu, omega, rate_of, tau, tau_fast, x1, x2, z
+from .notation import mu, omega, rate_of, t, tau, tau_fast, x1, x2, z
 
 SECTION = "2 Preliminaries"
 
@@ -30,24 +16,31 @@ SECTION = "2 Preliminaries"
 position = (x1, x2)
 phase = sp.Symbol("phi", real=True)
 slow = mu * tau_fast  # the paper's τ̄
-b = [tuple(sp.Function(f"b{i}{j}", real=True)(slow, x1, x2, z) for j in (1, 2)) for i in (0, 1, 2)]
+# bᵢ as functions of (τ, x, z).
+b = [tuple(sp.Function(f"b{i}{j}", real=True)(tau, x1, x2, z) for j in (1, 2)) for i in (0, 1, 2)]
 u = [sp.Function(f"u{i}", real=True)(slow, omega * slow) for i in (1, 2)]
 g = sp.Function("g", real=True)(x1, x2, z)
 l = sp.Function("l", real=True)(x1, x2)  # noqa: E741 - the paper's letter
 y = sp.Symbol("y_tilde", real=True)
 
 
-def _slow_rate(root: sp.Expr, steady: sp.Expr = z) -> sp.ImmutableDenseMatrix:
-    """μ b₀ + μ √(root) Σ bᵢ uᵢ at z = steady."""
-    rate = mu * sp.Matrix(b[0]) + mu * sp.sqrt(root) * (sp.Matrix(b[1]) * u[0] + sp.Matrix(b[2]) * u[1])
-    return sp.ImmutableDenseMatrix(rate.subs(z, steady))
+def _at_slow_time(row: int, steady: sp.Expr = z) -> list[sp.Expr]:
+    """One row of b₀, b₁, b₂ at the slow time, and at z = steady."""
+    return [field[row].subs({tau: slow, z: steady}, simultaneous=True) for field in b]
 
+
+_slow_rates = sp.ImmutableDenseMatrix(
+    [
+        mu * drift + mu * sp.sqrt(omega) * (first * u[0] + second * u[1])
+        for drift, first, second in map(_at_slow_time, (0, 1))
+    ]
+)
 
 general_system = definition(
     "2.1/general-system",
     "Slow and fast states with dithers",
     every(
-        eq(sp.Matrix([rate_of("x_1", tau_fast), rate_of("x_2", tau_fast)]), _slow_rate(omega)),
+        eq(sp.Matrix([rate_of("x_1", tau_fast), rate_of("x_2", tau_fast)]), _slow_rates),
         eq(rate_of("z", tau_fast), g),
     ),
     labels=["eq:general_nominal_system"],
@@ -55,105 +48,87 @@ general_system = definition(
     "those in the fast time, and the slow time is μ times it.",
 )
 
-
-def _general() -> System:
-    return System(tau_fast, (x1, x2, z), (*_slow_rate(omega), g), name="general system")
+general = System(tau_fast, (x1, x2, z), (*_slow_rates, g), name="general system")
 
 
 @claim(
     "2.1/boundary-layer",
     "The boundary layer model",
-    eq(
-        g.subs(z, y + l),
-        _general().derivative_along(z - l).subs(z, y + l).subs(mu, 0),
-    ),
+    eq(g.subs(z, y + l), sp.Subs(general.derivative_along(z - l).subs(z, y + l), mu, 0)),
     labels=["eq:boundary_layer_model"],
 )
 def boundary_layer(goal: Goal) -> Evidence:
-    """The deviation ỹ = z − l(x) is differentiated along the general system, z is replaced by ỹ + l(x), and μ is
-    set to 0: the terms with the slow rates vanish, and g(x, ỹ + l(x)) stays."""
+    """The rate of the deviation ỹ = z − l(x) along the general system, at z = ỹ + l(x), is continuous in μ. At μ = 0
+    the terms with the slow rates vanish, and g(x, ỹ + l(x)) stays."""
     return exact(goal)
 
 
+def _reduced(root: sp.Expr) -> sp.Matrix:
+    """μ b₀ + μ √(root) Σ bᵢ uᵢ with l(x) for z, as printed."""
+    rows = []
+    for row in (0, 1):
+        drift, *dithered = _at_slow_time(row, l)
+        rows.append(mu * drift + sum(mu * sp.sqrt(root) * field * u[i] for i, field in enumerate(dithered)))
+    return sp.Matrix(rows)
+
+
 w = sp.Symbol("w", positive=True)
-_reduced = _slow_rate(omega, l)
 
 
 @claim(
     "2.1/reduced-model-printed",
-    "The reduced model, as printed",
-    eq(_slow_rate(w, l), _reduced),
+    "The reduced model, as printed with √w",
+    eq(_reduced(w), _slow_rates),
+    given=[eq(z, l)],
     labels=["eq:reduced_model"],
     expected="refuted",
+    grade="misprint",
+    wrong="The letter w stands under the root where ω is meant.",
+    survives="Yes: the reduced model of Section 5 has √ω.",
 )
 def reduced_model_printed(goal: Goal) -> Evidence:
     """The printed right-hand side carries √w, with a letter that is introduced nowhere, where substituting z = l(x)
     in the slow rates gives √ω. Read as a letter of its own, the equation is false as soon as w differs from ω."""
     # One constant field and one constant dither are enough to see the root.
-    fields = {entry.func(tau, *position, z): sp.Integer(entry == b[1][0]) for field in b for entry in field}
+    fields = {entry: sp.Integer(entry == b[1][0]) for field in b for entry in field}
     dithers = {entry.func(tau, phase): sp.Integer(entry == u[0]) for entry in u}
-    numbers = {mu: 1, w: 1, omega: 4, tau_fast: 0, x1: 0, x2: 0}
-    values = {**fields, **dithers, l: 0, **numbers}
-    return refute(goal, values)
+    numbers = {mu: 1, w: 1, omega: 4, tau_fast: 0, x1: 0, x2: 0, z: 0}
+    return refute(goal, {**fields, **dithers, l: 0, **numbers})
 
 
 @claim(
     "2.1/reduced-model",
     "The reduced model",
-    eq(_general().vector[:2, 0].subs(z, l), _slow_rate(omega, l)),
+    eq(_reduced(omega), _slow_rates),
+    given=[eq(z, l)],
     labels=["eq:reduced_model"],
     corrects=reduced_model_printed,
 )
 def reduced_model(goal: Goal) -> Evidence:
-    """On the quasi-steady state z = l(x) the slow rates of the general system are the reduced model, with √ω."""
+    """Where z is at its quasi-steady state, the rates of the slow states are those of the reduced model, with √ω."""
     return exact(goal)
 
 
-_fields = tuple(tuple(sp.Function(f"b{i}{j}", real=True)(tau, x1, x2) for j in (1, 2)) for i in (0, 1, 2))
-_dithers = (sp.cos(phase), sp.sin(phase))
-_general_average = average(DitherSystem(tau, phase, omega, position, _fields[0], _fields[1:], _dithers))
-_s, _theta = sp.symbols("s vartheta", real=True)
-
-
-def iterated_integral(outer: sp.Expr, inner: sp.Expr, period: sp.Expr = 2 * sp.pi) -> sp.Expr:
-    """v_ji = (1/T_f) ∫₀^{T_f} u_j(θ) ∫₀^θ u_i(s) ds dθ, unevaluated, for dithers given in the phase."""
-    inside = sp.Integral(inner.subs(phase, _s), (_s, 0, _theta))
-    return sp.Integral(outer.subs(phase, _theta) * inside, (_theta, 0, period)) / period
+# --- Assumption 1B, one letter of it --------------------------------------------------------------------------------
 
 
 @claim(
-    "2.1/lie-bracket-system",
-    "The Lie bracket system of arbitrary fields under cosine and sine",
-    eq(
-        sp.Matrix(_fields[0]) + sp.Matrix(lie_bracket(_fields[1], _fields[2], position)) / 2,
-        _general_average.vector,
-    ),
-    labels=["eq:Lie_Bracket_System"],
+    "2.1/mixed-derivative-printed",
+    "Assumption 1B bounds ∂²b/∂t∂z, as printed, and so ∂²b/∂τ∂z",
+    eq(sp.diff(b[1][0], t, z), sp.diff(b[1][0], tau, z)),
+    place="Assumption 1B",
+    expected="refuted",
+    grade="misprint",
+    wrong="The second mixed derivative is written with t, which is not an argument of b; τ is meant, as in the first.",
+    survives="Yes: the bound is used, and holds, with τ.",
 )
-def lie_bracket_system(goal: Goal) -> Evidence:
-    """The averaging engine applied to two arbitrary smooth fields gives b₀ + [b₁, b₂] v₂₁, the printed sum for N = 2
-    with v₂₁ = 1/2. The period is written T in the paper's formula for v_ji, the letter of the prescribed time; it is
-    read as the period T_f of Assumption 1, and the sum as one over all pairs i < j."""
-    return exact(goal)
+def mixed_derivative_printed(goal: Goal) -> Evidence:
+    """b is a function of (τ, x, z). A derivative of it by another letter is 0, and a bound of that says nothing."""
+    return refute(goal, {b[1][0]: tau * z, tau: 0, x1: 0, x2: 0, z: 0})
 
 
-@claim(
-    "2.1/iterated-integrals",
-    "v_ji of the dithers cos and sin",
-    every(
-        eq(iterated_integral(sp.sin(phase), sp.cos(phase)), sp.Rational(1, 2)),
-        eq(iterated_integral(sp.cos(phase), sp.sin(phase)), -sp.Rational(1, 2)),
-        eq(iterated_integral(sp.cos(phase), sp.cos(phase)), 0),
-        eq(iterated_integral(sp.sin(phase), sp.sin(phase)), 0),
-    ),
-    place="Section 2.1",
-)
-def iterated_integrals(goal: Goal) -> Evidence:
-    """v₂₁ = 1/2 is the constant that multiplies the bracket; v₁₂ = −v₂₁ and v_ii = 0 because the means vanish."""
-    return integrals(goal)
+# --- What Theorem 1 asks of the boundary layer ------------------------------------------------------------------------
 
-
-_alpha = [sp.Function(f"alpha{i}", real=True)(sp.Symbol("s", nonnegative=True)) for i in (1, 2, 3)]
 _Vy = sp.Function("V", real=True)(y)
 
 blm_requirements = definition(
@@ -167,6 +142,22 @@ blm_requirements = definition(
     labels=["eq:blm_req_1", "eq:blm_req_2"],
     prose="Two class-K∞ bounds and a class-K rate of decrease; Step 5 shows them for the seeker's boundary layer.",
 )
+
+
+@claim(
+    "2.1/layer-function-printed",
+    "|ỹ|, which is continuous and lies between class-K∞ functions, has the derivative that is asked for",
+    Smooth((sp.Abs(y),), (y,), 1),
+    place="Theorem 1",
+    expected="refuted",
+    grade="misprint",
+    wrong="V is taken continuous only, but its derivative is used; V in C¹ is meant.",
+    survives="Yes: Step 5 takes ỹ²/2, which is smooth.",
+)
+def layer_function_printed(goal: Goal) -> Evidence:
+    """V ∈ C admits V = |ỹ|. It has no derivative at 0, so that the second requirement has no meaning there."""
+    return smooth(goal)
+
 
 averaging_theorem = claim(
     "2.1/averaging-theorem",

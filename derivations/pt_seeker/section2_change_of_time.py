@@ -7,8 +7,6 @@ import sympy as sp
 from ptproof.proof import (
     Evidence,
     Goal,
-    Prose,
-    cited,
     claim,
     definition,
     eq,
@@ -271,10 +269,3 @@ def pt_limit(goal: Goal) -> Evidence:
 def round_trip(goal: Goal) -> Evidence:
     """Both orders, on the scalar example; the closed loop follows in Section 4."""
     return exact(goal)
-
-
-example_guas = claim(
-    "2.2/example-guas", "The linear example is globally uniformly asymptotically stable",
-    Prose("x = 0 of dx/dτ = −kx is globally uniformly asymptotically stable for k > 0"),
-    expected="cited", place="Section 2.2", uses=[example_solution, example_limit],
-)(cited("Khalil, Nonlinear Systems, Definition 4.4, with β(s, τ) = s exp(−kτ)"))  # fmt: skip

@@ -76,7 +76,9 @@ def _closed_loop(drawn: System) -> Relation:
 
 @claim(
     "4/figure-as-drawn", "The block diagram as drawn is the closed loop", _closed_loop(as_drawn),
-    labels=["fig:unicycle_pt_controller"], uses=[washout_realisation], expected="refuted",
+    labels=["fig:unicycle_pt_controller"], uses=[washout_realisation], expected="refuted", grade="definition",
+    wrong="The diagram lets the filter run in the time t; in the closed loop its rate carries the gain K(t) as well.",
+    survives="Yes: the theorem and its proof are about the equations, not about the diagram.",
 )  # fmt: skip
 def figure_as_drawn(goal: Goal) -> Evidence:
     """In the diagram the filter s/(μs + 1) runs in the time t, at a constant rate; in eq:closed_loop_system_t its

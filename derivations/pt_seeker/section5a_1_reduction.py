@@ -27,7 +27,6 @@ from .notation import (
     F,
     T,
     drift_at,
-    f,
     k,
     mu,
     nu,
@@ -43,16 +42,20 @@ from .notation import (
     z,
 )  # fmt: skip
 from .section2_averaging import reduced_model
-from .section4_design import closed_loop_in_t, closed_loop_in_tau, closed_t_printed
+from .section4_design import closed_loop_in_t, closed_loop_in_tau, plant
+from .section4_design import u1 as forward_velocity
+from .section4_design import u2 as angular_velocity
 
 SECTION = "5.1 Theorem, Steps 1 to 3: the averaged system"
 
 # --- The feedback law of the theorem ------------------------------------------------------------------------
 
+y = sp.Symbol("y", real=True)
+measured = eq(y, F)  # the output of the unicycle, where a row is printed with y
 K = 1 / nu(t - t0) ** 2
 u1_printed = K * sp.sqrt(omega)
-u2_printed = K * (omega - k / mu * (F - z))
-z_rate_printed = K / mu * (F - z)
+u2_printed = K * (omega - k / mu * (y - z))
+z_rate_printed = K / mu * (y - z)
 
 law = definition(
     "5/law", "The prescribed-time feedback law",
@@ -63,14 +66,13 @@ law = definition(
 
 @claim(
     "5/law-closes-the-loop", "The unicycle under this law is the closed loop",
-    eq(
-        closed_t_printed,
-        sp.Matrix([f[0] + u1_printed * sp.cos(theta), f[1] + u1_printed * sp.sin(theta), u2_printed, z_rate_printed]),
-    ),
-    given=IN_TIME, labels=["eq:pt_controlla", "eq:u1", "eq:u2", "eq:z"], uses=[closed_loop_in_t],
+    eq(sp.Matrix([*plant.rhs, z_rate_printed]), chain.closed_loop_t.vector),
+    given=[*IN_TIME, measured, eq(forward_velocity, u1_printed), eq(angular_velocity, u2_printed)],
+    labels=["eq:pt_controlla", "eq:u1", "eq:u2", "eq:z"], uses=[closed_loop_in_t],
 )  # fmt: skip
 def law_closes_the_loop(goal: Goal) -> Evidence:
-    """The printed law in the printed unicycle, against the printed closed loop of Section 4."""
+    """The printed inputs are put into the unicycle, which has no inputs of its own; the filter is part of the law.
+    Against the closed loop of the pipeline."""
     return exact(goal)
 
 
@@ -120,14 +122,14 @@ def p_solution(goal: Goal) -> Evidence:
         sp.Matrix([
             f_tau[0] / stretch**2 + sp.sqrt(omega) * sp.cos(omega * tau - k * z),
             f_tau[1] / stretch**2 + sp.sqrt(omega) * sp.sin(omega * tau - k * z),
-            (F - z) / mu,
+            (y - z) / mu,
         ]),
         chain.reduced_coordinates.vector,
     ),
-    given=IN_TAU, labels=["eq:tau_pt_system"], uses=[p_solution, closed_loop_in_tau],
+    given=[*IN_TAU, measured], labels=["eq:tau_pt_system"], uses=[p_solution, closed_loop_in_tau],
 )  # fmt: skip
 def reduced_coordinates(goal: Goal) -> Evidence:
-    """θ = p − kz is substituted, and p by its solution with p₀ = 0."""
+    """θ = p − kz is substituted, and p by its solution with p₀ = 0; y = F(x)."""
     return exact(goal)
 
 
@@ -136,10 +138,14 @@ _with_phase = split_dithers(split(solve_state(chain.with_p, p, omega * tau + p0)
 
 @claim(
     "5/step1-initial-phase", "The averaged system does not depend on p₀",
-    eq(average(_with_phase).vector, chain.averaged_tau.vector), given=IN_TAU, place="Step 1", uses=[p_solution],
+    eq(
+        sp.Matrix([drift / stretch**2 + k / 2 * slope for drift, slope in zip(f_tau, chain.gradient_F, strict=True)]),
+        average(_with_phase).vector,
+    ),
+    given=IN_TAU, place="Step 1", uses=[p_solution],
 )  # fmt: skip
 def initial_phase(goal: Goal) -> Evidence:
-    """Setting p₀ = 0 loses nothing: with p₀ kept as a symbol, the average comes out the same."""
+    """Setting p₀ = 0 loses nothing: with p₀ kept as a symbol, the average comes out as it is printed in Step 3."""
     return exact(goal)
 
 
@@ -156,33 +162,51 @@ stretch_fast = 1 + (slow - t0) / T
         sp.Matrix([
             mu * f_fast[0] / stretch_fast**2 + mu * sp.sqrt(omega) * sp.cos(omega * slow - k * z),
             mu * f_fast[1] / stretch_fast**2 + mu * sp.sqrt(omega) * sp.sin(omega * slow - k * z),
-            F - z,
+            y - z,
         ]),
         chain.fast_time.vector,
     ),
-    given=IN_FAST_TIME, labels=["eq:tau_pt_system_eps", "eq:to_be_reduced_model"], uses=[reduced_coordinates],
+    given=[*IN_FAST_TIME, measured], labels=["eq:tau_pt_system_eps", "eq:to_be_reduced_model"],
+    uses=[reduced_coordinates],
 )  # fmt: skip
 def fast_time(goal: Goal) -> Evidence:
     """τ = μτ̃; the drift is again taken at the instant that belongs to the fast time."""
     return exact(goal)
 
 
+fast_rate = chain.fast_time.rhs[2]  # g(x, z)
+
+
 @claim(
-    "5/step2-quasi-steady-state", "l(x) = F(x) makes the fast rate vanish, and nothing else does",
-    every(eq(F, chain.slow_fast.quasi_steady_state[0]), eq(z, F)), given=[eq(0, chain.slow_fast.fast_rate[0])],
+    "5/step2-quasi-steady-state-solves", "The fast rate vanishes at l(x) = F(x)", eq(sp.Subs(fast_rate, z, F), 0),
+    place="Step 2", uses=[fast_time],
+)  # fmt: skip
+def quasi_steady_state_solves(goal: Goal) -> Evidence:
+    """g(x, l(x)) = 0: one half of the equivalence in Assumption 1F."""
+    return exact(goal)
+
+
+@claim(
+    "5/step2-quasi-steady-state", "The fast rate vanishes at no other z", eq(z, F), given=[eq(0, fast_rate)],
     place="Step 2", uses=[fast_time],
 )  # fmt: skip
 def quasi_steady_state(goal: Goal) -> Evidence:
-    """The assumption says that the fast rate is 0 at z; then z = F(x). The pipeline's solution is F(x) as well."""
+    """If g(x, z) = 0, then z = F(x): the other half, so that l = F is the only one."""
     return reals(goal)
 
 
+# In the fast time, of which τ = μτ̃ is frozen as x is.
+_layer_rate = sp.expand(mu * chain.reduced_coordinates.derivative_along(z - F)).subs(z, y_tilde + F)
+
+
 @claim(
-    "5/step2-boundary-layer", "The boundary layer", eq(-y_tilde, chain.boundary_layer.rhs[0]), labels=["eq:blm_real"],
-    uses=[quasi_steady_state],
+    "5/step2-boundary-layer", "The boundary layer",
+    eq(-y_tilde, sp.Subs(_layer_rate, mu, 0)), given=IN_TAU, labels=["eq:blm_real"],
+    uses=[quasi_steady_state_solves, quasi_steady_state],
 )  # fmt: skip
 def boundary_layer(goal: Goal) -> Evidence:
-    """g(x, ỹ + l(x)) = −ỹ: linear, and the same for every x."""
+    """μ times the rate of ỹ = z − F(x) along the closed loop in τ is continuous in μ, also at μ = 0, where τ, x and ỹ
+    are held: −ỹ is left, the same for every x."""
     return exact(goal)
 
 
@@ -198,7 +222,8 @@ _dither = omega * slow - k * F
         ]),
         chain.reduced_model_fast.vector,
     ),
-    given=IN_FAST_TIME, labels=["eq:reduced_model_tau"], uses=[quasi_steady_state, fast_time, reduced_model],
+    given=IN_FAST_TIME, labels=["eq:reduced_model_tau"],
+    uses=[quasi_steady_state_solves, quasi_steady_state, fast_time, reduced_model],
 )  # fmt: skip
 def reduced_model_seeker(goal: Goal) -> Evidence:
     """z is replaced by F(x) in the slow rates."""

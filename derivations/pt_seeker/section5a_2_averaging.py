@@ -1,60 +1,26 @@
-"""Section 5, Theorem 2, Step 3: Lie bracket averaging, and the assumptions that it needs."""
+"""Section 5, Theorem 2, Step 3: Lie bracket averaging."""
 
 from __future__ import annotations
 
 import sympy as sp
 
-from ptproof.proof import (
-    Evidence,
-    Exists,
-    Goal,
-    Prose,
-    Smooth,
-    cited,
-    claim,
-    defeats_every_choice,
-    eq,
-    every,
-    exact,
-    ge,
-    integrals,
-    le,
-    reals,
-    refute,
-    smooth,
-)
+from ptproof.proof import Evidence, Goal, claim, eq, every, exact, integrals, refute
 from ptproof.system import lie_bracket
 
 from . import chain
-from .notation import (
-    IN_FAST_TIME,
-    IN_TAU,
-    F,
-    T,
-    f,
-    f_norm,
-    k,
-    mu,
-    omega,
-    position,
-    t0,
-    tau,
-    tau_fast,
-    x1,
-    x2,
-    z,
+from .notation import IN_FAST_TIME, IN_TAU, F, T, f, k, mu, omega, position, t0, tau, tau_fast, x1, x2, z
+from .section2_averaging import phase
+from .section2_lie_bracket import (
+    HALF,
+    bracket_of_composed_fields,
+    coefficient_is_half,
+    iterated_integral,
+    iterated_integrals,
+    lie_bracket_system,
+    v21,
 )  # fmt: skip
-from .section2_averaging import iterated_integral, iterated_integrals, lie_bracket_system, phase
-from .section5a_1_reduction import (
-    f_fast,
-    f_tau,
-    fast_time,
-    quasi_steady_state,
-    reduced_model_seeker,
-    slow,
-    stretch,
-    stretch_fast,
-)  # fmt: skip
+from .section5a_1_reduction import f_fast, f_tau, reduced_model_seeker, slow, stretch, stretch_fast
+from .section5a_1b_general_form import b0, b1, b2, general_form
 
 SECTION = "5.1 Theorem, Steps 1 to 3: the averaged system"
 
@@ -78,7 +44,6 @@ def trigonometry(goal: Goal) -> Evidence:
 
 b1_printed = (sp.cos(k * F), -sp.sin(k * F))
 b2_printed = (sp.sin(k * F), sp.cos(k * F))
-fields = (*b1_printed, *b2_printed)
 
 
 @claim(
@@ -97,28 +62,28 @@ def dithers(goal: Goal) -> Evidence:
 
 
 @claim(
-    "5/step3-split", "The printed fields are those that the pipeline splits off",
+    "5/step3-split", "The printed fields are those of the general form at z = l(x) = F(x)",
     every(
-        *(eq(sp.Matrix(printed), sp.Matrix(derived)) for printed, derived in
-          zip((b1_printed, b2_printed), chain.dithered.fields, strict=True)),
-        *(eq(printed, derived) for printed, derived in
-          zip((sp.cos(chain.dithered.phase), sp.sin(chain.dithered.phase)), chain.dithered.dithers, strict=True)),
+        *(eq(printed, sp.Subs(entry, z, F)) for printed, entry in
+          zip((*b1_printed, *b2_printed), (*b1, *b2), strict=True)),
     ),
-    labels=["eq:reduced_model_tau_2"], uses=[dithers],
+    labels=["eq:reduced_model_tau_2"], uses=[dithers, general_form],
 )  # fmt: skip
 def fields_split(goal: Goal) -> Evidence:
-    """The coefficients of cos ωτ and sin ωτ in the reduced model."""
+    """What stands over the braces is b₁(τ, x, z) and b₂(τ, x, z) of Step 2, composed with the quasi-steady state."""
     return exact(goal)
 
 
 # b₀ is the drift of the dithered system, from the pipeline; the term is what stands over the brace.
-b0 = [entry.subs(tau, slow) for entry in chain.dithered.drift]
+b0_slow = [entry.subs(tau, slow) for entry in chain.dithered.drift]
 drift_term = [mu * f_fast[i] / stretch_fast**2 for i in (0, 1)]
 
 
 @claim(
     "5/step3-drift-brace-printed", "The drift term is b₀/μ, as the brace under it says",
-    eq(sp.Matrix(drift_term), sp.Matrix(b0) / mu), labels=["eq:reduced_model_tau_2"], expected="refuted",
+    eq(sp.Matrix(drift_term), sp.Matrix(b0_slow) / mu), labels=["eq:reduced_model_tau_2"], expected="refuted",
+    grade="misprint", wrong="The brace under the drift term divides b₀ by μ where it should multiply it.",
+    survives="Yes: the Lie bracket system is written at μ = 1, where both are the same.",
 )  # fmt: skip
 def drift_brace_printed(goal: Goal) -> Evidence:
     """In the general system the drift enters as μb₀. The brace divides by μ where it should multiply; at μ = 1, where
@@ -129,8 +94,8 @@ def drift_brace_printed(goal: Goal) -> Evidence:
 @claim(
     "5/step3-drift-brace", "The drift term is μb₀, with b₀ = f/(1 + (τ − t₀)/T)²",
     every(
-        eq(sp.Matrix(drift_term), mu * sp.Matrix(b0)),
-        eq(sp.Matrix([f_tau[i] / stretch**2 for i in (0, 1)]), sp.Matrix(chain.dithered.drift)),
+        eq(sp.Matrix(drift_term), mu * sp.Matrix(b0_slow)),
+        eq(sp.Matrix(b0), sp.Matrix(chain.dithered.drift)),
     ),
     given=[*IN_FAST_TIME, *IN_TAU], labels=["eq:reduced_model_tau_2"], corrects=drift_brace_printed,
 )  # fmt: skip
@@ -140,21 +105,24 @@ def drift_brace(goal: Goal) -> Evidence:
 
 
 @claim(
-    "5/step3-bracket", "[b₁, b₂] = k∇F",
+    "5/step3-bracket", "The bracket of the composed fields is k∇F",
     eq(k * chain.gradient_F, sp.Matrix(lie_bracket(b1_printed, b2_printed, position))),
     place="Step 3", uses=[dithers],
 )  # fmt: skip
 def bracket(goal: Goal) -> Evidence:
-    """The two fields are a rotation of the plane by the angle −kF, which the bracket turns into the gradient."""
+    """b₁ and b₂ at z = F(x) are the columns of a rotation by the angle −kF, which the bracket turns into the
+    gradient."""
     return exact(goal)
 
 
 @claim(
     "5/step3-coefficient", "v₂₁ = 1/2 for the seeker's dithers",
-    eq(iterated_integral(sp.sin(phase), sp.cos(phase)), sp.Rational(1, 2)), place="Step 3", uses=[iterated_integrals],
+    eq(iterated_integral(*(wave.subs(chain.dithered.phase, phase) for wave in chain.dithered.dithers[::-1])), HALF),
+    place="Step 3", uses=[iterated_integrals],
 )  # fmt: skip
 def coefficient(goal: Goal) -> Evidence:
-    """u₁ = cos and u₂ = sin, with the period 2π in the phase."""
+    """The two dithers that the pipeline finds in the reduced model, the second outside, with the period 2π in the
+    phase."""
     return integrals(goal)
 
 
@@ -164,137 +132,39 @@ averaged_printed = sp.Matrix([f_tau[i] / stretch**2 + k / 2 * chain.gradient_F[i
 @claim(
     "5/step3-lie-bracket-system", "The averaged system", eq(averaged_printed, chain.averaged_tau.vector),
     given=IN_TAU, labels=["eq:lie_bracket_system_real"],
-    uses=[dithers, fields_split, bracket, coefficient, lie_bracket_system],
+    uses=[dithers, fields_split, bracket, coefficient, lie_bracket_system, bracket_of_composed_fields],
 )  # fmt: skip
 def averaged_system(goal: Goal) -> Evidence:
     """The end of the pipeline from the closed loop in t: drift over the square of the stretch, plus half of k∇F."""
     return exact(goal)
 
 
+_drift = sp.Matrix([f_tau[i] / stretch**2 for i in (0, 1)])
+
+
 @claim(
-    "5/step3-by-hand", "The averaged system from the printed fields, bracket and coefficient",
+    "5/step3-bracket-at-z-printed", "The averaged system by the bracket of the fields of (τ, x, z), at z = F(x)",
     eq(
         averaged_printed,
-        sp.Matrix([f_tau[i] / stretch**2 for i in (0, 1)])
-        + sp.Matrix(lie_bracket(b1_printed, b2_printed, position)) * sp.Rational(1, 2),
+        _drift + v21 * sp.Matrix([sp.Subs(entry, z, F) for entry in lie_bracket(b1, b2, position)]),
     ),
-    given=IN_TAU, labels=["eq:lie_bracket_system_real"], uses=[bracket, coefficient],
+    given=[*IN_TAU, *coefficient_is_half], labels=["eq:lie_bracket_system_real"], uses=[general_form, coefficient],
+    expected="refuted", grade="definition",
+    wrong="As the Lie bracket system is defined, the seeker's bracket is formed with z held, and is 0.",
+    survives="Yes: Step 3 forms the bracket after z = F(x) is put in, and averages the reduced model.",
+)  # fmt: skip
+def bracket_at_z_printed(goal: Goal) -> Evidence:
+    """b₁(τ, x, z) and b₂(τ, x, z) depend on z alone, so that their bracket in x is 0 and nothing would pull to the
+    source. All of k∇F comes from z = F(x)."""
+    return refute(goal, {f[0]: 0, f[1]: 0, F: x1, v21: HALF, x1: 0, x2: 0, t0: 0, tau: 0, T: 1, k: 1})
+
+
+@claim(
+    "5/step3-by-hand", "The averaged system from the printed fields, bracket and coefficient",
+    eq(averaged_printed, _drift + v21 * sp.Matrix(lie_bracket(b1_printed, b2_printed, position))),
+    given=[*IN_TAU, *coefficient_is_half], labels=["eq:lie_bracket_system_real"], uses=[bracket, coefficient],
+    corrects=bracket_at_z_printed,
 )  # fmt: skip
 def averaged_by_hand(goal: Goal) -> Evidence:
-    """The same without the averaging engine: b₀ + [b₁, b₂] v₂₁."""
+    """The same without the averaging engine: b₀ + [b₁, b₂] v₂₁ with the fields at z = F(x)."""
     return exact(goal)
-
-
-# --- Assumption 1 for the seeker ----------------------------------------------------------------------------
-
-
-@claim(
-    "5/assumption-a-fields", "Assumption 1A: the dithered fields are twice continuously differentiable",
-    Smooth(fields, position, 2, ((F, 2),)), place="Assumption 1A", uses=[fields_split],
-)  # fmt: skip
-def assumption_a(goal: Goal) -> Evidence:
-    """Compositions of F, which Assumption 2 takes in C², with sine and cosine."""
-    return smooth(goal)
-
-
-@claim(
-    "5/assumption-b-fields", "Assumption 1B: the dithered fields are bounded, with derivatives bounded by k‖∇F‖",
-    every(
-        *(le(entry**2, 1) for entry in fields),
-        *(le(sp.diff(entry, v) ** 2, k**2 * sp.diff(F, v) ** 2) for entry in fields for v in position),
-        *(eq(sp.diff(entry, tau), 0) for entry in fields),
-    ),
-    place="Assumption 1B", uses=[fields_split],
-)  # fmt: skip
-def assumption_b_fields(goal: Goal) -> Evidence:
-    """On a compact set ∇F is bounded because it is continuous; the fields don't depend on time. The bracket k∇F has the
-    continuous derivative k times the Hessian of F."""
-    return reals(goal)
-
-
-A = sp.Symbol("A", positive=True)
-
-
-@claim(
-    "5/assumption-b-drift-printed", "Assumption 1B asks for a bound of b₀ at every real τ",
-    Exists((A,), (le(1 / stretch**2, A),), over=(tau,)), place="Assumption 1B", expected="refuted",
-)  # fmt: skip
-def assumption_b_drift_printed(goal: Goal) -> Evidence:
-    """b₀ = f/(1 + (τ − t₀)/T)² has a pole at τ = t₀ − T, so with a drift the assumption fails as it is written, for all
-    τ in ℝ. The theorem is applied on τ ≥ t₀ only, where it holds."""
-    return defeats_every_choice(goal, {tau: t0 - T + T / (A + 1)})
-
-
-@claim(
-    "5/assumption-b-drift", "Assumption 1B on I_τ: the drift term is at most the drift",
-    every(le(f_norm / stretch**2, f_norm), ge(f_norm / stretch**2, 0)), given=[ge(tau, t0)],
-    place="Assumption 1B", corrects=assumption_b_drift_printed,
-)  # fmt: skip
-def assumption_b_drift(goal: Goal) -> Evidence:
-    """From the initial time on the factor is at most 1."""
-    return reals(goal)
-
-
-@claim(
-    "5/assumption-c", "Assumption 1C: the dithers are bounded by 1 and don't depend on the slow time",
-    every(
-        le(sp.cos(phase) ** 2, 1), le(sp.sin(phase) ** 2, 1),
-        eq(sp.diff(sp.cos(phase), tau), 0), eq(sp.diff(sp.sin(phase), tau), 0),
-    ),
-    place="Assumption 1C",
-)  # fmt: skip
-def assumption_c(goal: Goal) -> Evidence:
-    """So every positive Lipschitz constant in the slow time will do."""
-    return reals(goal)
-
-
-_s = sp.Symbol("s", real=True)
-
-
-@claim(
-    "5/assumption-d-period", "Assumption 1D: the dithers have the period 2π",
-    every(*(eq(sp.Subs(wave(_s), _s, phase + 2 * sp.pi), wave(phase)) for wave in (sp.cos, sp.sin))),
-    place="Assumption 1D",
-)  # fmt: skip
-def assumption_d_period(goal: Goal) -> Evidence:
-    """T_f = 2π in the phase ωτ."""
-    return exact(goal)
-
-
-@claim(
-    "5/assumption-d-mean", "Assumption 1D: the dithers have zero mean",
-    every(eq(sp.Integral(sp.cos(_s), (_s, 0, 2 * sp.pi)), 0), eq(sp.Integral(sp.sin(_s), (_s, 0, 2 * sp.pi)), 0)),
-    place="Assumption 1D",
-)  # fmt: skip
-def assumption_d_mean(goal: Goal) -> Evidence:
-    """Over one period."""
-    return integrals(goal)
-
-
-@claim(
-    "5/assumption-e", "Assumption 1E: the fast rate is continuously differentiable, so locally Lipschitz",
-    Smooth((F - z,), (x1, x2, z), 1, ((F, 2),)), place="Assumption 1E", uses=[fast_time],
-)  # fmt: skip
-def assumption_e(goal: Goal) -> Evidence:
-    """g(x, z) = F(x) − z with F in C²."""
-    return smooth(goal)
-
-
-@claim(
-    "5/assumption-f", "Assumption 1F: the quasi-steady state is twice continuously differentiable",
-    Smooth((F,), position, 2, ((F, 2),)), place="Assumption 1F", uses=[quasi_steady_state])  # fmt: skip
-def assumption_f(goal: Goal) -> Evidence:
-    """l = F; that it is the only one is a claim of Step 2."""
-    return smooth(goal)
-
-
-assumption_1 = (
-    assumption_a, assumption_b_fields, assumption_b_drift, assumption_c, assumption_d_period, assumption_d_mean,
-    assumption_e, assumption_f, quasi_steady_state,
-)  # fmt: skip
-
-qualitative = claim(
-    "5/step3-mu-one", "Setting μ = 1 in the Lie bracket system does not change its stability",
-    Prose("μ only scales the time of the reduced model, so its stability may be studied at μ = 1"),
-    expected="cited", place="Step 3", uses=[averaged_system],
-)(cited("Dürr, Krstić, Scheinker, Ebenbauer: singularly perturbed Lie bracket approximation"))  # fmt: skip

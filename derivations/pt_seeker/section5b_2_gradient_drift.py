@@ -1,4 +1,4 @@
-"""Section 5, Theorem 2, Steps 4 to 6: gradient drift, the averaging theorem, and back to the original time."""
+"""Section 5, Theorem 2, Step 4: gradient drift."""
 
 from __future__ import annotations
 
@@ -13,7 +13,6 @@ from ptproof.proof import (
     comparison,
     eq,
     every,
-    exact,
     exp_monotone,
     ge,
     gt,
@@ -24,7 +23,6 @@ from ptproof.proof import (
     specialise,
 )
 
-from . import chain
 from .notation import (
     R0,
     V0,
@@ -42,16 +40,9 @@ from .notation import (
     t0,
     tau,
     x1,
-    y_tilde,
 )  # fmt: skip
-from .section2_averaging import averaging_theorem
-from .section2_averaging import boundary_layer as general_boundary_layer
-from .section2_change_of_time import contraction_rate
 from .section3_problem import spectral_norm
-from .section4_design import closed_loop_in_t
-from .section5a_1_reduction import boundary_layer, stretch
-from .section5a_2_averaging import assumption_1, qualitative
-from .section5a_bounds import assumption_a_drift, assumption_b_drift_derivatives
+from .section5a_1_reduction import stretch
 from .section5b_1_lyapunov import (
     ONE,
     V_dot,
@@ -61,7 +52,6 @@ from .section5b_1_lyapunov import (
     derivative_given,
     gradient_between,
     gradient_bounds,
-    lyapunov_theorem,
     on_interval,
     s,
     v_bounds,
@@ -183,49 +173,3 @@ guas = claim(
     Prose("x* is globally uniformly asymptotically stable for the averaged system in τ, by the class-KL bound"),
     expected="cited", place="Step 4, case ii", uses=[distance_bound_tau, distance_limit, uniform],
 )(cited("Khalil, Nonlinear Systems, Lemma 4.5: a class-KL bound that is uniform in the initial time"))  # fmt: skip
-
-# --- Steps 5 and 6 ------------------------------------------------------------------------------------------
-
-V_layer = y_tilde**2 / 2
-
-
-@claim(
-    "5/step5-layer-rate", "The boundary layer's Lyapunov function",
-    eq(-(y_tilde**2), chain.boundary_layer.derivative_along(V_layer)),
-    labels=["eq:blm_req_2"], uses=[boundary_layer, general_boundary_layer],
-)  # fmt: skip
-def layer_rate(goal: Goal) -> Evidence:
-    """V(ỹ) = ỹ²/2 decreases at the rate ỹ², which is a class-K function of |ỹ|."""
-    return exact(goal)
-
-
-@claim(
-    "5/step5-layer-bounds", "It lies between class-K∞ functions, and so does its rate",
-    every(
-        le(sp.Abs(y_tilde) ** 2 / 2, V_layer), le(V_layer, sp.Abs(y_tilde) ** 2 / 2),
-        le(chain.boundary_layer.derivative_along(V_layer), -(sp.Abs(y_tilde) ** 2)),
-    ),
-    labels=["eq:blm_req_1", "eq:blm_req_2"], uses=[layer_rate],
-)  # fmt: skip
-def layer_bounds(goal: Goal) -> Evidence:
-    """α₁ = α₂ = s²/2 and α₃ = s²."""
-    return reals(goal)
-
-
-step_five = claim(
-    "5/step5-averaging-applies", "The source is sSPUAS for the closed loop in dilated time",
-    Prose("By Theorem 1 the source is singularly semi-globally practically uniformly asymptotically stable for the "
-          "closed loop in τ, in both cases of Theorem 2"),
-    expected="cited", place="Step 5",
-    uses=[
-        averaging_theorem, *assumption_1, assumption_a_drift, assumption_b_drift_derivatives, layer_bounds,
-        lyapunov_theorem, guas, qualitative,
-    ],
-)(cited("the paper's Theorem 1, whose hypotheses are the claims listed"))  # fmt: skip
-
-main_theorem = claim(
-    "5/main-theorem", "Theorem 2: prescribed-time seeking under vanishing drift",
-    Prose("The source is FxT-sSPUAS for the closed loop in t, without drift for every κ, and with drift E∇F for κ = 1"),
-    expected="cited", labels=["thm:main_theorem"], place="Theorem 2",
-    uses=[step_five, closed_loop_in_t, contraction_rate],
-)(cited("Step 5 and the time contraction, which is increasing and carries trajectories to trajectories"))  # fmt: skip

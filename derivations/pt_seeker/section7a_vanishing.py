@@ -161,7 +161,9 @@ largest = 2 * sp.pi**2 / 9 + 1
 
 @claim(
     "7.1/drift-matrix", "The derivative of the drift at the source, as printed", eq(derivative, printed_matrix),
-    given=at_source, labels=["eq:drift_term"], expected="refuted",
+    given=at_source, labels=["eq:drift_term"], expected="refuted", grade="number",
+    wrong="The factor 2 stands in front of the sum π²/9 + 1; it belongs to π²/9 alone.",
+    survives="Yes: the drift is unstable with the right matrix as well, and no bound uses the number.",
 )  # fmt: skip
 def drift_matrix(goal: Goal) -> Evidence:
     """The factor 2 belongs to π²/9 alone: differentiating F twice, the quadratic term contributes 1, not 2."""
@@ -181,6 +183,8 @@ def drift_matrix_corrected(goal: Goal) -> Evidence:
 @claim(
     "7.1/eigenvalue-1", "λ₁ ≈ 4.19, as printed", le(sp.Abs(eigenvalue - sp.Rational("4.19")), half_unit),
     given=[characteristic, other_one], labels=["eq:drift_term"], expected="refuted", place="Section 7.1",
+    grade="number", wrong="The eigenvalue is that of the matrix as printed; the drift has 2π²/9 + 1 ≈ 3.19.",
+    survives="Yes: it is positive, which is all that is used.",
 )  # fmt: skip
 def eigenvalue_1(goal: Goal) -> Evidence:
     """This is the eigenvalue of the matrix as printed, not of the derivative of the drift."""

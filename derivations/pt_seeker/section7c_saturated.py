@@ -148,7 +148,9 @@ chosen = {S: sp.Integer(4), epsilon: sp.Rational("0.0004")}
 
 @claim(
     "7.3/acceleration-at-4", "The angular acceleration is saturated at ±4, as printed",
-    le(sp.Abs(acceleration.subs(chosen)), 4), labels=["eq:sat_acc"], expected="refuted", place="Section 7.3",
+    le(sp.Abs(acceleration.subs(chosen)), 4), expected="refuted", place="Section 7.3", grade="wording",
+    wrong="Said of the angular acceleration, ±4 is the level of the signal that 1/ε multiplies.",
+    survives="Yes: nothing is derived from it; the equation is right.",
 )  # fmt: skip
 def acceleration_at_4(goal: Goal) -> Evidence:
     """What is saturated at ±4 is the signal that 1/ε multiplies. With the parameters of the example and the filter at

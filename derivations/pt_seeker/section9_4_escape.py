@@ -15,7 +15,6 @@ from ptproof.proof import (
     claim,
     comparison,
     eq,
-    every,
     exact,
     ge,
     gt,

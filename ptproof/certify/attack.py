@@ -18,7 +18,7 @@ import sympy as sp
 from ptproof.certify.certificate import FieldCertificate, Range
 from ptproof.problem.field import Field
 from ptproof.proof.attack import Place, WrongPromise
-from ptproof.proof.attack.numbers import Number
+from ptproof.proof.attack.numbers import Number, exact, undisturbed
 from ptproof.proof.attack.worth import NO_VALUE, NOT_KNOWN, as_float
 from ptproof.proof.verdict import Verdict
 
@@ -42,7 +42,8 @@ def attack_certificate(certificate: FieldCertificate, *, seed: int = 0, rays: in
     count = 0
     for promised in (certificate, certificate.smaller):
         if promised is not None and any(map(_ends, _ranges(promised))):
-            count += _Attack(promised, random.Random(f"ptproof:{seed}")).run(rays)
+            with undisturbed():
+                count += _Attack(promised, random.Random(f"ptproof:{seed}")).run(rays)
     return count
 
 
@@ -128,7 +129,7 @@ class _Attack:
     def _place(self, direction: Sequence[Fraction], radius: Fraction) -> Place:
         numbers = Place({}).calculus.numbers
         values = {
-            variable: numbers.add([middle, part * radius])
+            variable: numbers.add([middle, exact(part * radius)])
             for variable, middle, part in zip(self.field.variables, self.source, direction, strict=True)
         }
         return Place(values)
@@ -147,11 +148,11 @@ class _Attack:
             if self.certificate.verdict is not Verdict.PROVED:
                 return None  # an end that is known so far says nothing of places without a value
             raise self._wrong("the field has a value there", place, str(error)) from None
-        slope = numbers.power(numbers.add([numbers.mul(part, part) for part in parts]), Fraction(1, 2))
+        slope = numbers.power(numbers.add([numbers.mul(part, part) for part in parts]), exact(Fraction(1, 2)))
         kappa = int(self.field.kappa)
         values = (
-            numbers.mul(drop, numbers.power(square, Fraction(-kappa))),
-            numbers.mul(slope, numbers.power(square, Fraction(1 - 2 * kappa, 2))),
+            numbers.mul(drop, numbers.power(square, exact(-kappa))),
+            numbers.mul(slope, numbers.power(square, exact(Fraction(1 - 2 * kappa, 2)))),
         )
         for quotient, value in zip(self.quotients, values, strict=True):
             if quotient.largest is not None and place.exceeds(value, quotient.largest):
@@ -166,7 +167,7 @@ class _Attack:
         domain = self.certificate.domain
         ends = [(domain.inner, 1)] + ([] if domain.outer is None else [(domain.outer, -1)])
         return all(
-            numbers.sign(numbers.mul(Fraction(side), numbers.sub(square, place.value(sp.Pow(end, 2))))) >= 0
+            numbers.sign(numbers.mul(exact(side), numbers.sub(square, place.value(sp.Pow(end, 2))))) >= 0
             for end, side in ends
         )
 

@@ -160,6 +160,8 @@ def _put(node: sp.Basic, symbols: Mapping[sp.Symbol, sp.Expr], functions: Functi
     if not node.args or not (node.free_symbols & symbols.keys() or _calls(node, functions)):
         return node
     match node:
+        case sp.Derivative() if not all(isinstance(variable, sp.Symbol) for variable in node.variables):
+            return _put(_by_a_letter(node), symbols, functions)
         case sp.Derivative():
             return _put_derivative(node, symbols, functions)
         case sp.Integral() | sp.Sum() | sp.Product():
@@ -225,8 +227,6 @@ def _put_limits(node: Any, symbols: Mapping[sp.Symbol, sp.Expr], functions: Func
 
 
 def _put_derivative(node: sp.Derivative, symbols: Mapping[sp.Symbol, sp.Expr], functions: Functions) -> sp.Expr:
-    if not all(isinstance(variable, sp.Symbol) for variable in node.variables):
-        return _put(_by_symbols(node), symbols, functions)
     inside, within = node.expr, dict(symbols)
     names, points = [], []
     for variable, count in node.variable_count:
@@ -249,21 +249,15 @@ def _put_derivative(node: sp.Derivative, symbols: Mapping[sp.Symbol, sp.Expr], f
     return sp.Subs(derivative, *zip(*left, strict=True)) if left else derivative
 
 
-def _by_symbols(node: sp.Derivative) -> sp.Subs:
-    """A derivative with respect to the value of a function: that of the expression with a letter for the value, there.
-
-    >>> s = sp.Symbol("s", real=True)
-    >>> g, X = sp.Function("g"), sp.Function("X")
-    >>> print(_by_symbols(sp.Derivative(g(s, X(s)), X(s))))
-    Subs(Derivative(g(s, X_1), X_1), X_1, X(s))
-    """
-    letters = {
-        variable: sp.Symbol(_fresh(sp.Symbol(variable.func.__name__), [node]).name, real=True)
-        for variable in dict.fromkeys(node.variables) if not isinstance(variable, sp.Symbol)
-    }  # fmt: skip
-    counted = ((letters.get(variable, variable), count) for variable, count in node.variable_count)
-    derivative = sp.Derivative(node.expr.xreplace(letters), *counted)
-    return sp.Subs(derivative, list(letters.values()), list(letters))
+def _by_a_letter(node: sp.Derivative) -> sp.Subs:
+    """∂g/∂l(x), as SymPy's chain rule writes it, as a derivative by a letter that then gets the value l(x)."""
+    place = node.variables[0]
+    if set(node.variables) != {place} or not isinstance(place, AppliedUndef) or not place.is_real:
+        raise InputError(f"values cannot be put into {node}, a derivative by what is not one function")
+    if node.expr.has(*BINDERS):
+        raise InputError(f"values cannot be put into {node}, where it may be asked whether {place} varies")
+    letter = _fresh(sp.Symbol(place.func.__name__, real=True), [node.expr])
+    return sp.Subs(sp.Derivative(node.expr.xreplace({place: letter}), (letter, len(node.variables))), letter, place)
 
 
 def _bodies(functions: Functions) -> list[sp.Expr]:

@@ -16,7 +16,7 @@ from ptproof.proof.substitution import NotOfKind, Substitution, replaced
 
 x, y, c = sp.symbols("x y c", real=True)
 a = sp.Symbol("a", positive=True)
-F = sp.Function("F", real=True)
+F, G = sp.Function("F", real=True), sp.Function("G", real=True)
 
 
 @pytest.mark.parametrize(("values", "expression", "value"), [
@@ -33,9 +33,23 @@ F = sp.Function("F", real=True)
     ({F(x): y * x}, sp.Integral(F(y), (y, 0, 1)), y / 2),
     ({c: 1, F(x): x + 1}, F(c) + c, 3),
     ({c: x, x: c}, c - 2 * x, x - 2 * c),
+    ({G(x, y): y}, sp.Derivative(G(x, F(x)), F(x)), 1),
+    ({G(x, y): x * y**3}, sp.Derivative(G(x, F(x)), (F(x), 2)), 6 * x * F(x)),
+    ({G(x, y): x * y**2, F(x): c * x}, sp.diff(G(x, F(x)), x), 3 * c**2 * x**2),
+    ({G(x, y): x * y**2, F(x): c * x, x: 2}, sp.Derivative(G(x, F(x)), F(x)), 8 * c),
 ])  # fmt: skip
 def test_nothing_is_caught(values: Any, expression: sp.Expr, value: Any) -> None:
     assert sp.simplify(Substitution(values).into(expression).doit() - value) == 0
+
+
+@pytest.mark.parametrize("derivative", [
+    sp.Derivative(F(x) * sp.Derivative(F(x), x), F(x)),  # does the derivative vary with F(x)?
+    sp.Derivative(G(x, F(x)), x, F(x)),
+    sp.Derivative(sp.Function("H")(x) ** 2, sp.Function("H")(x)),  # not known to be real
+])  # fmt: skip
+def test_a_derivative_by_a_function_without_one_meaning_is_refused(derivative: sp.Expr) -> None:
+    with pytest.raises(InputError, match="values cannot be put into"):
+        Substitution({x: 1}).into(derivative)
 
 
 def test_the_same_question_has_the_same_answer() -> None:

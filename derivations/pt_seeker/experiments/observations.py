@@ -25,8 +25,8 @@ HEADINGS = 72
 _RTOL = 1e-8
 # Two hover radii: the neighbourhood of the source that counts as having reached it.
 _NEAR = 2.0
-# Where a search for an arrival ends, and the time between two looks. [s]
-_ENDS, _STEP = (1.0, 4.0, 12.0), 0.004
+# Where a search for an arrival ends, the time between two looks, and that of the run until it is asked for more. [s]
+_END, _STEP, _PIECE = 12.0, 0.004, 0.5
 
 
 @dataclass(frozen=True)
@@ -187,14 +187,21 @@ def acceleration_saturates(count: int = HEADINGS // 3) -> Statement:
 def arrivals(seeker: str, count: int) -> Array:
     """When the distance first falls to two hover radii (count), up to t = 12; infinity if it doesn't."""
     problem = example("saturated")
+    system, states = problem.closed_loop(seeker), problem.states
+    x = {symbol.name: float(value) for symbol, value in zip(problem.variables, problem.initial.x, strict=True)}
+    z = float(field_function(problem.field)(np.array(list(x.values()))[:, None])[0])
+    start = x | {states.angular_velocity.name: float(problem.initial.u2), states.filter.name: z}
 
     def arrival(heading: float) -> float:
-        for until in _ENDS:  # most have arrived long before the last
-            options: Any = {"until": until, "samples": round(until / _STEP), "rtol": 1e-7}
-            run = simulate("saturated", seeker, initial={"theta": heading}, **options)
+        state, time = start | {states.heading.name: heading}, 0.0
+        while time < _END:  # in pieces: most have arrived long before the end
+            span: Any = (time, time + _PIECE)
+            run = simulate(system, initial=state, span=span, samples=round(_PIECE / _STEP), rtol=1e-7)
             near = np.linalg.norm(run.x[:2], axis=0) <= _near(problem)
             if near.any():
                 return float(run.t[np.argmax(near)])
+            last = {symbol.name: float(value) for symbol, value in zip(system.state, run.x[:, -1], strict=True)}
+            state, time = last, float(run.t[-1])
         return np.inf
 
     return np.array([arrival(heading) for heading in headings(count)])

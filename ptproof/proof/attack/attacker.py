@@ -15,7 +15,8 @@ from ptproof.proof.attack.evaluator import Evaluator
 from ptproof.proof.attack.exact import exact_values
 from ptproof.proof.attack.kinds import holds
 from ptproof.proof.attack.limiting import Grows
-from ptproof.proof.attack.numbers import NotReal, Undefined, Unsure, size
+from ptproof.proof.attack.magnitudes import size, spread
+from ptproof.proof.attack.numbers import NotReal, Undefined, Unsure, undisturbed
 from ptproof.proof.attack.preparation import Prepared, prepared
 from ptproof.proof.attack.quantified import satisfied
 from ptproof.proof.attack.roughness import rough
@@ -89,8 +90,12 @@ def attack(goal: Goal, *, seed: int = 0, points: int = POINTS, seconds: float = 
             return Attack(0, 0, None, "not attacked: a statement in words")
         case Exists():
             return Attack(0, 0, None, "not attacked: no choice can be shown to be the wrong one by trying")
-    ready = prepared(goal)
-    count, tried, end = 0, 0, time.process_time() + seconds
+    with undisturbed():
+        return _attacked(goal, prepared(goal), seed, points, time.process_time() + seconds)
+
+
+def _attacked(goal: Goal, ready: Prepared, seed: int, points: int, end: float) -> Attack:
+    count, tried = 0, 0
     if ready.smooth:
         points = min(points, _SMOOTH_POINTS)
     for point in _candidates(ready, goal, seed, end):
@@ -113,7 +118,9 @@ def points_of(
     ready = prepared(goal)
     found = 0
     for point in _candidates(ready, goal, seed, time.process_time() + seconds):
-        if point is not None and _confirmed(ready, point):
+        with undisturbed():
+            confirmed = point is not None and _confirmed(ready, point)
+        if point is not None and confirmed:
             yield exact_values(ready, point)
             found += 1
             if found >= points:
@@ -123,7 +130,7 @@ def points_of(
 def _candidates(ready: Prepared, goal: Goal, seed: int, end: float) -> Iterator[Point | None]:
     """Points and misses, until the work is done: the same number of them on every machine, where ``end`` is not met."""
     misses, found = 0, 0
-    sampler = Sampler(ready, f"{goal.id}:{seed}")
+    sampler = Sampler(ready, goal.id, seed)
     for point in sampler.points():
         yield point
         misses, found = (misses + 1, found) if point is None else (0, found + 1)
@@ -189,7 +196,7 @@ def _agree(part: Relation, evaluator: Evaluator) -> bool:
         )
     except MISSES:
         return False
-    return size(apart.middle) <= apart.error + 1 and apart.error < -15
+    return size(apart) <= spread(apart) + 1 and spread(apart) < -15
 
 
 def _relation_holds(part: Relation, evaluator: Evaluator) -> bool:

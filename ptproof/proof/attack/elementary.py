@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from fractions import Fraction
 from typing import Any
 
-from ptproof.proof.attack.numbers import NotReal, Number
-from ptproof.proof.attack.series import ONE, ZERO, Calculus, Value, base
+from ptproof.proof.attack.numbers import ONE, ZERO, Exact, NotReal, Number
+from ptproof.proof.attack.series import HALF, Calculus, Value, base
 
 
 def fits(declared: Any, value: Number, calculus: Calculus) -> bool:
     """Whether a value is one that a symbol, or an applied undefined function, was declared to take."""
-    if declared.is_integer and not (isinstance(value, Fraction) and value.denominator == 1):
+    if declared.is_integer and not (type(value) is Exact and value.q == 1):
         return False
-    if declared.is_integer is False and isinstance(value, Fraction) and value.denominator == 1:
+    if declared.is_integer is False and type(value) is Exact and value.q == 1:
         return False
     signs = {"positive": (1,), "negative": (-1,), "zero": (0,), "nonnegative": (0, 1), "nonpositive": (-1, 0)}
     sign = calculus.numbers.sign(value) if any(getattr(declared, f"is_{word}") is not None for word in signs) else 0
@@ -29,8 +28,7 @@ def _quotient(calculus: Calculus, sine: bool, value: Value) -> Value:
 def _hyperbolic(calculus: Calculus, value: Value) -> tuple[Value, Value]:
     up = calculus.exp(value)
     down = calculus.exp(calculus.neg(value))
-    half = Fraction(1, 2)
-    return calculus.mul(half, calculus.sub(up, down)), calculus.mul(half, calculus.add([up, down]))
+    return calculus.mul(HALF, calculus.sub(up, down)), calculus.mul(HALF, calculus.add([up, down]))
 
 
 def _tanh(calculus: Calculus, value: Value) -> Value:
@@ -39,26 +37,25 @@ def _tanh(calculus: Calculus, value: Value) -> Value:
 
 
 def _arcosine(calculus: Calculus, value: Value) -> Value:
-    if value == 1:
+    if type(value) is Exact and value == ONE:
         return ZERO
-    right = calculus.numbers.constant(calculus.numbers.mp.pi / 2)
-    return calculus.sub(right, calculus.arcsine(value))
+    return calculus.sub(calculus.right_angle(), calculus.arcsine(value))
 
 
 def _arsinh(calculus: Calculus, value: Value) -> Value:
-    root = calculus.power(calculus.add([calculus.mul(value, value), ONE]), Fraction(1, 2))
+    root = calculus.power(calculus.add([calculus.mul(value, value), ONE]), HALF)
     return calculus.log(calculus.add([value, root]))
 
 
 def _artanh(calculus: Calculus, value: Value) -> Value:
     ratio = calculus.mul(calculus.add([ONE, value]), calculus.inverse(calculus.sub(ONE, value)))
-    return calculus.mul(Fraction(1, 2), calculus.log(ratio))
+    return calculus.mul(HALF, calculus.log(ratio))
 
 
 def _arcosh(calculus: Calculus, value: Value) -> Value:
     if calculus.numbers.sign(calculus.numbers.sub(base(value), ONE)) < 0:
         raise NotReal("the area cosine of a number below 1")
-    root = calculus.power(calculus.sub(calculus.mul(value, value), ONE), Fraction(1, 2))
+    root = calculus.power(calculus.sub(calculus.mul(value, value), ONE), HALF)
     return calculus.log(calculus.add([value, root]))
 
 

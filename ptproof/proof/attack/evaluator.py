@@ -9,9 +9,8 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable, Mapping
-from fractions import Fraction
 from functools import lru_cache
-from typing import Any
+from typing import Any, TypeAlias
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -19,14 +18,14 @@ from sympy.core.function import AppliedUndef
 from ptproof.proof.attack.elementary import UNARY, fits
 from ptproof.proof.attack.functions import Concrete
 from ptproof.proof.attack.limiting import integral, limit
-from ptproof.proof.attack.numbers import NotReal, Number, Undefined, Unsure
+from ptproof.proof.attack.numbers import ONE, ZERO, Exact, NotReal, Number, Undefined, Unsure
 from ptproof.proof.attack.scope import Inadmissible, Scope, Work
-from ptproof.proof.attack.series import ONE, ZERO, Calculus, Series, Value, base
+from ptproof.proof.attack.series import Calculus, Series, Value, base, hashable
 
 
 @lru_cache(maxsize=4096)
-def _rational(node: sp.Rational) -> Fraction:
-    return Fraction(int(node.p), int(node.q))
+def _rational(node: sp.Rational) -> Exact:
+    return Exact(int(node.p), int(node.q))
 
 
 class Evaluator:
@@ -51,25 +50,21 @@ class Evaluator:
     def value(self, expression: sp.Expr, scope: Scope) -> Value:
         found = scope.known.get(expression)
         if found is None:
-            self.work.steps += 1
-            if self.work.steps > self.work.limit:
+            work = self.work
+            work.steps += 1
+            if work.steps > work.limit:
                 raise Unsure("too much work")
-            found = scope.known[expression] = self._value(expression, scope)
+            handler = _HANDLERS.get(type(expression)) or _handler(expression)
+            found = scope.known[expression] = handler(self, expression, scope)
         return found
 
-    def _value(self, node: sp.Expr, scope: Scope) -> Value:
-        if node.is_Symbol:
-            if node not in scope.symbols:
-                raise Unsure(f"{node} has no value")
-            return scope.symbols[node]
-        if node.is_Rational:
-            return _rational(node)
-        if isinstance(node, AppliedUndef):
-            return self._applied(node, scope)
-        handler = _NODES.get(type(node).__name__)
-        if handler is None:
-            raise Unsure(f"{type(node).__name__} is not evaluated")
-        return handler(self, node, scope)
+    def _symbol(self, node: sp.Expr, scope: Scope) -> Value:
+        if node not in scope.symbols:
+            raise Unsure(f"{node} has no value")
+        return scope.symbols[node]
+
+    def _number(self, node: sp.Rational, scope: Scope) -> Value:
+        return _rational(node)
 
     def _applied(self, node: AppliedUndef, scope: Scope) -> Value:
         if node in scope.symbols:
@@ -99,9 +94,8 @@ class Evaluator:
         return self.calculus.add([self.value(part, scope) for part in node.args])
 
     def _mul(self, node: sp.Expr, scope: Scope) -> Value:
-        values = [
-            self.value(part, scope) for part in node.args
-        ]  # all of them: 0 times something undefined is undefined
+        # All of them are evaluated: 0 times something undefined is undefined.
+        values = [self.value(part, scope) for part in node.args]
         total = values[0]
         for value in values[1:]:
             total = self.calculus.mul(total, value)
@@ -111,13 +105,11 @@ class Evaluator:
         return self.calculus.power(self.value(node.args[0], scope), self.value(node.args[1], scope))
 
     def _constant(self, node: sp.Expr, scope: Scope) -> Value:
-        mp = self.calculus.numbers.mp
-        named = {"Pi": mp.pi, "Exp1": mp.e, "GoldenRatio": mp.phi, "EulerGamma": mp.euler, "Catalan": mp.catalan}
-        return self.calculus.numbers.constant(+named[type(node).__name__])
+        return self.calculus.numbers.constant(type(node).__name__)
 
     def _float(self, node: sp.Expr, scope: Scope) -> Value:
         sign, mantissa, exponent, _ = node._mpf_
-        return Fraction((-1) ** sign * int(mantissa)) * Fraction(2) ** exponent
+        return Exact((-1) ** sign * int(mantissa)) * Exact(2) ** exponent
 
     def _undefined(self, node: sp.Expr, scope: Scope) -> Value:
         raise Undefined(f"{node} is not a number")
@@ -159,7 +151,7 @@ class Evaluator:
         return found
 
     def _sign(self, node: sp.Expr, scope: Scope) -> Value:
-        return Fraction(self.calculus.sign(self.value(node.args[0], scope)))
+        return Exact(self.calculus.sign(self.value(node.args[0], scope)))
 
     def _heaviside(self, node: sp.Expr, scope: Scope) -> Value:
         sign = self.calculus.sign(self.value(node.args[0], scope))
@@ -172,15 +164,15 @@ class Evaluator:
             return -self._below(self.calculus.neg(value))
         return below
 
-    def _below(self, value: Value) -> Fraction:
+    def _below(self, value: Value) -> Exact:
         number = base(value)
-        if isinstance(number, Fraction):
-            found = Fraction(number.numerator // number.denominator)
+        if type(number) is Exact:
+            found = Exact(number.floor())
         else:
-            nearest = Fraction(int(self.calculus.numbers.mp.nint(number.middle)))
+            nearest = self.calculus.numbers.nearest(number)
             away = self.calculus.numbers.sign(self.calculus.numbers.sub(number, nearest))
             found = nearest - 1 if away < 0 else nearest
-        if isinstance(value, Series) and number == found:
+        if isinstance(value, Series) and type(number) is Exact and number == found:
             raise Unsure("a derivative at a jump")
         return found
 
@@ -192,7 +184,7 @@ class Evaluator:
     def _atan2(self, node: sp.Expr, scope: Scope) -> Value:
         y, x = (self.value(part, scope) for part in node.args)
         calculus = self.calculus
-        half = calculus.numbers.constant(calculus.numbers.mp.pi / 2)
+        half = calculus.right_angle()
         if (sign := calculus.sign(x)) > 0:
             return calculus.arctangent(calculus.mul(y, calculus.inverse(x)))
         side = calculus.sign(y)
@@ -200,9 +192,9 @@ class Evaluator:
             if side == 0:
                 raise Undefined("the angle of the origin")
             return calculus.sub(
-                calculus.mul(Fraction(side), half), calculus.arctangent(calculus.mul(x, calculus.inverse(y)))
+                calculus.mul(Exact(side), half), calculus.arctangent(calculus.mul(x, calculus.inverse(y)))
             )
-        turn = calculus.mul(Fraction(2 if side >= 0 else -2), half)
+        turn = calculus.mul(Exact(2 if side >= 0 else -2), half)
         return calculus.add([calculus.arctangent(calculus.mul(y, calculus.inverse(x))), turn])
 
     def _derivative(self, node: sp.Expr, scope: Scope) -> Value:
@@ -221,7 +213,7 @@ class Evaluator:
                 return ZERO
             value = value.terms[count]
             for factor in range(2, count + 1):
-                value = self.calculus.mul(Fraction(factor), value)
+                value = self.calculus.mul(Exact(factor), value)
         return value
 
     def _subs(self, node: sp.Expr, scope: Scope) -> Value:
@@ -233,12 +225,12 @@ class Evaluator:
         term, *ranges = node.args
         variable, low, high = ranges[-1]
         first, last = (self.number(end, scope) for end in (low, high))
-        if len(ranges) > 1 or not isinstance(first, Fraction) or not isinstance(last, Fraction):
+        if len(ranges) > 1 or type(first) is not Exact or type(last) is not Exact:
             raise Unsure("a sum with these ends is not evaluated")
-        if first.denominator != 1 or last.denominator != 1 or last - first > 500:
+        if first.q != 1 or last.q != 1 or last - first > 500:
             raise Unsure("a sum with these ends is not evaluated")
         values = [
-            self.value(term, scope.with_values({variable: Fraction(n)})) for n in range(int(first), int(last) + 1)
+            self.value(term, scope.with_values({variable: Exact(n)})) for n in range(int(first.p), int(last.p) + 1)
         ]
         if type(node).__name__ == "Sum":
             return self.calculus.add(values) if values else ZERO
@@ -249,7 +241,7 @@ class Evaluator:
 
     def _integral(self, node: sp.Expr, scope: Scope) -> Value:
         inside = tuple(sorted(node.free_symbols, key=str))
-        key = (node, tuple(scope.symbols.get(symbol) for symbol in inside))
+        key = (node, tuple(hashable(scope.symbols.get(symbol)) for symbol in inside))
         if key not in self._integrals:
             self._integrals[key] = integral(self, node, scope)
         return self._integrals[key]
@@ -266,7 +258,8 @@ _COMPARISONS: dict[str, Callable[[int], bool]] = {
     "GreaterThan": lambda sign: sign >= 0,
     "StrictGreaterThan": lambda sign: sign > 0,
 }
-_NODES: dict[str, Callable[[Evaluator, sp.Expr, Scope], Value]] = {
+_Handler: TypeAlias = Callable[[Evaluator, Any, Scope], Value]
+_NODES: dict[str, _Handler] = {
     "Add": Evaluator._add,
     "Mul": Evaluator._mul,
     "Pow": Evaluator._pow,
@@ -291,3 +284,16 @@ _NODES: dict[str, Callable[[Evaluator, sp.Expr, Scope], Value]] = {
     **dict.fromkeys(("Pi", "Exp1", "GoldenRatio", "EulerGamma", "Catalan"), Evaluator._constant),
     **dict.fromkeys(("NaN", "ComplexInfinity"), Evaluator._undefined),
 }
+_HANDLERS: dict[type, _Handler] = {}  # of the types met so far, without the undefined functions
+
+
+def _handler(node: Any) -> _Handler:
+    """What evaluates expressions of this type."""
+    if isinstance(node, AppliedUndef):
+        return Evaluator._applied
+    name = type(node).__name__
+    found = Evaluator._symbol if node.is_Symbol else Evaluator._number if node.is_Rational else _NODES.get(name)
+    if found is None:
+        raise Unsure(f"{name} is not evaluated")
+    _HANDLERS[type(node)] = found
+    return found

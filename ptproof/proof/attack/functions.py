@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import itertools
 import random
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import sympy as sp
@@ -22,30 +23,47 @@ class Concrete:
     body: sp.Expr
 
 
+@lru_cache(maxsize=64)
 def _arguments(count: int) -> tuple[sp.Symbol, ...]:
     return tuple(sp.Symbol(f"_argument{i}", real=True) for i in range(count))
 
 
-def drawn(applied: Any, generator: random.Random, attempt: int, known: Collection[Any] = ()) -> Concrete:
-    """A function for ``applied``, of its declared kind: the plainest first, then any.
+def drawn(applied: Any, seed: str, attempt: int, known: Collection[Any] = ()) -> Concrete:
+    """A function for ``applied``, of its declared kind: the plainest first, then any; the same one for a seed.
 
     Some vanish, or have an extremum, where the arguments of ``applied`` are, if these are symbols that are ``known``.
     """
-    places = _arguments(len(applied.args))
     if applied.is_integer:
-        return Concrete(places, sp.Integer(_whole(applied, generator)))
-    centre = applied.args if all(argument in known for argument in applied.args) else None
+        whole = _whole(applied, random.Random(f"{seed}:{attempt}"))
+        return Concrete(_arguments(len(applied.args)), sp.Integer(whole))
+    centred = attempt % 10 >= 7 and all(argument in known for argument in applied.args)
+    kind = next((word for word in _SIGNS if getattr(applied, f"is_{word}")), "")
+    return _of_kind(len(applied.args), kind, seed, attempt, tuple(applied.args) if centred else None)
+
+
+_SIGNS = ("positive", "negative", "nonnegative", "nonpositive", "nonzero")
+
+
+@lru_cache(maxsize=4096)
+def _of_kind(count: int, kind: str, seed: str, attempt: int, centre: tuple[Any, ...] | None) -> Concrete:
+    """A function of ``count`` arguments with values of a sign: made once for all claims."""
+    places, generator = _arguments(count), random.Random(f"{seed}:{attempt}")
+    style = attempt % 3
+    if style == 2 and kind not in ("", "nonzero"):
+        least, sign = int(kind in ("positive", "negative")), 1 if kind in ("positive", "nonnegative") else -1
+        return Concrete(places, sp.Integer(sign * generator.randint(least, least + 2)))
     body = _real(places, generator, attempt, centre)
-    if applied.is_positive:
-        body = (sp.exp(body / 4), 1 + body**2, sp.Integer(generator.randint(1, 3)))[attempt % 3]
-    elif applied.is_negative:
-        body = (-sp.exp(body / 4), -1 - body**2, -sp.Integer(generator.randint(1, 3)))[attempt % 3]
-    elif applied.is_nonnegative:
-        body = (body**2, sp.exp(body / 4), sp.Integer(generator.randint(0, 2)))[attempt % 3]
-    elif applied.is_nonpositive:
-        body = (-(body**2), -sp.exp(body / 4), -sp.Integer(generator.randint(0, 2)))[attempt % 3]
-    elif applied.is_nonzero:
-        body = (sp.exp(body / 4), -1 - body**2, -sp.exp(body / 4))[attempt % 3]
+    match kind:
+        case "positive":
+            body = (sp.exp(body / 4), 1 + body**2)[style]
+        case "negative":
+            body = (-sp.exp(body / 4), -1 - body**2)[style]
+        case "nonnegative":
+            body = (body**2, sp.exp(body / 4))[style]
+        case "nonpositive":
+            body = (-(body**2), -sp.exp(body / 4))[style]
+        case "nonzero":
+            body = (sp.exp(body / 4), -1 - body**2, -sp.exp(body / 4))[style]
     return Concrete(places, body)
 
 
@@ -76,25 +94,30 @@ def _real(places: tuple[sp.Symbol, ...], generator: random.Random, attempt: int,
     def small() -> sp.Rational:
         return sp.Rational(generator.choice((-3, -2, -1, 1, 2, 3, 5)), generator.choice((1, 1, 2, 3)))
 
+    def line(of: Sequence[sp.Expr]) -> list[sp.Expr]:
+        return [sp.Mul(small(), one) for one in of]
+
+    def square(of: Sequence[sp.Expr]) -> list[sp.Expr]:
+        return [sp.Mul(small(), a, b) for a, b in itertools.combinations_with_replacement(of, 2)]
+
     kind = attempt % 10
     if kind >= 7 and centre is not None:
         away = [place - middle for place, middle in zip(places, centre, strict=True)]
         if kind == 8:
-            return sum((small() * one for one in away), sp.S.Zero)
-        squares = (small() * a * b for a, b in itertools.combinations_with_replacement(away, 2))
-        return sum(squares, small() if kind == 7 else sp.S.Zero)
+            return sp.Add(*line(away))
+        return sp.Add(*square(away), small() if kind == 7 else sp.S.Zero)
     if kind == 6:
         return sp.Integer(generator.choice((0, 0, 1, -1, 2)))
-    body: sp.Expr = small() + sum(small() * place for place in places)
-    if kind in (1, 3):
-        body += sum(small() * left * right for left, right in itertools.combinations_with_replacement(places, 2))
-    if kind == 2:
-        body += small() * sp.sin(sum(small() * place for place in places))
     if kind == 4:
-        body = small() * sp.cos(generator.choice(places)) + small() * sp.exp(-(generator.choice(places) ** 2))
+        return small() * sp.cos(generator.choice(places)) + small() * sp.exp(-(generator.choice(places) ** 2))
     if kind == 5:
-        body = small() * generator.choice(places) ** generator.randint(1, 4)
-    return body
+        return small() * generator.choice(places) ** generator.randint(1, 4)
+    terms = [small(), *line(places)]
+    if kind in (1, 3):
+        terms += square(places)
+    if kind == 2:
+        terms.append(sp.Mul(small(), sp.sin(sp.Add(*line(places)))))
+    return sp.Add(*terms)
 
 
 def solutions(item: ForAll) -> list[tuple[Any, Concrete]]:
@@ -102,7 +125,22 @@ def solutions(item: ForAll) -> list[tuple[Any, Concrete]]:
 
     The constant of integration is the symbol ``_start``, which whoever uses them gives a value.
     """
-    return [*_rates(item), *_ends(item)]
+    found = [*_rates(item), *_ends(item)]
+    return found if found and item.relation.sign != "=" else [*found, *_at_rest(item)]
+
+
+def _at_rest(item: ForAll) -> list[tuple[Any, Concrete]]:
+    """Constant functions of one time that satisfy y' = rhs: all the same, or all 0."""
+    left = item.relation.left
+    if len(item.variables) != 1 or not isinstance(left, sp.Derivative) or left.variables != item.variables:
+        return []
+    moving = [node for node in sp.Tuple(left, item.relation.right).atoms(AppliedUndef) if node.args == item.variables]
+    for value, forbidden in ((START, ("negative", "nonpositive", "integer")), (sp.S.Zero, ("nonzero",))):
+        if any(getattr(node, f"is_{word}") for node in moving for word in forbidden):
+            continue
+        if item.relation.right.xreplace(dict.fromkeys(moving, value)).doit() == 0:
+            return [(node.func, Concrete(_arguments(1), value)) for node in sorted(moving, key=str)]
+    return []
 
 
 def _ends(item: ForAll) -> list[tuple[Any, Concrete]]:
@@ -140,8 +178,6 @@ def _rates(item: ForAll) -> list[tuple[Any, Concrete]]:
     right = relation.right.xreplace({applied: value})
     place = _arguments(1)
     found = closed_forms(sp.expand(right), value, time)
-    if not found and not applied.is_nonzero and right.xreplace({value: sp.S.Zero}) == 0:
-        found = [sp.S.Zero]  # at rest
     return [(applied.func, Concrete(place, body.xreplace({time: place[0]}))) for body in found]
 
 
@@ -156,7 +192,7 @@ def closed_forms(right: sp.Expr, value: sp.Symbol, time: sp.Symbol) -> list[sp.E
             free += term
             continue
         inside = [factor for factor in sp.Mul.make_args(term) if factor.has(value)]
-        if len(inside) != 1:
+        if len(inside) != 1 or inside[0].as_base_exp()[0] != value:
             return []
         (power,) = inside  # taken out of the product as it stands: SymPy does not cancel powers with letters in them
         rest = sp.Mul(*(factor for factor in sp.Mul.make_args(term) if factor != power))

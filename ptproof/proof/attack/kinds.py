@@ -21,7 +21,7 @@ HOLDS: Mapping[str, Callable[[int], bool]] = {
     ">=": lambda sign: sign >= 0,
     ">": lambda sign: sign > 0,
 }
-_TESTS: Mapping[str, Callable[[Fraction], bool]] = {
+_TESTS: Mapping[str, Callable[[Any], bool]] = {
     "positive": lambda value: value > 0,
     "negative": lambda value: value < 0,
     "nonnegative": lambda value: value >= 0,
@@ -30,28 +30,33 @@ _TESTS: Mapping[str, Callable[[Fraction], bool]] = {
     "nonzero": lambda value: value != 0,
     "integer": lambda value: value.denominator == 1,
     "noninteger": lambda value: value.denominator != 1,
-    "rational": lambda value: True,
-    "irrational": lambda value: False,
-    "algebraic": lambda value: True,
-    "transcendental": lambda value: False,
     "even": lambda value: value.denominator == 1 and value.numerator % 2 == 0,
     "odd": lambda value: value.denominator == 1 and value.numerator % 2 == 1,
-    "prime": lambda value: value.denominator == 1 and bool(sp.isprime(value.numerator)),
-    "composite": lambda value: value.denominator == 1 and value > 1 and not sp.isprime(value.numerator),
-    "real": lambda value: True,
-    "imaginary": lambda value: False,
+    "prime": lambda value: value.denominator == 1 and bool(sp.isprime(int(value.numerator))),
+    "composite": lambda value: value.denominator == 1 and value > 1 and not sp.isprime(int(value.numerator)),
 }
+_SIGNS = ("positive", "negative", "nonnegative", "nonpositive", "zero", "nonzero")
+_EVERY_RATIONAL = {
+    "rational": True, "irrational": False, "algebraic": True, "transcendental": False, "real": True, "imaginary": False,
+}  # fmt: skip
 
 
 @lru_cache(maxsize=4096)
-def _tests(atom: Any) -> tuple[tuple[Callable[[Fraction], bool], bool], ...]:
-    """What the declaration of an atom asks of a value."""
-    return tuple((_TESTS[word], truth) for word, truth in atom.assumptions0.items() if word in _TESTS)
+def _tests(atom: Any) -> tuple[frozenset[int], tuple[tuple[Callable[[Any], bool], bool], ...]]:
+    """What the declaration of an atom asks of a value: its sign, and what else every rational does not have."""
+    known = {word: truth for word, truth in atom.assumptions0.items() if word in _TESTS or word in _EVERY_RATIONAL}
+    if any(_EVERY_RATIONAL[word] is not known[word] for word in known if word in _EVERY_RATIONAL):
+        return frozenset(), ()
+    signs = {n for n in (-1, 0, 1) if all(_TESTS[w](Fraction(n)) is known[w] for w in known if w in _SIGNS)}
+    rest = ((_TESTS[w], known[w]) for w in known if w not in _SIGNS and w not in _EVERY_RATIONAL)
+    return frozenset(signs), tuple(rest)
 
 
-def fits_kind(atom: Any, value: Fraction) -> bool:
+def fits_kind(atom: Any, value: Any) -> bool:
     """Whether an exact value is of the kind that a symbol or an applied function was declared with."""
-    return all(test(value) is truth for test, truth in _tests(atom))
+    signs, tests = _tests(atom)
+    top = value.numerator
+    return (top > 0) - (top < 0) in signs and all(test(value) is truth for test, truth in tests)
 
 
 def holds(relation: Relation, evaluator: Evaluator, scope: Scope | None = None) -> bool:

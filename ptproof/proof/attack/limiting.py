@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from fractions import Fraction
 from functools import cache
 from itertools import pairwise
 from typing import Any
 
 import sympy as sp
 
-from ptproof.proof.attack.numbers import Ball, NotReal, Number, Undefined, Unsure, context, size
+from ptproof.proof.attack.magnitudes import size, spread, widened
+from ptproof.proof.attack.numbers import ONE, ZERO, Arithmetic, Ball, Exact, NotReal, Number, Undefined, Unsure
 from ptproof.proof.attack.scope import Scope, Valuer
-from ptproof.proof.attack.series import ONE, Series, base
+from ptproof.proof.attack.series import Series, base
 
 _FEW, _MANY = 14, 20
 _SETTLED = -40.0  # the base-2 logarithm of an error that is small enough
@@ -20,23 +20,11 @@ _STEPS = (8, 12, 16, 20, 24)
 
 
 @cache
-def _nodes(count: int, digits: int) -> tuple[tuple[Any, Any], ...]:
-    """Gauss-Legendre nodes and weights on [0, 1]."""
-    mp = context(digits)
-    found = []
-    for k in range(1, count + 1):
-        x = mp.cos(mp.pi * (k - mp.mpf(1) / 4) / (count + mp.mpf(1) / 2))
-        for _ in range(12):
-            before, now = mp.one, x
-            for n in range(2, count + 1):
-                before, now = now, ((2 * n - 1) * x * now - (n - 1) * before) / n
-            slope = count * (x * now - before) / (x * x - 1)
-            step = now / slope
-            x -= step
-            if abs(step) < mp.eps:
-                break
-        found.append(((1 + x) / 2, 1 / ((1 - x * x) * slope * slope)))
-    return tuple(found)
+def _nodes(count: int, digits: int) -> tuple[tuple[Ball, Ball], ...]:
+    """Gauss-Legendre nodes and weights on [0, 1], at the precision of an evaluation with so many digits."""
+    Arithmetic(digits).ready()
+    found = (Ball.legendre_p_root(count, k, weight=True) for k in range(count))
+    return tuple(((1 + root) / 2, weight / 2) for root, weight in found)
 
 
 def integral(evaluator: Valuer, node: sp.Expr, scope: Scope) -> Number:
@@ -52,8 +40,8 @@ def integral(evaluator: Valuer, node: sp.Expr, scope: Scope) -> Number:
     if high == sp.oo or low == -sp.oo:
         return _improper(evaluator, integrand, variable, low, high, scope)
     ends = [evaluator.number(end, scope) for end in (low, high)]
-    if ends[0] == ends[1]:
-        return Fraction(0)
+    if type(ends[0]) is type(ends[1]) is Exact and ends[0] == ends[1]:
+        return ZERO
     numbers = evaluator.calculus.numbers
     width = numbers.sub(ends[1], ends[0])
 
@@ -83,7 +71,7 @@ def _gauss(evaluator: Valuer, at: Callable[[Number], Number]) -> Number:
     """∫₀¹ on one panel, or on two or four where one is not enough."""
     for panels in (1, 2, 4):
         found = _panels(evaluator, at, panels)
-        if found.error < _SETTLED + max(0.0, size(found.middle)):
+        if spread(found) < _SETTLED + max(0.0, size(found)):
             break
     return found
 
@@ -95,12 +83,11 @@ def _panels(evaluator: Valuer, at: Callable[[Number], Number], panels: int) -> B
         terms: list[Number] = []
         for panel in range(panels):
             for place, weight in _nodes(count, numbers.digits):
-                part = Ball((panel + place) / panels, 1.0 - numbers.bits)
-                terms.append(numbers.mul(Ball(weight / panels, 1.0 - numbers.bits), at(part)))
+                numbers.ready()
+                terms.append(numbers.mul(weight / panels, at((panel + place) / panels)))
         totals.append(numbers.add(terms))
     apart = numbers.ball(numbers.sub(totals[0], totals[1]))
-    best = numbers.ball(totals[1])
-    return Ball(best.middle, max(size(apart.middle), apart.error, best.error) + 7)
+    return widened(numbers.ball(totals[1]), max(size(apart), spread(apart)) + 7)
 
 
 def limit(evaluator: Valuer, node: sp.Expr, scope: Scope) -> Number:
@@ -131,19 +118,19 @@ def _approached(evaluator: Valuer, expression: sp.Expr, variable: Any, point: An
     values: list[Number] = []
     for step in _STEPS:
         if point in (sp.oo, -sp.oo):
-            place: Number = Fraction(10**step) * (1 if point == sp.oo else -1)
+            place: Number = Exact(10**step) * (1 if point == sp.oo else -1)
         else:
             target = base(evaluator.number(point, scope))
-            place = numbers.add([target, Fraction(side, 10**step)])
+            place = numbers.add([target, Exact(side, 10**step)])
         try:
             values.append(evaluator.number(expression, scope.with_values({variable: place})))
         except (NotReal, Undefined) as error:
             # A limit asks nothing of a place that is not near enough, and no place is known to be.
             raise Unsure("no real value on the way to a limit") from error
-    sizes = [size(numbers.ball(numbers.sub(b, a)).middle) for a, b in pairwise(values)]
+    sizes = [size(numbers.sub(b, a)) for a, b in pairwise(values)]
     last = numbers.ball(values[-1])
     if all(later > earlier + 1 for earlier, later in pairwise(sizes)) and sizes[-1] > 20:
-        raise Grows(1 if last.middle > 0 else -1)
+        raise Grows(1 if float(last) > 0 else -1)
     if any(later > earlier - 3 and later > -60 for earlier, later in pairwise(sizes)):
         raise Unsure("a limit does not settle down")
-    return Ball(last.middle, max(sizes[-1] + 10, last.error, -40.0))
+    return widened(last, max(sizes[-1] + 10, spread(last), -40.0))

@@ -1,23 +1,29 @@
-"""The attacker's own numbers: exact rationals, and values with a bound of their error, on mpmath.
+"""The attacker's own numbers: exact rationals, and balls that contain the value, on python-flint.
 
-Nothing here is shared with the engines. A bound is the base-2 logarithm of an absolute error; it only grows, so that
-what two values with bounds show to differ does differ. What cannot be told at this precision raises :class:`Unsure`.
+The engine for enclosures (:mod:`ptproof.balls`) uses the same library of arithmetic, and nothing else is shared with
+it: what an expression means, and how it is taken apart, is written here once more. A ball contains the exact value, so
+that what two balls show to differ does differ. What cannot be told at this precision raises :class:`Unsure`.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from fractions import Fraction
-from functools import cache
-from typing import Any, NamedTuple, TypeAlias
+from typing import Any, TypeAlias
 
-import mpmath
+import flint
+
+from ptproof.proof.attack.magnitudes import NOTHING, ORDINARY, power_of_two, size
 
 BITS_OF_A_DIGIT = math.log2(10)
-_LARGEST = 1 << 30  # of the logarithm of a size: beyond it neither error bounds nor exponentials mean anything
-_LONGEST = 3000  # bits of an exact rational, before it becomes a value with a bound
-EXACT = -math.inf
+_LONGEST = 3000  # bits of an exact rational, before it becomes a ball
+
+Ball: TypeAlias = flint.arb
+Exact: TypeAlias = flint.fmpq
+Number: TypeAlias = Any  # an Exact or a Ball: python-flint's types are not known to the type checker
+ZERO, ONE = Exact(0), Exact(1)
 
 
 class Unsure(Exception):
@@ -32,22 +38,24 @@ class NotReal(Exception):
     """The expression has no real value here."""
 
 
-class Ball(NamedTuple):
-    """A real number within 2**``error`` of ``middle``."""
-
-    middle: Any
-    error: float
+def exact(value: Fraction | int | Exact) -> Exact:
+    """The rational as the attacker's own kind of number."""
+    return value if type(value) is Exact else Exact(value.numerator, value.denominator)
 
 
-Number: TypeAlias = Fraction | Ball
+def fraction(value: Exact) -> Fraction:
+    """The rational as one of Python's."""
+    return Fraction(int(value.p), int(value.q))
 
 
-@cache
-def context(digits: int) -> Any:
-    """An mpmath context of its own for this precision; the global one is never touched."""
-    own = mpmath.MPContext()
-    own.dps = digits
-    return own
+@contextmanager
+def undisturbed() -> Iterator[None]:
+    """Whatever is evaluated inside, python-flint's global precision is afterwards as it was."""
+    before = flint.ctx.prec
+    try:
+        yield
+    finally:
+        flint.ctx.prec = before
 
 
 class Arithmetic:
@@ -59,119 +67,135 @@ class Arithmetic:
 
     def __init__(self, digits: int) -> None:
         self.digits = digits
-        self.mp = context(digits)
-        self.bits: int = self.mp.prec
+        self.bits = round(digits * BITS_OF_A_DIGIT) + 3
         self.negligible = -0.6 * digits * BITS_OF_A_DIGIT
         self.absorbed = False
+        self._hidden = 2.0 ** (-self.bits / 2)
+        self._nearly_zero = power_of_two(math.floor(self.negligible))
+
+    def ready(self) -> None:
+        """Compute with this precision: it is one for the whole process, and others may have changed it."""
+        if flint.ctx.prec != self.bits:
+            flint.ctx.prec = self.bits
 
     def ball(self, value: Number) -> Ball:
-        """The value as one with a bound."""
-        if isinstance(value, Ball):
+        """The value as a ball."""
+        if type(value) is Ball:
             return value
-        middle = self.mp.mpf(value.numerator) / value.denominator
-        return Ball(middle, size(middle) - self.bits + 1)
+        self.ready()
+        return Ball(value)
 
-    def constant(self, middle: Any) -> Ball:
-        """A value that mpmath has rounded correctly, or within a few units in the last place."""
-        if not self.mp.isfinite(middle):
-            raise Unsure("the value is not finite at this precision")
-        return Ball(middle, size(middle) - self.bits + 3)
+    def constant(self, name: str) -> Ball:
+        """One of the constants that have a name in SymPy."""
+        self.ready()
+        match name:
+            case "Pi":
+                return Ball.pi()
+            case "Exp1":
+                return Ball.const_e()
+            case "GoldenRatio":
+                return (1 + Ball(5).sqrt()) / 2
+            case "EulerGamma":
+                return Ball.const_euler()
+            case "Catalan":
+                return Ball.const_catalan()
+        raise Unsure(f"the value of {name} is not known")
 
-    def tidy(self, value: Fraction) -> Number:
-        """An exact rational that became too long, as a value with a bound."""
-        if value.denominator.bit_length() + value.numerator.bit_length() > _LONGEST:
+    def tidy(self, value: Exact) -> Number:
+        """An exact rational that became too long, as a ball."""
+        if value.height_bits() > _LONGEST // 2 and value.p.bit_length() + value.q.bit_length() > _LONGEST:
             return self.ball(value)
         return value
 
     def sign(self, value: Number) -> int:
         """-1, 0 or 1; a value that is 0 to nearly all digits counts as 0 where no term was lost."""
-        if isinstance(value, Fraction):
-            return (value > 0) - (value < 0)
-        if size(value.middle) - 1 > value.error:
-            return 1 if value.middle > 0 else -1
-        if value.error <= self.negligible and not self.absorbed:
+        if type(value) is Exact:
+            return (1 if value > ZERO else -1) if value else 0
+        if value > 0:
+            return 1
+        if value < 0:
+            return -1
+        if not self.absorbed and abs(value) <= self._nearly_zero:
             return 0
         raise Unsure("a sign cannot be told")
 
     def add(self, terms: list[Number]) -> Number:
-        exact = sum((term for term in terms if isinstance(term, Fraction)), Fraction(0))
-        balls = [term for term in terms if isinstance(term, Ball)]
+        rational, balls = None, []
+        for term in terms:
+            if type(term) is Exact:
+                rational = term if rational is None else rational + term
+            else:
+                balls.append(term)
         if not balls:
-            return self.tidy(exact)
-        if exact:
-            balls.append(self.ball(exact))
-        total, largest, error = self.mp.zero, EXACT, EXACT
-        for term in balls:
-            total = total + term.middle
-            bits = size(term.middle)
-            largest, error = max(largest, bits, size(total)), max(error, term.error)
-        if any(size(term.middle) < largest - self.bits / 2 and term.middle for term in balls):
-            self.absorbed = True
-        return Ball(total, max(error, largest - self.bits) + math.log2(2 * len(balls)))
+            return ZERO if rational is None else self.tidy(rational)
+        self.ready()
+        if rational:
+            balls.append(Ball(rational))
+        total = balls[0]
+        if len(balls) > 1:
+            for term in balls[1:]:
+                total = total + term
+            if not self.absorbed and self._hides(balls):
+                self.absorbed = True
+        return _finite(total)
+
+    def _hides(self, balls: list[Ball]) -> bool:
+        """Whether a term is so much smaller than another one that most of its digits are lost in the sum."""
+        sizes = [abs(float(term)) for term in balls]
+        if all(ORDINARY[0] < size < ORDINARY[1] for size in sizes):
+            return min(sizes) < max(sizes) * self._hidden
+        lengths = [length for length in map(size, balls) if length != NOTHING]
+        return bool(lengths) and min(lengths) < max(lengths) - self.bits / 2
 
     def sub(self, left: Number, right: Number) -> Number:
+        if type(left) is Exact and type(right) is Exact:
+            return self.tidy(left - right)
         return self.add([left, self.neg(right)])
 
     def neg(self, value: Number) -> Number:
-        return -value if isinstance(value, Fraction) else Ball(-value.middle, value.error)
+        if type(value) is Ball:
+            self.ready()
+        return -value
 
     def mul(self, left: Number, right: Number) -> Number:
-        if isinstance(left, Fraction) and isinstance(right, Fraction):
-            return self.tidy(left * right)
-        if left == 0 or right == 0:
-            return Fraction(0)
-        a, b = self.ball(left), self.ball(right)
-        middle = a.middle * b.middle
-        first, second = size(a.middle), size(b.middle)
-        errors = max(a.error + second, b.error + first, a.error + b.error, first + second - self.bits)
-        return Ball(middle, errors + 2)
+        if type(left) is Exact:
+            if type(right) is Exact:
+                return self.tidy(left * right)
+            if not left:
+                return ZERO
+        elif type(right) is Exact and not right:
+            return ZERO
+        self.ready()
+        return _finite(left * right)
 
     def inverse(self, value: Number) -> Number:
-        if isinstance(value, Fraction):
-            if value == 0:
-                raise Undefined("division by zero")
-            return 1 / value
         if self.sign(value) == 0:
             raise Undefined("division by zero")
-        bits = self._clear(value)
-        middle = 1 / value.middle
-        return Ball(middle, max(value.error - 2 * (bits - 2), size(middle) - self.bits) + 1)
-
-    def _clear(self, value: Ball) -> float:
-        """The size of a value that is known to two bits at least."""
-        bits = size(value.middle)
-        if value.error > bits - 3:
-            raise Unsure("a value is too close to a singular one")
-        if abs(bits) > _LARGEST:
-            raise Unsure("a value is too large or too small")
-        return bits
+        if type(value) is Ball:
+            self.ready()
+        return 1 / value
 
     def integer_power(self, base: Number, exponent: int) -> Number:
         """base**exponent for an integer exponent; 0**0 is 1."""
+        if exponent == 1:
+            return base
         if exponent == 0:
-            return Fraction(1)
+            return ONE
         if exponent < 0:
             return self.inverse(self.integer_power(base, -exponent))
-        if isinstance(base, Fraction):
-            length = max(base.numerator.bit_length(), base.denominator.bit_length())
+        if type(base) is Exact:
+            length = base.height_bits()
             if length <= 1 or length * exponent <= 2 * _LONGEST:
                 return self.tidy(base**exponent)
-            base = self.ball(base)
-        bits = max(size(base.middle), base.error)
-        if abs(bits * exponent) > _LARGEST:
-            raise Unsure("a power is too large or too small")
-        middle = base.middle**exponent
-        if base.error > size(base.middle) - math.log2(exponent) - 3:
-            return Ball(middle, exponent * (bits + 1) + 1)
-        relative = max(base.error - size(base.middle) + 1, -self.bits + 2) + math.log2(exponent) + 1
-        return Ball(middle, size(middle) + relative)
+        self.ready()
+        return _finite(Ball(base) ** exponent)
 
     def power(self, base: Number, exponent: Number) -> Number:
         """The real power: a negative base has one for integer exponents only, 0 for exponents that are not negative."""
-        if isinstance(exponent, Fraction) and exponent.denominator == 1 and abs(exponent) < 10**6:
-            if exponent < 0 and not isinstance(base, Fraction) and self.sign(base) == 0:
+        if type(exponent) is Exact and exponent.q == 1 and abs(exponent) < 10**6:
+            if exponent < 0 and type(base) is Ball and self.sign(base) == 0:
                 raise Undefined("a negative power of zero")
-            return self.integer_power(base, int(exponent))
+            return self.integer_power(base, int(exponent.p))
         sign = self.sign(base)
         if sign < 0:
             self._needs_an_integer(exponent)
@@ -179,83 +203,88 @@ class Arithmetic:
             if self.sign(exponent) < 0:
                 raise Undefined("a negative power of zero")
             if self.sign(exponent) == 0:
-                return Fraction(1)
+                return ONE
             return self._power_of_nothing(base, exponent)
-        if base == 1:
-            return base
-        if isinstance(exponent, Fraction) and isinstance(base, Fraction):
-            # An integer this large is left to the logarithm.
-            root = _exact_root(base, exponent.denominator) if 1 < exponent.denominator <= 12 else None
-            if root is not None:
-                return self.power(root, Fraction(exponent.numerator))
+        if type(base) is Exact:
+            if base == ONE:
+                return base
+            if type(exponent) is Exact:
+                # An integer this large is left to the logarithm.
+                root = _exact_root(base, int(exponent.q)) if 1 < exponent.q <= 12 else None
+                if root is not None:
+                    return self.power(root, Exact(exponent.p))
         return self.exp(self.mul(exponent, self.log(base)))
 
     def _needs_an_integer(self, exponent: Number) -> None:
-        if isinstance(exponent, Fraction) and exponent.denominator != 1:
+        if type(exponent) is Exact and exponent.q != 1:
             raise NotReal("a power of a negative number")
-        if isinstance(exponent, Ball):
-            nearest = self.mp.nint(exponent.middle)
-            if self.sign(self.sub(exponent, Fraction(int(nearest)))) != 0:
-                raise NotReal("a power of a negative number")
+        if type(exponent) is Ball and self.sign(self.sub(exponent, self.nearest(exponent))) != 0:
+            raise NotReal("a power of a negative number")
         raise Unsure("a power of a negative number")
 
+    def nearest(self, value: Ball) -> Exact:
+        """The integer next to the middle of a ball."""
+        self.ready()
+        found = (value.mid() + Ball(0.5)).floor().unique_fmpz()
+        if found is None:
+            raise Unsure("a value is too large for its nearest integer")
+        return Exact(found)
+
     def _power_of_nothing(self, base: Number, exponent: Number) -> Number:
-        if isinstance(base, Fraction):
-            return Fraction(0)
-        bits = (max(size(base.middle), base.error) + 1) * float(self.ball(exponent).middle)
-        return Ball(self.mp.zero, bits)
+        if type(base) is Exact:
+            return ZERO
+        return _finite(Ball(0, abs(base).abs_upper() ** self.ball(exponent).abs_lower()))
 
     def exp(self, value: Number) -> Number:
-        if value == 0:
-            return Fraction(1)
+        if type(value) is Exact and not value:
+            return ONE
         argument = self.ball(value)
-        if size(argument.middle) > 29 and argument.error < size(argument.middle) - 3 and argument.middle < 0:
-            self.absorbed = True  # something is too small to be seen: from here on nothing counts as 0
-            return Ball(self.mp.zero, -float(1 << 28))
-        if size(argument.middle) > 29 or argument.error > -1:
+        self.ready()
+        if not abs(argument) < _TOO_LARGE:
+            if argument < -_TOO_LARGE:
+                self.absorbed = True  # something is too small to be seen: from here on nothing counts as 0
+                return Ball(0, power_of_two(-(1 << 28)))
             raise Unsure("an exponential is too large or too small")
-        middle = self.mp.exp(argument.middle)
-        return Ball(middle, size(middle) + max(argument.error + 1, -self.bits) + 2)
+        return _finite(argument.exp())
 
     def log(self, value: Number) -> Number:
-        if value == 1:
-            return Fraction(0)
         sign = self.sign(value)
         if sign == 0:
             raise Undefined("the logarithm of zero")
         if sign < 0:
             raise NotReal("the logarithm of a negative number")
+        if type(value) is Exact and value == ONE:
+            return ZERO
         argument = self.ball(value)
-        bits = self._clear(argument)
-        middle = self.mp.log(argument.middle)
-        return Ball(middle, max(argument.error - bits + 2, size(middle) - self.bits) + 2)
+        self.ready()
+        return _finite(argument.log())
 
-    def smooth(self, function: Callable[[Any], Any], value: Number, slope: float) -> Number:
-        """A function of mpmath whose derivative is at most 2**slope near the value."""
+    def smooth(self, function: Callable[[Ball], Ball], value: Number) -> Ball:
+        """A function of balls that is smooth near the value."""
         argument = self.ball(value)
-        if size(argument.middle) > 400 or argument.error > 0:
-            raise Unsure("an argument is too large, or not known well enough")
-        middle = function(argument.middle)
-        if not self.mp.isfinite(middle):
-            raise Unsure("a function has no finite value at this precision")
-        return Ball(middle, max(argument.error + slope, size(middle) - self.bits) + 2)
+        self.ready()
+        if argument.rad() > 1:
+            raise Unsure("an argument is not known well enough")
+        return _finite(function(argument))
 
-    def hull(self, left: Number, right: Number) -> Number:
-        """A value that may be either of two that cannot be told apart."""
-        a, b = self.ball(left), self.ball(right)
-        return Ball(a.middle, max(a.error, b.error, size(a.middle - b.middle)) + 2)
+    def hull(self, left: Number, right: Number) -> Ball:
+        """A ball for a value that may be either of two that cannot be told apart."""
+        return self.ball(left).union(self.ball(right))
 
 
-def size(middle: Any) -> float:
-    """The smallest integer n with abs(middle) < 2**n; minus infinity for 0."""
-    _, mantissa, exponent, length = middle._mpf_
-    return float(exponent + length) if mantissa else EXACT
+_TOO_LARGE = Ball(1 << 29)
 
 
-def _exact_root(base: Fraction, degree: int) -> Fraction | None:
+def _finite(ball: Ball) -> Ball:
+    if not ball.is_finite():
+        raise Unsure("the value is not finite at this precision")
+    return ball
+
+
+def _exact_root(base: Exact, degree: int) -> Exact | None:
     """The rational root of a positive rational, if it has one."""
     parts = []
-    for number in (base.numerator, base.denominator):
+    for number in (int(base.p), int(base.q)):
         if degree == 2:
             root = math.isqrt(number)
         else:
@@ -266,4 +295,4 @@ def _exact_root(base: Fraction, degree: int) -> Fraction | None:
         if root**degree != number:
             return None
         parts.append(root)
-    return Fraction(parts[0], parts[1])
+    return Exact(parts[0], parts[1])

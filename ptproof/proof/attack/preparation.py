@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from functools import partial
+from functools import cached_property, partial
 from random import Random
 from typing import Any
 
@@ -39,7 +39,7 @@ class Isolated:
     factor: sp.Expr
     rest: sp.Expr
 
-    @property
+    @cached_property
     def bound(self) -> sp.Expr:
         return -self.rest / self.factor
 
@@ -84,7 +84,7 @@ class Prepared:
     functions: tuple[AppliedUndef, ...]
     defined: tuple[tuple[Any, Concrete], ...]
     solutions: tuple[tuple[Any, Concrete], ...]
-    special: tuple[tuple[Any, sp.Expr], ...]
+    special: tuple[Isolated, ...]
     limited: tuple[tuple[Any, Callable[[Random], Concrete]], ...] = ()
     smooth: bool = False
 
@@ -188,7 +188,8 @@ def _bound(relation: Relation, atoms: tuple[Any, ...]) -> Bound:
             found.append(one)
     roots: tuple[tuple[Any, sp.Expr], ...] = ()
     if relation.sign == "=" and not found:
-        roots = _roots(difference, inside) or tuple(_special((relation,), tuple(inside)))
+        places = _special((relation,), tuple(sorted(inside, key=str)))
+        roots = _roots(difference, inside) or tuple((one.atom, one.bound) for one in places)
     return Bound(relation, tuple(found), roots, inside)
 
 
@@ -235,7 +236,7 @@ def _isolated(difference: sp.Expr, atom: Any) -> Isolated | None:
     return None if factor == 0 else Isolated(atom, factor, rest)
 
 
-def _special(parts: Iterable[Relation], atoms: tuple[Any, ...]) -> Iterable[tuple[Any, sp.Expr]]:
+def _special(parts: Iterable[Relation], atoms: tuple[Any, ...]) -> Iterable[Isolated]:
     """Where something in the relations vanishes, for every atom in which it is linear."""
     seen: set[sp.Expr] = set()
     for part in parts:
@@ -252,7 +253,7 @@ def _special(parts: Iterable[Relation], atoms: tuple[Any, ...]) -> Iterable[tupl
                 found = [one or _isolated(expanded, atom) for one, atom in zip(found, inside, strict=True)]
             for one in found:
                 if one is not None:
-                    yield one.atom, one.bound
+                    yield one
 
 
 def _critical(node: sp.Basic) -> Iterable[sp.Expr]:

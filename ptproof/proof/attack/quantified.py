@@ -4,21 +4,22 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterable
-from fractions import Fraction
 from typing import Any
 
 from ptproof.proof.attack.evaluator import Evaluator
 from ptproof.proof.attack.kinds import fits_kind, holds
-from ptproof.proof.attack.numbers import NotReal, Number, Undefined
+from ptproof.proof.attack.numbers import Exact, NotReal, Number, Undefined
 from ptproof.proof.attack.scope import Scope
 from ptproof.proof.statement import ForAll, Relation
 
 _NARROWING = 40
-_SHARES = tuple(Fraction(k, 6) for k in range(7))
-_NEAR = tuple(Fraction(1, 10**k) for k in (2, 3, 4, 6, 8, 12, 20, 30))
-_CLOSE = tuple(sorted({*(Fraction(k, 40) for k in range(41)), *_NEAR, *(1 - share for share in _NEAR)}))
-_OFFSETS = tuple(Fraction(text) for text in ("0", "1/100", "1/3", "1", "3", "10", "100", "100000", "100000000"))
-_PLACES = tuple(Fraction(text) for text in ("-10", "-1", "-1/3", "0", "1/7", "1", "5"))
+_SHARES = tuple(Exact(k, 6) for k in range(7))
+_NEAR = tuple(Exact(1, 10**k) for k in (2, 3, 4, 6, 8, 12, 20, 30))
+_CLOSE = tuple(sorted({*(Exact(k, 40) for k in range(41)), *_NEAR, *(1 - share for share in _NEAR)}))
+_OFFSETS = (
+    *(Exact(0), Exact(1, 100), Exact(1, 3), Exact(1), Exact(3), Exact(10), Exact(100), Exact(10**5), Exact(10**8)),
+)
+_PLACES = (Exact(-10), Exact(-1), Exact(-1, 3), Exact(0), Exact(1, 7), Exact(1), Exact(5))
 
 
 def satisfied(items: Iterable[ForAll], evaluator: Evaluator, *, dense: bool) -> bool:
@@ -53,7 +54,7 @@ def _holds_between(item: ForAll, part: Relation, places: list[Number], evaluator
 
     def slack(place: Number) -> Any:
         scope = scope_at(place)
-        return numbers.ball(numbers.sub(*(evaluator.number(side, scope) for side in (part.right, part.left)))).middle
+        return numbers.ball(numbers.sub(*(evaluator.number(side, scope) for side in (part.right, part.left)))).mid()
 
     heights = [slack(place) for place in places]
     for k in range(1, len(places) - 1):
@@ -61,7 +62,7 @@ def _holds_between(item: ForAll, part: Relation, places: list[Number], evaluator
             continue
         low, high = places[k - 1], places[k + 1]
         for _ in range(_NARROWING):
-            third = numbers.mul(Fraction(1, 3), numbers.sub(high, low))
+            third = numbers.mul(Exact(1, 3), numbers.sub(high, low))
             left, right = numbers.add([low, third]), numbers.sub(high, third)
             for place in (left, right):
                 scope = scope_at(place)
@@ -102,14 +103,14 @@ def _axis(variable: Any, domain: Iterable[Relation], evaluator: Evaluator, dense
         found = [numbers.sub(high, offset) for offset in _more(_OFFSETS, dense)]
     else:
         found = list(_more(_PLACES, dense))
-    return [value for value in found if not isinstance(value, Fraction) or fits_kind(variable, value)]
+    return [value for value in found if type(value) is not Exact or fits_kind(variable, value)]
 
 
-def _more(places: tuple[Fraction, ...], dense: bool) -> tuple[Fraction, ...]:
+def _more(places: tuple[Exact, ...], dense: bool) -> tuple[Exact, ...]:
     if not dense:
         return places
-    between = (place * Fraction(17, 10) for place in places)
-    return tuple(sorted({*places, *between, *_NEAR, *(Fraction(k, 4) for k in range(1, 20))}))
+    between = (place * Exact(17, 10) for place in places)
+    return tuple(sorted({*places, *between, *_NEAR, *(Exact(k, 4) for k in range(1, 20))}))
 
 
 def _turned(sign: str) -> str:

@@ -18,11 +18,12 @@ import sympy as sp
 
 from ptproof.proof.attack.evaluator import Evaluator
 from ptproof.proof.attack.kinds import fits_kind, holds
-from ptproof.proof.attack.numbers import NotReal, Undefined, Unsure
+from ptproof.proof.attack.magnitudes import as_float, spread
+from ptproof.proof.attack.numbers import ZERO, Exact, NotReal, Undefined, Unsure, exact
 from ptproof.proof.attack.preparation import Prepared
 from ptproof.proof.attack.sampling import Point
 from ptproof.proof.attack.scope import Inadmissible
-from ptproof.proof.attack.series import ONE, ZERO, Series, base
+from ptproof.proof.attack.series import Series, base
 from ptproof.proof.statement import Smooth
 
 _STEPS = tuple(Fraction(1, 10**k) for k in (6, 11, 16))
@@ -65,7 +66,7 @@ def _torn(sides: Sequence[Sequence[float]]) -> str:
 
 
 def _directions(variables: Sequence[Any]) -> list[dict[Any, Fraction]]:
-    axes = [{variable: ONE} for variable in variables]
+    axes = [{variable: Fraction(1)} for variable in variables]
     if len(variables) < 2:
         return axes
     slopes = (Fraction(1), Fraction(-3, 2), Fraction(2, 3), Fraction(-5, 4))
@@ -88,7 +89,7 @@ def _approached(
     """
     found = []
     for step in _STEPS:
-        values = {atom: value + side * step * towards.get(atom, ZERO) for atom, value in point.values.items()}
+        values = {atom: value + side * step * towards.get(atom, 0) for atom, value in point.values.items()}
         if not all(fits_kind(atom, values[atom]) for atom in towards):
             return None
         try:
@@ -114,7 +115,7 @@ def _derivatives(expression: sp.Expr, along: Mapping[Any, Fraction], order: int,
     scope = evaluator.point
     if order:
         rest = (ZERO,) * (order - 1)
-        moving = {atom: Series(0, (base(scope.symbols[atom]), slope, *rest)) for atom, slope in along.items()}
+        moving = {atom: Series(0, (base(scope.symbols[atom]), exact(slope), *rest)) for atom, slope in along.items()}
         scope = scope.with_values(moving)
     value = evaluator.value(expression, scope)
     terms = value.terms if isinstance(value, Series) else (value, *((ZERO,) * order))
@@ -122,9 +123,9 @@ def _derivatives(expression: sp.Expr, along: Mapping[Any, Fraction], order: int,
     found = []
     for k, term in enumerate(terms):
         number = base(term)
-        if not isinstance(number, Fraction) and number.error > max(-60.0, evaluator.calculus.numbers.negligible / 4):
+        if type(number) is not Exact and spread(number) > max(-60.0, evaluator.calculus.numbers.negligible / 4):
             raise Unsure("a derivative is not known well enough")
-        found.append(math.factorial(k) * float(number if isinstance(number, Fraction) else number.middle))
+        found.append(math.factorial(k) * as_float(number))
     return found
 
 

@@ -15,7 +15,7 @@ from ptproof.proof.attack.elementary import fits
 from ptproof.proof.attack.evaluator import Evaluator
 from ptproof.proof.attack.functions import START, Concrete, drawn
 from ptproof.proof.attack.kinds import fits_kind, holds
-from ptproof.proof.attack.numbers import NotReal, Number, Undefined, Unsure
+from ptproof.proof.attack.numbers import NotReal, Number, Undefined, Unsure, exact
 from ptproof.proof.attack.preparation import Bound, Prepared
 from ptproof.proof.attack.quantified import satisfied
 from ptproof.proof.attack.scope import Inadmissible, Scope, Work
@@ -25,6 +25,7 @@ MISSES = (Unsure, Undefined, NotReal, Inadmissible, OverflowError, ZeroDivisionE
 _SWEEPS = 5
 _LIMIT = 200_000  # nodes that are evaluated at most, also within one point
 _POOL = 15  # functions for each undefined one
+_ROUNDS = 3  # of these, before others are drawn
 
 
 @dataclass(frozen=True)
@@ -46,7 +47,7 @@ class Point:
         if digits in self.made:
             return self.made[digits]
         evaluator = Evaluator(digits, self.functions, self.work)
-        evaluator.point = Scope(dict(self.values))
+        evaluator.point = Scope({atom: exact(value) for atom, value in self.values.items()})
         for atom, expression in self.defined:
             value = evaluator.number(expression, evaluator.point)
             if not fits(atom, value, evaluator.calculus):
@@ -59,13 +60,13 @@ class Point:
 class Sampler:
     """Draws admissible points of a prepared goal, in an order that the seed decides."""
 
-    def __init__(self, goal: Prepared, seed: str) -> None:
+    def __init__(self, goal: Prepared, id: str, seed: int) -> None:
         self.goal = goal
-        self.random = random.Random(seed)
+        self.seed = seed
+        self.random = random.Random(f"{id}:{seed}")
         self.drawer = Drawer(goal.atoms, goal.parts, self.random, moderate=_needs_moderation(goal))
         self.attempt = 0
         self.work = Work(limit=_LIMIT)
-        self.pool: dict[tuple[Any, int], Concrete] = {}
 
     def points(self) -> Iterator[Point | None]:
         """Points that are admissible, and None for each attempt that led to none."""
@@ -79,7 +80,11 @@ class Sampler:
 
     def _draw(self) -> Point:
         generator = self.random
-        functions = {node.func: self._function(node) for node in self.goal.functions}
+        again, number = divmod(self.attempt, _POOL)
+        functions = {
+            node.func: drawn(node, f"{self.seed}:{again // _ROUNDS}:{k}", number, self.goal.atoms)
+            for k, node in enumerate(self.goal.functions)
+        }
         if self.goal.solutions and generator.random() < 0.75:
             functions.update(_without_circles(generator.sample(self.goal.solutions, len(self.goal.solutions))))
         functions.update(self.goal.defined)
@@ -88,13 +93,6 @@ class Sampler:
         values = self.drawer.values(self.attempt, taken)
         values[START] = generator.choice((Fraction(1), Fraction(1, 3), Fraction(5), Fraction(1, 50)))
         return Point(values, defined, functions, self.work)
-
-    def _function(self, node: Any) -> Concrete:
-        """One of a few functions of the declared kind, which are drawn once."""
-        number = self.attempt % _POOL
-        if (node.func, number) not in self.pool:
-            self.pool[node.func, number] = drawn(node, self.random, number, self.goal.atoms)
-        return self.pool[node.func, number]
 
     def _definitions(self) -> tuple[tuple[tuple[Any, sp.Expr], ...], set[Any]]:
         """Symbols that equalities give, and some that are put at the end of an inequality."""
@@ -117,7 +115,8 @@ class Sampler:
                 if atom not in found and not _reaches(root, atom, found):
                     found[atom] = root
         if self.goal.special and self.attempt % 3 == 1:
-            atom, value = self.random.choice(self.goal.special)
+            special = self.random.choice(self.goal.special)
+            atom, value = special.atom, special.bound
             if atom not in found and not _reaches(value, atom, found):
                 found[atom] = value
         return _ordered(found), set(found)

@@ -6,12 +6,12 @@ another derivative keeps its own variable.
 
 from __future__ import annotations
 
-from fractions import Fraction
 from typing import NamedTuple, TypeAlias
 
-from ptproof.proof.attack.numbers import Arithmetic, NotReal, Number, Undefined, Unsure, size
+from ptproof.proof.attack.magnitudes import size, spread
+from ptproof.proof.attack.numbers import ONE, ZERO, Arithmetic, Ball, Exact, NotReal, Number, Undefined, Unsure
 
-ZERO, ONE = Fraction(0), Fraction(1)
+HALF = Exact(1, 2)
 
 
 class Series(NamedTuple):
@@ -72,7 +72,8 @@ class Calculus:
         return Series(left.tag, tuple(self._convolution(left.terms, right.terms, k) for k in range(order)))
 
     def _convolution(self, left: tuple[Value, ...], right: tuple[Value, ...], k: int) -> Value:
-        products = [self.mul(left[j], right[k - j]) for j in range(k + 1) if left[j] != 0 and right[k - j] != 0]
+        pairs = [(left[j], right[k - j]) for j in range(k + 1)]
+        products = [self.mul(one, other) for one, other in pairs if not (_nothing(one) or _nothing(other))]
         return self.add(products) if products else ZERO
 
     def inverse(self, value: Value) -> Value:
@@ -98,8 +99,8 @@ class Calculus:
         if isinstance(exponent, Series):
             return self.exp(self.mul(exponent, self.log(value)))
         assert isinstance(value, Series)
-        if isinstance(exponent, Fraction) and exponent.denominator == 1 and abs(exponent) < 100:
-            return self._integer_power(value, int(exponent))
+        if type(exponent) is Exact and exponent.q == 1 and abs(exponent) < 100:
+            return self._integer_power(value, int(exponent.p))
         start = self.numbers.sign(base(value))
         if start < 0:
             return Series(value.tag, (self.numbers.power(base(value), exponent),))  # which says why it has no value
@@ -110,9 +111,9 @@ class Calculus:
         for k in range(1, len(value.terms)):
             parts = []
             for j in range(1, k + 1):
-                factor = self.numbers.sub(self.numbers.mul(exponent, Fraction(j)), Fraction(k - j))
+                factor = self.numbers.sub(self.numbers.mul(exponent, Exact(j)), Exact(k - j))
                 parts.append(self.mul(factor, self.mul(value.terms[j], found[k - j])))
-            found.append(self.mul(self.mul(first, Fraction(1, k)), self.add(parts)))
+            found.append(self.mul(self.mul(first, Exact(1, k)), self.add(parts)))
         return Series(value.tag, tuple(found))
 
     def _integer_power(self, value: Value, exponent: int) -> Value:
@@ -130,8 +131,8 @@ class Calculus:
         if self.numbers.sign(exponent) < 0:
             raise Undefined("a negative power of zero")
         order = len(value.terms) - 1
-        vanishing = next((k for k, term in enumerate(value.terms) if term != 0), order + 1)
-        least = self.numbers.sub(self.numbers.mul(exponent, Fraction(vanishing)), Fraction(order))
+        vanishing = next((k for k, term in enumerate(value.terms) if not _nothing(term)), order + 1)
+        least = self.numbers.sub(self.numbers.mul(exponent, Exact(vanishing)), Exact(order))
         if not any(isinstance(term, Series) for term in value.terms) and self.numbers.sign(least) > 0:
             return Series(value.tag, (ZERO,) * (order + 1))
         raise Unsure("a derivative of a root of zero")
@@ -141,7 +142,7 @@ class Calculus:
             return self.numbers.exp(value)
         found: list[Value] = [self.exp(value.terms[0])]
         for k in range(1, len(value.terms)):
-            parts = [self.mul(Fraction(j, k), self.mul(value.terms[j], found[k - j])) for j in range(1, k + 1)]
+            parts = [self.mul(Exact(j, k), self.mul(value.terms[j], found[k - j])) for j in range(1, k + 1)]
             found.append(self.add(parts))
         return Series(value.tag, tuple(found))
 
@@ -153,56 +154,57 @@ class Calculus:
     def _integrated(self, value: Series, start: Value, slope: Value) -> Value:
         """The series y with y(0) = start and y' = slope · value'."""
         order = len(value.terms)
-        rate: tuple[Value, ...] = (*(self.mul(Fraction(k), value.terms[k]) for k in range(1, order)), ZERO)
+        rate: tuple[Value, ...] = (*(self.mul(Exact(k), value.terms[k]) for k in range(1, order)), ZERO)
         product = self.mul(slope, Series(value.tag, rate))
         assert isinstance(product, Series)
-        rest = tuple(self.mul(Fraction(1, k), product.terms[k - 1]) for k in range(1, order))
+        rest = tuple(self.mul(Exact(1, k), product.terms[k - 1]) for k in range(1, order))
         return Series(value.tag, (start, *rest))
 
     def sine_cosine(self, value: Value) -> tuple[Value, Value]:
         if not isinstance(value, Series):
-            if value == 0:
-                return ZERO, ONE
-            mp = self.numbers.mp
-            return self.numbers.smooth(mp.sin, value, 0.0), self.numbers.smooth(mp.cos, value, 0.0)
+            return (
+                (ZERO, ONE)
+                if _nothing(value)
+                else (self.numbers.smooth(Ball.sin, value), self.numbers.smooth(Ball.cos, value))
+            )
         first = self.sine_cosine(value.terms[0])
         sines, cosines = [first[0]], [first[1]]
         for k in range(1, len(value.terms)):
-            rates = [self.mul(Fraction(j, k), value.terms[j]) for j in range(1, k + 1)]
+            rates = [self.mul(Exact(j, k), value.terms[j]) for j in range(1, k + 1)]
             sines.append(self.add([self.mul(rate, cosines[k - j]) for j, rate in enumerate(rates, 1)]))
             cosines.append(self.neg(self.add([self.mul(rate, sines[k - j]) for j, rate in enumerate(rates, 1)])))
         return Series(value.tag, tuple(sines)), Series(value.tag, tuple(cosines))
 
     def arctangent(self, value: Value) -> Value:
         if not isinstance(value, Series):
-            return ZERO if value == 0 else self.numbers.smooth(self.numbers.mp.atan, value, 0.0)
+            return ZERO if _nothing(value) else self.numbers.smooth(Ball.atan, value)
         slope = self.inverse(self.add([ONE, self.mul(value, value)]))
         return self._integrated(value, self.arctangent(value.terms[0]), slope)
 
     def arcsine(self, value: Value) -> Value:
         if isinstance(value, Series):
-            slope = self.power(self.sub(ONE, self.mul(value, value)), Fraction(-1, 2))
+            slope = self.power(self.sub(ONE, self.mul(value, value)), -HALF)
             return self._integrated(value, self.arcsine(value.terms[0]), slope)
-        if value == 0:
+        if _nothing(value):
             return ZERO
-        if value in (1, -1):
-            return self.numbers.mul(Fraction(value), self.numbers.constant(self.numbers.mp.pi / 2))
+        if type(value) is Exact and abs(value) == ONE:
+            return self.numbers.mul(value, self.right_angle())
         room = self.numbers.sub(ONE, self.numbers.mul(value, value))
         if self.numbers.sign(room) < 0:
             raise NotReal("the arc sine of a number larger than 1")
         clear = self.numbers.ball(room)
-        if clear.error > size(clear.middle) - 3:
+        if spread(clear) > size(clear) - 3:
             raise Unsure("the arc sine near 1")
-        return self.numbers.smooth(self.numbers.mp.asin, value, 2.0 - size(clear.middle) / 2)
+        return self.numbers.smooth(Ball.asin, value)
+
+    def right_angle(self) -> Number:
+        return self.numbers.mul(HALF, self.numbers.constant("Pi"))
 
     def absolute(self, value: Value) -> Value:
         if isinstance(value, Series):
             return value if self.sign(value) >= 0 else self.neg(value)
-        if isinstance(value, Fraction):
-            return abs(value)
-        if self._open(value):
-            return self.numbers.hull(value, self.numbers.neg(value))
-        return value if value.middle >= 0 else self.numbers.neg(value)
+        self.numbers.ready()
+        return abs(value)
 
     def _open(self, value: Number) -> bool:
         try:
@@ -218,6 +220,21 @@ class Calculus:
         return left if self.sign(difference) >= 0 else right
 
 
+def _nothing(value: Value) -> bool:
+    """Whether the value is the exact number 0."""
+    return type(value) is Exact and not value
+
+
+def hashable(value: Value | None) -> object:
+    """What is equal for equal values, and can be a key: a ball itself cannot."""
+    if isinstance(value, Series):
+        return (value.tag, *map(hashable, value.terms))
+    number: Number = value
+    if type(number) is not Ball:
+        return number
+    return tuple(tuple(map(int, end.man_exp())) for end in (number.mid(), number.rad()))
+
+
 def is_zero(value: Value) -> bool:
     """Whether every coefficient is exactly 0."""
-    return all(map(is_zero, value.terms)) if isinstance(value, Series) else value == 0
+    return all(map(is_zero, value.terms)) if isinstance(value, Series) else _nothing(value)

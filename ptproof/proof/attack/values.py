@@ -8,7 +8,8 @@ from fractions import Fraction
 from typing import Any
 
 from ptproof.proof.attack.kinds import fits_kind
-from ptproof.proof.attack.numbers import Ball, Number, Unsure, size
+from ptproof.proof.attack.magnitudes import size
+from ptproof.proof.attack.numbers import Ball, Exact, Number, Unsure, fraction
 
 _PLAIN = ("1", "2", "0", "1/2", "-1", "3", "-2", "-1/2", "3/2", "5")
 _SMALL = ("1/1000", "1/1000000000", "1/1000000000000000000000000000000", "-1/1000000000")
@@ -78,7 +79,7 @@ class Drawer:
         """A value of the kind of the atom between two ends, at an end where that is exact and allowed."""
         candidates: list[Fraction] = []
         if not strict and self.random.random() < 0.4:
-            candidates += [end for end in (low, high) if isinstance(end, Fraction)]
+            candidates += [fraction(end) for end in (low, high) if type(end) is Exact]
         a, b = (None if end is None else _rational(end) for end in (low, high))
         if a is not None and b is not None:
             if a > b:
@@ -111,13 +112,12 @@ class Drawer:
 
 def _rational(end: Number) -> Fraction:
     """A rational close to the end, of a length that is fit for further work."""
-    if not isinstance(end, Ball):
-        return end
-    bits = size(end.middle)
+    if type(end) is not Ball:
+        return fraction(end)
+    bits = size(end)
     if bits > _LONGEST:
         raise Unsure("an end is too large for further work")
     if bits < -_LONGEST:
         return Fraction(0)
-    sign, mantissa, exponent, _ = end.middle._mpf_
-    exact = Fraction((-1) ** sign * int(mantissa)) * Fraction(2) ** exponent
-    return exact.limit_denominator(10**24)
+    mantissa, exponent = end.mid().man_exp()
+    return (int(mantissa) * Fraction(2) ** int(exponent)).limit_denominator(10**24)

@@ -6,11 +6,13 @@ from collections.abc import Mapping
 from fractions import Fraction
 from typing import Any
 
+import mpmath
 import sympy as sp
 
 from ptproof.proof.attack.evaluator import Evaluator
 from ptproof.proof.attack.functions import Concrete
-from ptproof.proof.attack.numbers import Ball, NotReal, Number, Undefined, Unsure, context
+from ptproof.proof.attack.magnitudes import as_float as as_float
+from ptproof.proof.attack.numbers import Ball, NotReal, Number, Undefined, Unsure, exact, undisturbed
 from ptproof.proof.attack.scope import Inadmissible, Scope
 from ptproof.proof.attack.series import Calculus
 
@@ -29,12 +31,15 @@ class Place:
         self, values: Mapping[Any, Number], functions: Mapping[Any, Concrete] | None = None, digits: int = 50
     ) -> None:
         self._evaluator = Evaluator(digits, functions or {})
-        self._evaluator.point = Scope(dict(values))
+        self._evaluator.point = Scope(
+            {key: value if type(value) is Ball else exact(value) for key, value in values.items()}
+        )
         self.calculus: Calculus = self._evaluator.calculus
 
     def value(self, expression: sp.Expr) -> Number:
         """The value of the expression here."""
-        return self._evaluator.number(sp.sympify(expression), self._evaluator.point)
+        with undisturbed():
+            return self._evaluator.number(sp.sympify(expression), self._evaluator.point)
 
     def sign(self, expression: sp.Expr) -> int:
         """The sign of the expression here."""
@@ -44,18 +49,16 @@ class Place:
         """Whether a value is certainly larger than an exact limit."""
         numbers = self.calculus.numbers
         try:
-            return numbers.sign(numbers.sub(value, Fraction(limit))) > 0
+            return numbers.sign(numbers.sub(value, exact(Fraction(limit)))) > 0
         except Unsure:
             return False
 
 
-def as_float(value: Number) -> float:
-    """A value for people and for searches, not for decisions."""
-    return float(value.middle) if isinstance(value, Ball) else float(value)
-
-
 def text(value: Number, digits: int = 20) -> str:
     """The value for people."""
-    if isinstance(value, Ball):
-        return str(context(digits + 10).nstr(value.middle, digits))
-    return str(value) if len(str(value)) <= 40 else f"{float(value):.17g}"
+    if type(value) is Ball:
+        own = mpmath.MPContext()
+        own.dps = digits + 10
+        mantissa, exponent = value.mid().man_exp()
+        return str(own.nstr(own.ldexp(own.mpf(int(mantissa)), int(exponent)), digits))
+    return str(value) if len(str(value)) <= 40 else f"{as_float(value):.17g}"

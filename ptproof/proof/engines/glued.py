@@ -53,14 +53,18 @@ def _signs(side: sp.Expr, sign: int) -> SignOf:
 def _divisible(difference: sp.Expr, side: sp.Expr, power: int, is_smooth: Callable[[sp.Expr], bool]) -> bool:
     """Whether difference = side^power · q, with q a polynomial in the symbols of ``side`` over smooth functions.
 
-    The coefficients of q are sums of numbers times coefficients of the difference, which must be smooth themselves.
+    The coefficients of q are sums of numbers times coefficients of the difference, which must be smooth themselves. A
+    common denominator is left out, if its reciprocal is smooth as well: it stays where it is, under q.
     """
     if vanishes(difference):
         return True
+    above, below = sp.fraction(sp.together(difference))
+    if not (below.is_number or is_smooth(1 / below)):
+        return False
     try:
         generators = sorted(side.free_symbols, key=lambda symbol: symbol.name)
         divisor = sp.Poly(side, *generators)
-        numerator = sp.Poly(sp.expand(difference), *generators)
+        numerator = sp.Poly(sp.expand(above), *generators)
         divides = bool(sp.rem(numerator, divisor**power, *generators) == 0)
     except sp.PolynomialError:
         return False

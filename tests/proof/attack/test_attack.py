@@ -7,7 +7,7 @@ import sympy as sp
 
 from ptproof.proof import Goal, eq, ge, gt, le, lt
 from ptproof.proof.attack import attack, points_of
-from ptproof.proof.statement import Assumption, ForAll, Statement, every
+from ptproof.proof.statement import Assumption, ForAll, Relation, Statement, every
 
 x, y, z = sp.symbols("x y z", real=True)
 p, q = sp.symbols("p q", positive=True)
@@ -92,3 +92,14 @@ def test_an_assumption_that_fails_between_the_places_of_a_grid_is_no_assumption_
     grows = ForAll((s,), le(sp.Derivative(V(s), s), rate * V(s)), (ge(s, 0), le(s, t)))
     goal = Goal("growth", le(V(t), V(0) * sp.exp(rate * t)), (grows, ge(t, 0), ge(rate, 1000)))
     assert attack(goal, seed=seed).hit is None
+
+
+@pytest.mark.parametrize("rate", ["a gain with a corner", "a saturation"])
+def test_an_equation_without_a_plain_solution_is_met_at_rest(rate: str) -> None:
+    """Constant functions: without them nothing would satisfy the assumption, and no claim about it could be proved."""
+    X, Y = (sp.Function(name, real=True) for name in "XY")
+    rates = {"a gain with a corner": -X(s) / sp.Max(1, s) ** 2, "a saturation": sp.Min(p, sp.Max(-p, Y(s) - X(s)))}
+    moves = ForAll((s,), Relation(sp.Derivative(X(s), s), "=", rates[rate]), (ge(s, 0), le(s, t)))
+    for sign, found in (("=", True), ("<", False)):
+        goal = Goal("rest", le(X(t), X(0)), (moves, ge(t, 0), Relation(X(0), sign, X(t)), Relation(X(t), sign, X(0))))
+        assert (next(points_of(goal, points=1), None) is not None) is found

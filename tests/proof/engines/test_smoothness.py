@@ -26,6 +26,8 @@ SMOOTH = [
     sp.Max(x, 0) ** 3,
     sp.Piecewise((x**3, x < 0), (x**4, True)),
     x / (x**2 + k),
+    sp.Abs(x) ** 3 / (1 + x**2),
+    y * sp.Abs(x) ** 3 / (2 + sp.sin(x * y)),
 ]
 NOT_SMOOTH = [
     x * sp.Abs(x),
@@ -44,6 +46,10 @@ NOT_SMOOTH = [
     1 / (x - y),
     1 / (x**2 - k),
     sp.sin(k * x * sp.Abs(x)),
+    x * sp.Abs(x) / (1 + x**2),
+    sp.Abs(x) ** 3 / (x**2 + y**2),
+    sp.Abs(x) ** 3 / (1 - x),
+    sp.Abs(x) ** 3 / (1 + sp.sin(x)),
 ]
 
 
