@@ -6,9 +6,8 @@ import sympy as sp
 
 from ptproof.proof import Evidence, ForAll, Goal, claim, ge, gt, instances, le, lt, reals, refute
 
-from .notation import E_norm, c, k
-from .notation import a1, a2, b1, b2
-from .section6a_asymptotic import ONE, condition
+from .notation import E_norm, a1, a2, b1, b2, k
+from .section6a_asymptotic import condition
 from .section6b_1_comparison import C1, C2
 
 SECTION = "6.2 Discussion: which gain is needed"
@@ -27,11 +26,14 @@ def rate(factor: sp.Expr) -> sp.Expr:
 
 
 @claim(
-    "6.2/rate-by-norm", "The rate of V is at most −(k/2 − ρ‖E‖)‖∇F‖² on the average", le(rate(rho), -(k / 2 - rho * E_norm) * square),
+    "6.2/rate-by-norm",
+    "The rate of V is at most −(k/2 − ρ‖E‖)‖∇F‖² on the average",
+    le(rate(rho), -(k / 2 - rho * E_norm) * square),
     given=[dominated], place="Section 6.2",
 )  # fmt: skip
 def rate_by_norm(goal: Goal) -> Evidence:
-    """The drift and the gradient are compared as a whole: neither c₁ nor c₂ enters. Here ρ is the factor of the drift."""
+    """The drift and the gradient are compared as a whole: neither c₁ nor c₂ enters. Here ρ is the factor of the
+    drift."""
     return reals(goal)
 
 
@@ -41,7 +43,8 @@ always_falls = ForAll((*g, *f_now), lt(rate(sp.S.One), 0), (gt(square, 0), domin
 
 
 @claim(
-    "6.2/convergence-only-printed", "V is guaranteed to fall for the average of the asymptotic seeker only under the printed condition",
+    "6.2/convergence-only-printed",
+    "V is guaranteed to fall for the average of the asymptotic seeker only under the printed condition",
     condition, given=[always_falls], labels=["eq:convergence_cond"], expected="refuted",
     grade="error",
     wrong="The condition is enough and not needed: V of the average falls for every drift of that norm as soon as "
@@ -49,8 +52,8 @@ always_falls = ForAll((*g, *f_now), lt(rate(sp.S.One), 0), (gt(square, 0), domin
     survives="Yes: the theorem is not concerned, and the smaller threshold is not known to the vehicle either.",
 )  # fmt: skip
 def convergence_only_printed(goal: Goal) -> Evidence:
-    """The witness has the constants of F = −x₁² − 2x₂², a drift of norm 1 and the gain 3: V falls for every gradient and
-    every drift that the norm allows, and the printed condition asks for k > 16."""
+    """The witness has the constants of F = −x₁² − 2x₂², a drift of norm 1 and the gain 3: V falls for every gradient
+    and every drift that the norm allows, and the printed condition asks for k > 16."""
     return refute(goal, {a1: 2, a2: 1, b1: 2, b2: 4, E_norm: 1, k: 3})
 
 
@@ -79,7 +82,8 @@ never_grows = ForAll((*g, *f_now, rho), le(rate(rho), 0), (dominated, le(rho, 1)
 
 
 @claim(
-    "6.2/provable-only-printed", "For κ ≥ 2 the average of the prescribed-time seeker keeps V from growing only under the printed condition",
+    "6.2/provable-only-printed",
+    "For κ ≥ 2 the average of the prescribed-time seeker keeps V from growing only under the printed condition",
     gt(k, 2 * C2**2 / C1**2 * E_norm), given=[never_grows, le(C1, C2)], place="Section 6.2", expected="refuted",
     grade="error",
     wrong="The condition is enough and not needed: for every κ the average converges as soon as k ≥ 2‖E‖, whatever c₁ "
@@ -96,8 +100,8 @@ def provable_only_printed(goal: Goal) -> Evidence:
     ge(k, 2 * E_norm), given=[never_grows], place="Section 6.2", corrects=provable_only_printed,
 )  # fmt: skip
 def provable_only(goal: Goal) -> Evidence:
-    """At the start the drift has its full size. That the trajectory does escape where the gain is smaller is shown for one
-    field and one drift of every norm, in the part beyond the paper."""
+    """At the start the drift has its full size. That the trajectory does escape where the gain is smaller is shown
+    for one field and one drift of every norm, in the part beyond the paper."""
     return reals(goal, *instances(goal, (1, 0, -E_norm, 0, 1)))
 
 

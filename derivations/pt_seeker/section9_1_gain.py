@@ -194,7 +194,8 @@ quadratic_field = drifted.with_values({F: -(x.T * hessian * x)[0] / 2})
 
 
 @claim(
-    "beyond/definite-necessary-for-all-fields", "Where it fails strictly, the average leaves the source of some quadratic field",
+    "beyond/definite-necessary-for-all-fields",
+    "Where it fails strictly, the average leaves the source of some quadratic field",
     Exists((eps,), (gt(jacobian(quadratic_field.rhs, position).trace(), 0), gt(hessian.det(), 0))),
     given=[eq((direction.T * matrix * direction)[0], -deficit)], corrects=definite_necessary,
 )  # fmt: skip

@@ -64,7 +64,8 @@ never_stronger = ForAll((t, *position), ge(F_1 * f[0] + F_2 * f[1] + k / 2 * squ
 
 
 @claim(
-    "beyond/rate-without-c2", "If the drift is never stronger, V of the average falls at the rate (k/2)(1 − ρ)‖∇F‖² at least",
+    "beyond/rate-without-c2",
+    "If the drift is never stronger, V of the average falls at the rate (k/2)(1 − ρ)‖∇F‖² at least",
     le(V_rate, at(-k / 2 * (1 - 1 / stretch**2) * square, tau)),
     given=[*solves(tau), *later, never_stronger], uses=[derivative], example=EXAMPLE,
 )  # fmt: skip
@@ -160,8 +161,9 @@ def on_trajectories(order: sp.Expr, tag: str, words: str, scalar: Claim, example
         uses=[v_inequality, v_nonnegative, scalar], example=example,
     )  # fmt: skip
     def every_order(goal: Goal) -> Evidence:
-        """From every start and every initial time τ₀ ≥ t₀, as long as the trajectory exists; since V is bounded on it, it
-        exists for all times. The bound is of class KL and does not depend on τ₀: Step 4 holds for this κ, too."""
+        """From every start and every initial time τ₀ ≥ t₀, as long as the trajectory exists; since V is bounded on
+        it, it exists for all times. The bound is of class KL and does not depend on τ₀: Step 4 holds for this κ,
+        too."""
 
         def nonnegative(there: Goal, time: sp.Expr) -> list[Fact]:
             return specialise(there, v_nonnegative, {kappa: order, position[0]: X1(time), position[1]: X2(time)})
@@ -233,8 +235,8 @@ def corollary(
         uses=[general, v_nonnegative, *uses], example=dict(general.example),
     )  # fmt: skip
     def on_trajectory(goal: Goal) -> Evidence:
-        """Such a drift is never stronger than the feedback: the class-KL bound holds along every averaged trajectory, from
-        every start and every initial time."""
+        """Such a drift is never stronger than the feedback: the class-KL bound holds along every averaged trajectory,
+        from every start and every initial time."""
 
         def along(there: Goal, point: sp.Tuple) -> list[Fact]:
             put = Substitution(dict(zip((t, *position), point, strict=True))).into

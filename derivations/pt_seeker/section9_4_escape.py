@@ -13,7 +13,6 @@ from ptproof.proof import (
     ForAll,
     Goal,
     claim,
-    comparison,
     eq,
     exact,
     ge,
@@ -147,8 +146,8 @@ far = (n * order * T * margin**2 / (2 * k + margin)) ** (-1 / (2 * n))
     uses=[solution, start_of_survivors],
 )  # fmt: skip
 def escape(goal: Goal) -> Evidence:
-    """m = 2‖E‖ − k is the margin by which the gain is too small. The start r₀ is chosen so that the instant of escape is
-    t₀ + T(2‖E‖ − k)/(2‖E‖ + k), before T is over in τ."""
+    """m = 2‖E‖ − k is the margin by which the gain is too small. The start r₀ is chosen so that the instant of escape
+    is t₀ + T(2‖E‖ − k)/(2‖E‖ + k), before T is over in τ."""
     return limits(goal)
 
 
