@@ -236,11 +236,14 @@ def _trusted(ready: Prepared, point: Point) -> bool:
     """Whether the functions are such that a grid can tell whether an assumption over several variables holds.
 
     Over one variable the places between those of the grid are looked at too; over several only functions that were
-    made to satisfy such an assumption count.
+    made to satisfy such an assumption count, and one that speaks of numbers only is never certain to hold.
     """
     made = dict.fromkeys(ready.defined) | dict.fromkeys(ready.solutions)
     several = [item for item in ready.quantified if len(item.variables) > 1]
-    inside = {node.func for expression in expressions_of(several) for node in expression.atoms(AppliedUndef)}
+    found = [{node.func for e in expressions_of([item]) for node in e.atoms(AppliedUndef)} for item in several]
+    inside: set[Any] = set().union(*found)
+    if not all(found):
+        return False
     return all((function, concrete) in made for function, concrete in point.functions.items() if function in inside)
 
 

@@ -33,7 +33,7 @@ from ptproof.proof.statement import (
 from ptproof.proof.substitution import NotOfKind, Substitution
 
 Point: TypeAlias = sp.Expr | tuple[sp.Expr, ...]
-Along: TypeAlias = Callable[[Goal, sp.Expr], Sequence[Fact]]
+Along: TypeAlias = Callable[[Goal, Any], Sequence[Fact]]
 _SECONDS = 4.0
 _SAYS: dict[str, RelationSign] = {
     "positive": ">", "nonnegative": ">=", "negative": "<", "nonpositive": "<=", "nonzero": "!="
@@ -74,20 +74,20 @@ def instances(goal: Goal, *points: Point) -> list[Fact]:
 
 
 def entailed(needed: ForAll, goal: Goal, facts: Sequence[Fact] = (), along: Along | None = None) -> Answer:
-    """Whether ``needed`` follows from the goal's assumptions: shown at one arbitrary value of its variables.
+    """Whether ``needed`` follows from the goal's assumptions: shown at one arbitrary value of each of its variables.
 
-    Quantified assumptions on as many variables are used at that same value, where it is in their domain. ``along``
-    gives facts about the value of a single variable: it gets the goal that has, in addition, the value in the domain
-    of ``needed``, and the value.
+    Quantified assumptions are used at that same value, where it is in their domain. ``along`` gives facts about it: it
+    gets the goal that has, in addition, the value in the domain of ``needed``, and the value, a tuple for several
+    variables.
     """
     if needed in goal.assumptions:
         return Answer(True, "it is assumed")
     # Fresh symbols: nothing that is assumed about a free symbol of the same name may be used.
-    fresh = tuple(map(like, needed.variables))
-    point: Point = fresh if len(fresh) > 1 else fresh[0]
-    there = Substitution(dict(zip(needed.variables, fresh, strict=True)))
+    values = {variable: like(variable) for variable in needed.variables}
+    point = sp.Tuple(*values.values()) if len(values) > 1 else next(iter(values.values()))
+    there = Substitution(values)
     inside = replace(goal, assumptions=(*goal.assumptions, *map(there.relation, needed.domain)))
-    said = usable(inside, [*facts, *(along(inside, fresh[0]) if along and len(fresh) == 1 else ())])
+    said = usable(inside, [*facts, *(along(inside, point) if along else ())])
     known = list(inside.relations)
     for item in goal.assumptions:
         if isinstance(item, ForAll):
