@@ -76,7 +76,8 @@ NOT_SHOWN = {
     "a rate that is not Lipschitz": (le(v(tau), (tau - t0) ** 2 / 4), [after, eq(v(t0), 0), rate(sp.sqrt(v(s)))],
                                      (s - t0) ** 2 / 4, {}),
     "a maximum with a side that is not Lipschitz": (
-        le(v(tau), (tau - t0) ** 2 / 4), [after, eq(v(t0), 0), rate(sp.Max(sp.sqrt(v(s)), v(s)))], (s - t0) ** 2 / 4, {},
+        le(v(tau), (tau - t0) ** 2 / 4), [after, eq(v(t0), 0), rate(sp.Max(sp.sqrt(v(s)), v(s)))],
+        (s - t0) ** 2 / 4, {},
     ),
     "a root of a maximum": (
         le(v(tau), (tau - t0) ** 2 / 4), [after, eq(v(t0), 0), rate(sp.sqrt(sp.Max(v(s), v(s) / 2)))],
