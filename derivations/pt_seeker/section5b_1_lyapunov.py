@@ -177,6 +177,8 @@ def driftless_definite(goal: Goal) -> Evidence:
     )  # fmt: skip
 
 
+V_away = sp.Function("V", positive=True)  # V along a trajectory that has not met the source
+
 # Along a trajectory W(s) stands for V(X(s)): not negative, and 0 where the source is met. In the last three claims of
 # this part W is put in.
 W = sp.Function("W", real=True)

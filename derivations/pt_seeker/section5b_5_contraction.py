@@ -35,9 +35,9 @@ from .section5a_1_reduction import boundary_layer, quasi_steady_state
 from .section5a_3_uniformity import bounds_with_phase, bracket_with_phase, mu_one, one_start, one_system
 from .section5a_6_extended import extended_assumptions, extended_is_averaged, extended_other_data
 from .section5a_bounds import assumption_1
-from .section5b_1_lyapunov import driftless_bound, driftless_definite
 from .section5b_2_gradient_drift import guas
 from .section5b_4_all_starts import seeker_distance, stable_average
+from .section5d_4_guas import guas_driftless
 from .section8_1_definitions import image, matching_starts, matching_x, matching_z, start_x, start_z, t_f
 from .section8_1_definitions import settling as tau_f
 from .section8_2_contraction import equivalence
@@ -90,9 +90,8 @@ step_five = claim(
           "f = E∇F for κ = 1"),
     expected="cited", place="Step 5",
     uses=[
-        averaging_theorem, *assumption_1, *extended_assumptions, quasi_steady_state, layer_bounds, driftless_bound,
-        driftless_definite, guas, *stable_average, extended_is_averaged, extended_other_data, mu_one,
-        bounds_with_phase, bracket_with_phase,
+        averaging_theorem, *assumption_1, *extended_assumptions, quasi_steady_state, layer_bounds, guas,
+        *guas_driftless, *stable_average, extended_is_averaged, extended_other_data, mu_one, bounds_with_phase, bracket_with_phase,
     ],
 )(cited("the paper's Theorem 1, and nothing else: its hypotheses are the claims listed"))  # fmt: skip
 
