@@ -90,9 +90,9 @@ step_five = claim(
           "f = E∇F for κ = 1"),
     expected="cited", place="Step 5",
     uses=[
-        averaging_theorem, *assumption_1, *extended_assumptions,
-        quasi_steady_state, layer_bounds, guas, *guas_driftless, *stable_average, extended_is_averaged,
-        extended_other_data, mu_one, bounds_with_phase, bracket_with_phase,
+        averaging_theorem, *assumption_1, *extended_assumptions, quasi_steady_state, layer_bounds, guas,
+        *guas_driftless, *stable_average, extended_is_averaged, extended_other_data, mu_one, bounds_with_phase,
+        bracket_with_phase,
     ],
 )(cited("the paper's Theorem 1, and nothing else: its hypotheses are the claims listed"))  # fmt: skip
 
