@@ -29,7 +29,8 @@ from ptproof.system import gradient
 
 from . import chain
 from .notation import E_norm, F, T, f, k, position, t0, tau
-from .section5b_1_lyapunov import n, s
+from .section5b_0_trajectory import s
+from .section5b_1_lyapunov import n
 
 SECTION = "Beyond the paper"
 
