@@ -5,6 +5,7 @@ from __future__ import annotations
 import sympy as sp
 
 from ptproof.proof import (
+    Assumption,
     Evidence,
     Fact,
     Goal,
@@ -68,7 +69,7 @@ SECTION = "5.2 Theorem, Steps 4 to 6: stability"
 B1, B2 = c(1, ONE), c(2, ONE)
 drift_rate = B2**2 * E_norm
 decay_rate = k * B1**2 / 2
-case_two = [*at_order(assumption_2, ONE), *gradient_drift_given, norm_of_E]
+case_two: list[Assumption] = [*at_order(assumption_2, ONE), *gradient_drift_given, norm_of_E]
 
 
 @claim(

@@ -5,6 +5,7 @@ from __future__ import annotations
 import sympy as sp
 
 from ptproof.proof import (
+    Assumption,
     Claim,
     Evidence,
     Fact,
@@ -108,7 +109,7 @@ def largest(until: sp.Expr | None) -> ForAll:
     return ForAll((s,), le(d_of(s), d), (ge(s, t0), last))
 
 
-pushed = [*solves(tau), *later, *assumption_2, assumption_3b, largest(tau)]
+pushed: list[Assumption] = [*solves(tau), *later, *assumption_2, assumption_3b, largest(tau)]
 PUSHED = EXAMPLE | {d_of(t): 0}
 size, pull, factor = sp.symbols("p_x pull w", nonnegative=True)
 

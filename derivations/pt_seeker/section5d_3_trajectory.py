@@ -217,7 +217,7 @@ def on_the_trajectory(order: sp.Expr, tag: str, words: str, scalar: tuple[Claim,
         decayed = beta(at_the_middle(duration_in_t), duration_in_t / 2, order)
     else:
         decayed = fixed(duration_in_t / 2, order)
-    bounded = () if linear else (named(scalar, "beta-uniform"),)
+    bounded: tuple[Claim, ...] = () if linear else (named(scalar, "beta-uniform"),)
 
     @claim(
         f"prop/solution-convergence-{tag}", f"Every averaged solution reaches the source in the time T ({words})",

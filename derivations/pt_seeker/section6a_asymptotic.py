@@ -54,9 +54,9 @@ from .notation import (
     z,
 )  # fmt: skip
 from .section5b_0_trajectory import EXAMPLE, solves
+from .section5b_0_trajectory import start as first_time
 from .section5b_1_lyapunov import between, gradient_between, gradient_bounds
 from .section5b_2_gradient_drift import case_two, distance_at, distance_bound_tau
-from .section5b_2_gradient_drift import start as first_time
 
 SECTION = "6.1 Discussion: the asymptotic seeker and κ = 1"
 

@@ -28,7 +28,8 @@ from ptproof.system import gradient
 
 from . import chain
 from .notation import E_norm, F, T, f, k, position, t0, tau
-from .section5b_1_lyapunov import n, s
+from .section5b_0_trajectory import s
+from .section5b_1_lyapunov import n
 from .section9_1_gain import Z, alpha, beta, elapsed, integrated_rate
 
 SECTION = "Beyond the paper"

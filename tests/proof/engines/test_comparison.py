@@ -9,6 +9,7 @@ from ptproof.proof.engines.comparison import comparison
 from ptproof.proof.engines.quantified import entailed, specialise
 from ptproof.proof.engines.reals import reals
 from ptproof.proof.engines.witnesses import refute
+from ptproof.proof.lemmas import power_nonnegative
 from ptproof.proof.statement import ForAll, eq, ge, gt, le, lt
 from ptproof.proof.verdict import Verdict
 
@@ -182,3 +183,47 @@ def test_what_is_known_of_a_base_survives_its_roots():
     goal = Goal("test", le(1, order), (le(order ** (1 / (2 * order + 1)), w(s)),))
     assert reals(goal).verdict is Verdict.PROVED
     assert reals(Goal("test", le(2, order), goal.assumptions)).verdict is not Verdict.PROVED
+
+
+# v' ≤ b √v − 2a v: (u₀ e^{−a(s − t₀)} + b/(2a))² lies above, and is positive.
+rooted = b * sp.sqrt(w(s)) - 2 * a * w(s)
+above_root = (sp.sqrt(w(t0)) * sp.exp(-a * (s - t0)) + b / (2 * a)) ** 2
+not_negative = ForAll((s,), ge(w(s), 0), (ge(s, t0),))
+
+
+def rooted_bound(solution):
+    return le(w(tau), solution.subs(s, tau))
+
+
+def test_a_positive_solution_where_the_rate_is_not_lipschitz_at_zero():
+    given = [after, not_negative, rate(rooted, w)]
+    assert run(rooted_bound(above_root), given, above_root) is Verdict.PROVED
+
+
+def test_a_start_at_zero_is_a_case_of_its_own():
+    n = sp.Symbol("n", positive=True, integer=True)
+    base = 1 + a * w(t0) ** (n / (n + 1)) * n / (n + 1) * (s - t0)
+    solution = w(t0) * base ** (-(n + 1) / n)
+    given = [after, not_negative, rate(-a * w(s) ** (1 + n / (n + 1)), w)]
+    lemmas = [power_nonnegative(w(t0), n / (n + 1))]
+    found = run(le(w(tau), solution.subs(s, tau)), given, solution, denominators=[base], lemmas=lemmas)
+    assert found is Verdict.PROVED
+
+
+shrunk = (sp.sqrt(w(t0)) * sp.exp(-a * (s - t0))) ** 2
+ROOTED_NOT_SHOWN = {
+    "a barrier that may be zero": (shrunk, [after, not_negative, rate(sp.sqrt(w(s)) - 2 * a * w(s), w)]),
+    "a barrier that starts at zero": ((s - t0) ** 2 / 4, [after, not_negative, eq(w(t0), 0), rate(sp.sqrt(w(s)), w)]),
+    "a lower level": (above_root - b**2 / (8 * a**2), [after, not_negative, rate(rooted, w)]),
+    "a larger input": (above_root, [after, not_negative, rate(rooted + b, w)]),
+    "an inequality that ends before": (above_root, [
+        after, not_negative, rate(rooted, w, domain=(ge(s, t0), le(s, t0 + 1)))]),
+    "a sign that is known later only": (above_root, [
+        after, ForAll((s,), ge(w(s), 0), (ge(s, t0 + 1),)), rate(rooted, w)]),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", ROOTED_NOT_SHOWN)
+def test_a_positive_solution_is_needed(case):
+    solution, given = ROOTED_NOT_SHOWN[case]
+    assert run(rooted_bound(solution), given, solution) is not Verdict.PROVED
