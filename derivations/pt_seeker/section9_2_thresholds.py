@@ -7,6 +7,7 @@ from __future__ import annotations
 import sympy as sp
 
 from ptproof.proof import (
+    Assumption,
     Evidence,
     Exists,
     Fact,
@@ -29,6 +30,7 @@ from ptproof.proof import (
 )
 
 from .notation import E_norm, F, G, T, b1, b2, c, d, k, kappa, position, q, t0, tau, x1, x2
+from .section5a_1_reduction import f_tau, stretch
 from .section5b_0_trajectory import (
     EXAMPLE,
     F_1,
@@ -40,7 +42,6 @@ from .section5b_0_trajectory import (
     assumption_2,
     at,
     derivative,
-    f_tau,
     gradient_bounds,
     gradient_drift_given,
     here,
@@ -49,7 +50,6 @@ from .section5b_0_trajectory import (
     s,
     solves,
     start,
-    stretch,
     v_nonnegative,
 )
 from .section5b_1_lyapunov import n, sigma
@@ -81,7 +81,7 @@ def printed_threshold(goal: Goal) -> Evidence:
 
 # ‖E‖ is a number with ‖Eg‖ ≤ ‖E‖‖g‖ for all g, as the spectral norm is.
 norm_bounds = ForAll(g, le(image[0] ** 2 + image[1] ** 2, E_norm**2 * (g[0] ** 2 + g[1] ** 2)))
-drifting = (*solves(tau), *later, *gradient_drift_given, norm_bounds)
+drifting: tuple[Assumption, ...] = (*solves(tau), *later, *gradient_drift_given, norm_bounds)
 square = F_1**2 + F_2**2
 at_most = E_norm / (1 + (tau - start) / T) ** 2 - half  # at least ‖E‖/(1 + (τ − t₀)/T)² − k/2
 

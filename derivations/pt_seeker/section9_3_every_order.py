@@ -12,12 +12,12 @@ from typing import TypeAlias
 import sympy as sp
 
 from ptproof.proof import (
+    Assumption,
     Claim,
     Evidence,
     Fact,
     ForAll,
     Goal,
-    Relation,
     claim,
     comparison,
     ge,
@@ -225,7 +225,7 @@ At: TypeAlias = Callable[[Goal, dict[sp.Symbol, sp.Expr]], list[Fact]]
 
 
 def corollary(
-    general: Claim, order: sp.Expr, tag: str, words: str, drift: Sequence[Relation], uses: Sequence[Claim], says: At
+    general: Claim, order: sp.Expr, tag: str, words: str, drift: Sequence[Assumption], uses: Sequence[Claim], says: At
 ) -> Claim:
     """What holds for every drift that is never stronger, for f = E∇F; ``says`` knows the form at a gradient."""
 

@@ -8,6 +8,7 @@ from typing import Any
 import sympy as sp
 
 from ptproof.proof import (
+    Assumption,
     Claim,
     Evidence,
     Fact,
@@ -24,8 +25,8 @@ from ptproof.proof import (
     specialise,
 )
 
-from .notation import b1, b2, c, kappa, position, q, t, t0, x1, x2
-from .section5b_0_trajectory import EXAMPLE, F, V_of_x, assumption_2, gradient_bounds, s, v_nonnegative
+from .notation import F, b1, b2, c, kappa, position, q, t, t0, x1, x2
+from .section5b_0_trajectory import EXAMPLE, V_of_x, assumption_2, gradient_bounds, s, v_nonnegative
 from .section5b_1_lyapunov import n
 from .section9_1_gain import X, along, definite, definite_rate, follows_average, slowest, square
 
@@ -35,7 +36,7 @@ eigenvalue = sp.Symbol("lambda", positive=True)
 V_now = along(V_of_x, t)
 V_rate = sp.Derivative(V_now, t)
 here = {position[0]: X[0](t), position[1]: X[1](t)}
-setting = (ge(t, t0), *follows_average(), *definite, eq(eigenvalue, slowest))
+setting: tuple[Assumption, ...] = (ge(t, t0), *follows_average(), *definite, eq(eigenvalue, slowest))
 example: dict[Any, Any] = {**EXAMPLE, t: 1, eigenvalue: sp.Rational(1, 4)}
 
 
