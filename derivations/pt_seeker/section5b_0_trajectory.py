@@ -65,10 +65,11 @@ def at(expression: sp.Expr, time: sp.Expr) -> sp.Expr:
     return expression.subs(values, simultaneous=True)
 
 
-def solves(until: sp.Expr) -> list[ForAll]:
-    """X solves the averaged system on [τ₀, until]."""
+def solves(until: sp.Expr | None, since: sp.Expr = start) -> list[ForAll]:
+    """X solves the averaged system on [since, until], or for all times from ``since`` on."""
+    domain = (ge(s, since),) if until is None else (ge(s, since), le(s, until))
     return [
-        ForAll((s,), eq(sp.Derivative(X(s), s), at(rate, s)), (ge(s, start), le(s, until)))
+        ForAll((s,), eq(sp.Derivative(X(s), s), at(rate, s)), domain)
         for X, rate in zip((X1, X2), chain.averaged_tau.rhs, strict=True)
     ]
 

@@ -6,10 +6,9 @@ import sympy as sp
 
 from ptproof.proof import (
     Evidence,
+    Fact,
     ForAll,
     Goal,
-    Prose,
-    cited,
     claim,
     comparison,
     definition,
@@ -17,11 +16,15 @@ from ptproof.proof import (
     every,
     exact,
     ge,
+    gt,
+    instances,
     le,
     lt,
     power_monotone,
+    power_nonnegative,
     power_positive,
     reals,
+    specialise,
 )
 
 from .notation import (
@@ -35,16 +38,41 @@ from .notation import (
     b1,
     b2,
     c,
+    f,
     f_norm,
     k,
     kappa,
+    position,
     q,
+    t,
     t0,
     tau,
     x1,
     x2,
 )  # fmt: skip
 from .section5a_1_reduction import stretch
+from .section5b_0_trajectory import (
+    EXAMPLE,
+    X1,
+    X2,
+    V_along,
+    V_of_x,
+    V_rate,
+    assumption_2,
+    at,
+    distance,
+    field_between,
+    here,
+    in_time,
+    instant,
+    later,
+    s,
+    solves,
+    start,
+)
+from .section5b_0_trajectory import v_bounds as everywhere_between
+from .section5b_0_trajectory import v_differential_inequality as along_solution
+from .section5b_0_trajectory import v_nonnegative as nonnegative
 
 SECTION = "5.2 Theorem, Steps 4 to 6: stability"
 ONE = sp.S.One
@@ -118,37 +146,53 @@ def v_differential_inequality(goal: Goal) -> Evidence:
 
 # --- Case i: no drift ---------------------------------------------------------------------------------------
 
+# Without drift: f(t, x) = 0 at all instants and positions.
+no_drift = [ForAll((t, *position), eq(entry, 0), in_time) for entry in f]
+
 
 @claim(
-    "5/step4-driftless", "Without drift V decreases",
-    le(V_dot, -k * c(1) ** 2 / 2 * V ** (2 * q())),
-    given=[after, derivative_given, eq(f_norm, 0), *between, *gradient_between],
-    labels=["eq:lyapunov_derivative_inequality_kappa_2"], uses=[v_differential_inequality],
+    "5/step4-driftless", "Without drift V decreases along every solution",
+    le(V_rate, at(-k * c(1) ** 2 / 2 * V_of_x ** (2 * q()), tau)),
+    given=[*solves(tau), *later, *assumption_2, *no_drift],
+    labels=["eq:lyapunov_derivative_inequality_kappa_2"], uses=[along_solution, nonnegative], example=EXAMPLE,
 )  # fmt: skip
 def driftless(goal: Goal) -> Evidence:
     """‖f‖ = 0 in the inequality for V."""
-    return reals(goal)
+    return reals(
+        goal, *specialise(goal, along_solution, {}), *instances(goal, instant(tau)),
+        *specialise(goal, nonnegative, here),
+    )  # fmt: skip
 
 
 @claim(
     "5/step4-driftless-definite", "Without drift the rate of V is negative away from the source",
-    lt(-k * c(1) ** 2 / 2 * V ** (2 * q()), 0), place="Step 4, case i", uses=[driftless],
+    lt(-k * c(1) ** 2 / 2 * V_of_x ** (2 * q()), 0), given=[*field_between, gt(distance, 0)],
+    place="Step 4, case i", uses=[everywhere_between],
 )  # fmt: skip
 def driftless_definite(goal: Goal) -> Evidence:
-    """k c₁² > 0 and V > 0."""
-    return reals(goal)
+    """k c₁² > 0, and V ≥ a₂‖x − x*‖^(2κ) > 0."""
+    return reals(
+        goal, *specialise(goal, everywhere_between, {}), power_positive(distance, 2 * kappa),
+        power_positive(V_of_x, 2 * q()),
+    )  # fmt: skip
 
 
-# Along a trajectory: not negative; positive as long as the source is not reached, where there is nothing to show.
-V_t = sp.Function("V", nonnegative=True)
-V_away = sp.Function("V", positive=True)
-s = sp.Symbol("s", real=True)
+V_away = sp.Function("V", positive=True)  # V along a trajectory that has not met the source
+
+# Along a trajectory W(s) stands for V(X(s)): not negative, and 0 where the source is met. In the last three claims of
+# this part W is put in.
+W = sp.Function("W", real=True)
+W_nonnegative = ForAll((s,), ge(W(s), 0), (ge(s, start), le(s, tau)))
+along_X = V_of_x.subs({x1: X1(s), x2: X2(s)}, simultaneous=True)
 
 
 def on_interval(rate: sp.Expr, value: sp.Expr) -> ForAll:
-    """d(value)/ds ≤ rate on [t₀, τ]."""
-    return ForAll((s,), le(sp.Derivative(value, s), rate), (ge(s, t0), le(s, tau)))
+    """d(value)/ds ≤ rate on [τ₀, τ]."""
+    return ForAll((s,), le(sp.Derivative(value, s), rate), (ge(s, start), le(s, tau)))
 
+
+# At rest at the source of F = −‖x‖⁴: V = 0 all the time.
+EXAMPLE_AT_REST = EXAMPLE | {F: -((x1**2 + x2**2) ** 2), X1(s): 0, X2(s): 0, b1: 4, b2: 4, kappa: 2}
 
 # κ = n + 1 with n = 1, 2, …: the exponents below are then known to be positive.
 n = sp.Symbol("n", positive=True, integer=True)
@@ -164,22 +208,51 @@ def sigma_form(goal: Goal) -> Evidence:
     return exact(goal)
 
 
+def forgets(value: sp.Expr, until: sp.Expr) -> sp.Expr:
+    """The solution of v' = −(k c₁²/2) v^(2q) for κ = n + 1, from ``value`` at τ₀."""
+    return value * (1 - sigma * value**sigma * driftless_rate * (until - start)) ** (-1 / sigma)
+
+
 @claim(
-    "5/step4-driftless-bound", "Without drift V has an explicit class-KL bound for κ = n + 1 ≥ 2",
-    le(V_away(tau), V_away(t0) * (1 - sigma * V_away(t0) ** sigma * driftless_rate * (tau - t0)) ** (-1 / sigma)),
-    given=[on_interval(driftless_rate * V_away(s) ** (1 + sigma), V_away(s)), after],
-    place="Step 4, case i", uses=[driftless, sigma_form],
+    "5/step4-driftless-comparison", "What decreases as V does without drift has an explicit bound, for κ = n + 1 ≥ 2",
+    le(W(tau), forgets(W(start), tau)),
+    given=[on_interval(driftless_rate * W(s) ** (1 + sigma), W(s)), W_nonnegative, ge(tau, start)],
+    place="Step 4, case i", uses=[sigma_form],
+)  # fmt: skip
+def driftless_comparison(goal: Goal) -> Evidence:
+    """The comparison equation is of Bernoulli's type."""
+    base = 1 - sigma * W(start) ** sigma * driftless_rate * (s - start)
+    lemmas = [power_nonnegative(W(start), sigma)]
+    return comparison(goal, W(start) * base ** (-1 / sigma), denominators=[base], lemmas=lemmas)
+
+
+def at_order(items: list[ForAll], order: sp.Expr) -> list[ForAll]:
+    """Assumption 2 for κ = order."""
+    return [ForAll(item.variables, item.relation.map(lambda side: side.subs(kappa, order))) for item in items]
+
+
+V_start = V_along.subs(tau, start)
+
+
+@claim(
+    "5/step4-driftless-bound", "Without drift V has an explicit bound along every solution, for κ = n + 1 ≥ 2",
+    le(V_along, forgets(V_start, tau)),
+    given=[*solves(tau), *later, *at_order(assumption_2, n + 1), *no_drift],
+    place="Step 4, case i", uses=[driftless, driftless_comparison, nonnegative], 
+    example=EXAMPLE_AT_REST | {n: 1},
 )  # fmt: skip
 def driftless_bound(goal: Goal) -> Evidence:
-    """The comparison equation is of Bernoulli's type. It says more than asymptotic stability: the rate at which V
-    decreases, uniform in the initial time. κ = 1 is the exponential case of the next part with E = 0."""
-    base = 1 - sigma * V_away(t0) ** sigma * driftless_rate * (s - t0)
-    return comparison(goal, V_away(t0) * base ** (-1 / sigma), denominators=[base])
+    """From every initial time and every initial position, also where the solution meets the source."""
 
+    def along(there: Goal, point: sp.Expr) -> list[Fact]:
+        position_then = {x1: X1(point), x2: X2(point)}
+        return [
+            *specialise(there, driftless, {kappa: n + 1, tau: point}),
+            *specialise(there, nonnegative, {kappa: n + 1, **position_then}),
+        ]  # fmt: skip
 
-lyapunov_theorem = claim(
-    "5/step4-lyapunov-theorem", "Without drift the source is globally uniformly asymptotically stable for the average",
-    Prose("A radially unbounded V with class-K∞ bounds and a negative definite rate makes x* globally uniformly "
-          "asymptotically stable for the averaged system in τ"),
-    expected="cited", place="Step 4, case i", uses=[v_bounds, driftless, driftless_definite],
-)(cited("Khalil, Nonlinear Systems, Theorem 4.9"))  # fmt: skip
+    begun = {kappa: n + 1, x1: X1(start), x2: X2(start)}
+    return reals(
+        goal, *specialise(goal, nonnegative, begun), power_nonnegative(V_start, sigma),
+        *specialise(goal, driftless_comparison, {W(s): along_X}, along=along),
+    )  # fmt: skip

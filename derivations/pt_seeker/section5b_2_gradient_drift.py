@@ -6,9 +6,9 @@ import sympy as sp
 
 from ptproof.proof import (
     Evidence,
+    Fact,
     Goal,
-    Prose,
-    cited,
+    Relation,
     claim,
     comparison,
     eq,
@@ -19,72 +19,67 @@ from ptproof.proof import (
     integrals,
     le,
     limits,
+    lt,
     reals,
     specialise,
 )
 
 from .notation import (
-    R0,
-    V0,
     E_norm,
-    G,
-    R,
     T,
-    V,
     a1,
     a2,
     c,
-    f_norm,
     k,
     kappa,
     t0,
     tau,
     x1,
+    x2,
 )  # fmt: skip
-from .section3_problem import spectral_norm
 from .section5a_1_reduction import stretch
-from .section5b_1_lyapunov import (
-    ONE,
-    V_dot,
-    V_t,
-    after,
-    between,
-    derivative_given,
-    gradient_between,
-    gradient_bounds,
-    on_interval,
+from .section5b_0_trajectory import (
+    EXAMPLE,
+    R_0,
+    X1,
+    X2,
+    V_along,
+    V_of_x,
+    V_rate,
+    assumption_2,
+    at,
+    distance,
+    gradient_drift_given,
+    gradient_drift_inequality,
+    later,
+    norm_of_E,
     s,
+    solves,
+    start,
     v_bounds,
-    v_differential_inequality,
 )
+from .section5b_0_trajectory import v_nonnegative as nonnegative
+from .section5b_1_lyapunov import ONE, W, W_nonnegative, along_X, at_order, on_interval
 
 SECTION = "5.2 Theorem, Steps 4 to 6: stability"
 
 # --- Case ii: gradient drift, κ = 1 -------------------------------------------------------------------------
 
 B1, B2 = c(1, ONE), c(2, ONE)
-between_1 = tuple(relation.map(lambda e: e.subs(kappa, 1)) for relation in (*between, *gradient_between))
-case_two = le(V_dot, B2**2 * E_norm * V / stretch**2 - k * B1**2 / 2 * V)
+drift_rate = B2**2 * E_norm
+decay_rate = k * B1**2 / 2
+case_two = [*at_order(assumption_2, ONE), *gradient_drift_given, norm_of_E]
 
 
 @claim(
-    "5/step4-gradient-drift", "With gradient drift and κ = 1 the inequality is linear in V", case_two,
-    given=[after, derivative_given, le(f_norm, E_norm * G), *between_1],
-    labels=["eq:lyapunov_derivative_inequality_kappa_1"],
-    uses=[spectral_norm, v_differential_inequality, gradient_bounds],
+    "5/step4-gradient-drift", "With gradient drift and κ = 1 the inequality along a solution is linear in V",
+    le(V_rate, at(drift_rate * V_of_x / stretch**2 - decay_rate * V_of_x, tau)),
+    given=[*solves(tau), *later, *case_two],
+    labels=["eq:lyapunov_derivative_inequality_kappa_1"], uses=[gradient_drift_inequality], example=EXAMPLE,
 )  # fmt: skip
 def gradient_drift(goal: Goal) -> Evidence:
     """2q₁ = 1, and ‖E∇F‖ ≤ ‖E‖‖∇F‖ is bounded by c₂‖E‖ times the root of V."""
-    return reals(
-        goal,
-        *specialise(goal, v_differential_inequality, {kappa: ONE}),
-        *specialise(goal, gradient_bounds, {kappa: ONE}),
-    )
-
-
-drift_rate = B2**2 * E_norm
-decay_rate = k * B1**2 / 2
-elapsed = tau - t0
+    return reals(goal, *specialise(goal, gradient_drift_inequality, {kappa: ONE}))
 
 
 @claim(
@@ -109,41 +104,129 @@ def lemma_hypotheses(goal: Goal) -> Evidence:
     return reals(goal)
 
 
-exponent = drift_rate * (s - t0) / (1 + (s - t0) / T) - decay_rate * (s - t0)
+begun = 1 + (start - t0) / T
+passed = (s - start) / begun / (1 + (s - t0) / T)  # the original time that passes from τ₀ to s
+exponent = drift_rate * passed - decay_rate * (s - start)
+growth, decay = sp.exp(drift_rate * T), sp.exp(-decay_rate * (tau - start))
 
 
 @claim(
-    "5/step4-exponential-bound", "V decreases exponentially in τ up to a factor",
-    le(V_t(tau), V_t(t0) * sp.exp(drift_rate * T) * sp.exp(-decay_rate * elapsed)),
-    given=[on_interval(drift_rate / (1 + (s - t0) / T) ** 2 * V_t(s) - decay_rate * V_t(s), V_t(s)), after],
-    labels=["eq:Lyapunov_inequality_upper_bound"], uses=[gradient_drift, drift_integral],
+    "5/step4-uniform", "From every start the drift contributes at most the same factor",
+    every(
+        eq(sp.diff(passed, s), 1 / (1 + (s - t0) / T) ** 2), le(drift_rate * passed.subs(s, tau), drift_rate * T),
+    ),
+    given=[ge(start, t0), ge(tau, start), ge(s, t0)], place="Step 4, case ii",
 )  # fmt: skip
-def exponential_bound(goal: Goal) -> Evidence:
-    """The linear comparison equation is solved and its solution checked; the integral of the drift's factor up to τ is
-    then replaced by its limit."""
-    bounded = exp_monotone(exponent.subs(s, tau), drift_rate * T - decay_rate * elapsed)
-    return comparison(goal, V_t(t0) * sp.exp(exponent), denominators=[1 + (s - t0) / T], lemmas=[bounded])
-
-
-growth, decay = sp.exp(drift_rate * T), sp.exp(-decay_rate * elapsed)
-distance_bound = (  # as printed
-    sp.sqrt(a1 / a2) * R0 * sp.exp(c(2, ONE) ** 2 / 2 * E_norm * T) * sp.exp(-k * c(1, ONE) ** 2 / 4 * (tau - t0))
-)
-
-
-@claim(
-    "5/step4-distance-bound", "The distance decreases exponentially in τ up to a factor", le(R, distance_bound),
-    given=[le(a2 * R**2, V), le(V0, a1 * R0**2), le(V, V0 * growth * decay)],
-    labels=["eq:x_bar_upper_bound"], uses=[exponential_bound, v_bounds],
-)  # fmt: skip
-def distance_bound_tau(goal: Goal) -> Evidence:
-    """V is bounded by the squared distance from below at τ and from above at t₀; then the root is taken,
-    which halves both exponents: half of c₂²‖E‖T, and a quarter of k c₁²."""
+def uniform(goal: Goal) -> Evidence:
+    """What the drift's factor adds up to from τ₀ to τ is the original time that passes, times c₂²‖E‖: at most T."""
     return reals(goal)
 
 
 @claim(
-    "5/step4-distance-limit", "The bound tends to 0", eq(sp.Limit(distance_bound, tau, sp.oo, "-"), 0),
+    "5/step4-linear-comparison", "What changes as V does with gradient drift decreases exponentially up to a factor",
+    le(W(tau), W(start) * growth * decay),
+    given=[
+        on_interval((drift_rate / (1 + (s - t0) / T) ** 2 - decay_rate) * W(s), W(s)), W_nonnegative,
+        ge(start, t0), ge(tau, start),
+    ],
+    place="Step 4, case ii", uses=[drift_integral, uniform],
+)  # fmt: skip
+def linear_comparison(goal: Goal) -> Evidence:
+    """The linear comparison equation is solved from any initial time τ₀ ≥ t₀ and its solution checked; the integral of
+    the drift's factor from τ₀ to τ is then replaced by its integral over all times."""
+    bounded = exp_monotone(exponent.subs(s, tau), drift_rate * T - decay_rate * (tau - start))
+    return comparison(goal, W(start) * sp.exp(exponent), denominators=[1 + (s - t0) / T], lemmas=[bounded])
+
+
+def bounded(since: sp.Expr) -> Relation:
+    """eq:Lyapunov_inequality_upper_bound as printed, from the initial time ``since``."""
+    decay = sp.exp(-k * c(1, ONE) ** 2 / 2 * (tau - since))
+    return le(V_along, V_along.subs(tau, since) * sp.exp(c(2, ONE) ** 2 * E_norm * T) * decay)
+
+
+@claim(
+    "5/step4-exponential-bound", "V decreases exponentially along every solution up to a factor, from every start",
+    bounded(start), given=[*solves(tau), *later, *case_two],
+    labels=["eq:Lyapunov_inequality_upper_bound"], uses=[gradient_drift, linear_comparison, nonnegative],
+    example=EXAMPLE,
+)  # fmt: skip
+def exponential_bound(goal: Goal) -> Evidence:
+    """V along the solution is put into the comparison, with V ≥ 0 by Assumption 2. The printed bound is the one from
+    τ₀ = t₀."""
+
+    def along(there: Goal, point: sp.Expr) -> list[Fact]:
+        return [
+            *specialise(there, gradient_drift, {tau: point}),
+            *specialise(there, nonnegative, {kappa: ONE, x1: X1(point), x2: X2(point)}),
+        ]  # fmt: skip
+
+    return reals(goal, *specialise(goal, linear_comparison, {W(s): along_X}, along=along))
+
+
+R_start = sp.Symbol("R_start", nonnegative=True)
+V_start, V_end = sp.symbols("V_start V_end", nonnegative=True)
+
+
+def printed_bound(value: sp.Expr, since: sp.Expr) -> sp.Expr:
+    """The right-hand side of eq:x_bar_upper_bound as printed, from a distance at the time ``since``."""
+    return (
+        sp.sqrt(a1 / a2) * value * sp.exp(c(2, ONE) ** 2 / 2 * E_norm * T)
+        * sp.exp(-k * c(1, ONE) ** 2 / 4 * (tau - since))
+    )  # fmt: skip
+
+
+@claim(
+    "5/step4-distance-by-v", "From the bound of V to a bound of the distance, for κ = 1",
+    le(R_0, printed_bound(R_start, start)),
+    given=[le(a2 * R_0**2, V_end), le(V_start, a1 * R_start**2), le(V_end, V_start * growth * decay)],
+    place="Step 4, case ii",
+)  # fmt: skip
+def distance_by_v(goal: Goal) -> Evidence:
+    """V is bounded by the squared distance from below at τ and from above at the start; then the root is taken, which
+    halves both exponents: half of c₂²‖E‖T, and a quarter of k c₁²."""
+    return reals(goal)
+
+
+def distance_at(time: sp.Expr) -> sp.Expr:
+    """‖X − x*‖ at an instant."""
+    return at(distance, time)
+
+
+@claim(
+    "5/step4-distance-bound", "The distance decreases exponentially along every solution up to a factor",
+    le(distance_at(tau), printed_bound(distance_at(start), start)), given=[*solves(tau), *later, *case_two],
+    labels=["eq:x_bar_upper_bound"], uses=[exponential_bound, v_bounds, distance_by_v, nonnegative], example=EXAMPLE,
+)  # fmt: skip
+def distance_bound_tau(goal: Goal) -> Evidence:
+    """From every initial time τ₀ ≥ t₀ and every initial position: the bound is uniform in the initial time of the
+    averaged system, which depends on τ. The printed one is that from τ₀ = t₀."""
+    ends = [(tau, {x1: X1(tau), x2: X2(tau)}), (start, {x1: X1(start), x2: X2(start)})]
+    said = [
+        fact for _, place in ends for claimed in (v_bounds, nonnegative)
+        for fact in specialise(goal, claimed, {kappa: ONE, **place})
+    ]  # fmt: skip
+    values = {
+        R_0: distance_at(tau), R_start: distance_at(start), V_end: V_along, V_start: V_along.subs(tau, start),
+    }  # fmt: skip
+    return reals(goal, *said, *specialise(goal, exponential_bound, {}), *specialise(goal, distance_by_v, values, said))
+
+
+r_1, r_2 = sp.symbols("r_1 r_2", positive=True)
+any_distance = sp.Symbol("r", real=True)
+after_start = sp.Symbol("varsigma", nonnegative=True)
+
+
+def class_kl(value: sp.Expr) -> sp.Expr:
+    """The printed bound as a function of the initial distance and of the time since the start."""
+    return printed_bound(value, start).subs(tau, start + after_start)
+
+
+@claim(
+    "5/step4-distance-limit", "The bound tends to 0 with time, and with the initial distance",
+    every(
+        eq(sp.Limit(printed_bound(R_start, start), tau, sp.oo, "-"), 0),
+        eq(sp.Limit(class_kl(any_distance), any_distance, 0, "+"), 0),
+    ),
     place="Step 4, case ii", uses=[distance_bound_tau],
 )  # fmt: skip
 def distance_limit(goal: Goal) -> Evidence:
@@ -151,25 +234,16 @@ def distance_limit(goal: Goal) -> Evidence:
     return limits(goal)
 
 
-start = sp.Symbol("tau_0", real=True)
-
-
 @claim(
-    "5/step4-uniform", "The bound is uniform in the time at which the averaged system is started",
-    le(
-        drift_rate * ((tau - t0) / (1 + (tau - t0) / T) - (start - t0) / (1 + (start - t0) / T)),
-        drift_rate * T,
+    "5/step4-guas",
+    "Case ii: the bound is of class KL and the same for all initial times, so the averaged source is GUAS",
+    every(
+        lt(0, class_kl(r_1)), lt(class_kl(r_1), class_kl(r_2)), lt(sp.diff(class_kl(r_1), after_start), 0),
     ),
-    given=[ge(start, t0), ge(tau, start)], place="Step 4, case ii", uses=[exponential_bound],
+    given=[lt(r_1, r_2)], place="Step 4, case ii", uses=[distance_bound_tau, distance_limit],
 )  # fmt: skip
-def uniform(goal: Goal) -> Evidence:
-    """The averaged system depends on τ, so uniformity needs a word: from any later start the drift contributes at most
-    the same factor."""
+def guas(goal: Goal) -> Evidence:
+    """It tends to 0 at the source, increases with the distance, and decreases with the time since the start to the
+    limit 0; neither τ₀ nor t₀ stands in it. With the bound for every solution from every start that is global uniform
+    asymptotic stability, and no theorem on Lyapunov functions is needed."""
     return reals(goal)
-
-
-guas = claim(
-    "5/step4-guas", "With gradient drift and κ = 1 the source is globally uniformly asymptotically stable",
-    Prose("x* is globally uniformly asymptotically stable for the averaged system in τ, by the class-KL bound"),
-    expected="cited", place="Step 4, case ii", uses=[distance_bound_tau, distance_limit, uniform],
-)(cited("Khalil, Nonlinear Systems, Lemma 4.5: a class-KL bound that is uniform in the initial time"))  # fmt: skip

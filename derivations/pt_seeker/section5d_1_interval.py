@@ -16,7 +16,6 @@ from ptproof.proof import (
     Goal,
     Relation,
     claim,
-    comparison,
     eq,
     every,
     ge,
@@ -27,13 +26,11 @@ from ptproof.proof import (
     power_positive,
     power_strict,
     reals,
-    specialise,
-    superadditive,
 )
 
 from . import chain
-from .notation import T, a1, a2, c, d, h2, k, kappa, t0, tau
-from .section5c_proposition import constants_ordered, no_increase, u_bounds, u_inequality
+from .notation import T, a1, a2, c, d, h2, k, kappa, q, t0, tau
+from .section5b_1_lyapunov import W
 
 SECTION = "5.4 Proposition: the estimate in both times"
 
@@ -46,7 +43,7 @@ low = sp.Symbol("s_low", positive=True)
 middle_bound = sp.Symbol("X", nonnegative=True)  # what the first estimate gives for the distance at the middle
 distance = sp.Function("R", nonnegative=True)
 distance_in_t = sp.Function("R_t", nonnegative=True)
-U_at = sp.Function("U", nonnegative=True)
+H = sp.Symbol("h", positive=True)  # h₁ where its own letters do not matter
 half = (t0 + tau) / 2
 end = chain.clock.to_tau
 
@@ -66,16 +63,18 @@ def gamma(value: sp.Expr, order: sp.Expr) -> sp.Expr:
     return (a1 / a2**2) ** (1 / (2 * order)) * (value / rate_of(order)) ** (1 / (2 * order - 1))
 
 
-def denominator(value: sp.Expr, after: sp.Expr, order: sp.Expr) -> sp.Expr:
+def denominator(value: sp.Expr, after: sp.Expr, order: sp.Expr, rate: sp.Expr | None = None) -> sp.Expr:
     """1 + (r − 1) h₁ w₀^(r−1) times the time."""
-    return 1 + (2 * order - 2) * rate_of(order) * value ** (2 * order - 2) * after
+    rate = rate_of(order) if rate is None else rate
+    return 1 + (2 * order - 2) * rate * value ** (2 * order - 2) * after
 
 
-def decay(value: sp.Expr, after: sp.Expr, order: sp.Expr) -> sp.Expr:
-    """The solution of w' = −h₁ w^r at the time ``after``, from ``value``."""
+def decay(value: sp.Expr, after: sp.Expr, order: sp.Expr, rate: sp.Expr | None = None) -> sp.Expr:
+    """The solution of w' = −h₁ w^r at the time ``after``, from ``value``; ``rate`` is h₁."""
+    rate = rate_of(order) if rate is None else rate
     if order == 1:
-        return value * sp.exp(-rate_of(order) * after)
-    return value * denominator(value, after, order) ** (-1 / (2 * order - 2))
+        return value * sp.exp(-rate * after)
+    return value * denominator(value, after, order, rate) ** (-1 / (2 * order - 2))
 
 
 def beta(value: sp.Expr, after: sp.Expr, order: sp.Expr) -> sp.Expr:
@@ -118,20 +117,29 @@ def input_vanishes(goal: Goal) -> Evidence:
     return limits(goal)
 
 
+def U_at(time: sp.Expr, order: sp.Expr) -> sp.Expr:
+    """U = V^(1/2κ) at an instant, where W stands for V along a trajectory."""
+    return W(time) ** (1 / (2 * order))
+
+
 def bounds_at(order: sp.Expr, below: sp.Expr | None = None, above: sp.Expr | None = None) -> list[Relation]:
     """eq:Ux_bounds at single times, the lower one and the upper one."""
     found = []
     if below is not None:
-        found.append(le(a2 ** (1 / (2 * order)) * distance(below), U_at(below)))
+        found.append(le(a2 ** (1 / (2 * order)) * distance(below), U_at(below, order)))
     if above is not None:
-        found.append(le(U_at(above), a1 ** (1 / (2 * order)) * distance(above)))
+        found.append(le(U_at(above, order), a1 ** (1 / (2 * order)) * distance(above)))
     return found
 
 
-def falls(order: sp.Expr, forcing: sp.Expr, *domain: Relation) -> ForAll:
-    """eq:Ux_inequality for all times of the domain."""
-    rate = -rate_of(order) * U_at(s) ** (2 * order - 1) + forcing
-    return ForAll((s,), le(sp.Derivative(U_at(s), s), rate), domain)
+def falls(order: sp.Expr, forcing: sp.Expr, *domain: Relation, rate: sp.Expr | None = None) -> list[ForAll]:
+    """eq:lyapunov_derivative_inequality_bounded for V, at all times of the domain, by the letters of U; and V ≥ 0.
+
+    U has no derivative at the source, V has: c₂‖d‖/(1 + (τ − t₀)/T)² is 2κζ, and k c₁²/2 is 2κh₁.
+    """
+    rate = rate_of(order) if rate is None else rate
+    slope = 2 * order * (forcing * W(s) ** q(order) - rate * W(s) ** (2 * q(order)))
+    return [ForAll((s,), le(sp.Derivative(W(s), s), slope), domain), ForAll((s,), ge(W(s), 0), domain)]
 
 
 def smaller(order: sp.Expr, low: sp.Expr, high: sp.Expr, after: sp.Expr) -> list[Fact]:
@@ -143,9 +151,9 @@ def smaller(order: sp.Expr, low: sp.Expr, high: sp.Expr, after: sp.Expr) -> list
     return [power_monotone(low, high, power), power_monotone(below, above, 1 / power)]
 
 
-def regular(order: sp.Expr, value: sp.Expr, after: sp.Expr) -> list[Fact]:
+def regular(order: sp.Expr, value: sp.Expr, after: sp.Expr, rate: sp.Expr | None = None) -> list[Fact]:
     """The denominator of the decay, and its root, are positive."""
-    return [] if order == 1 else [power_positive(denominator(value, after, order), 1 / (2 * order - 2))]
+    return [] if order == 1 else [power_positive(denominator(value, after, order, rate), 1 / (2 * order - 2))]
 
 
 def comparison_functions(order: sp.Expr, tag: str, words: str) -> tuple[Claim, Claim, Claim, Claim]:
@@ -203,43 +211,3 @@ def comparison_functions(order: sp.Expr, tag: str, words: str) -> tuple[Claim, C
         return reals(goal, power_strict(near, far, power), power_strict(before, after, 1 / power))
 
     return gamma_class_k, decay_monotone, beta_vanishes, beta_class_kl
-
-
-def one_interval(order: sp.Expr, tag: str, words: str, decay_monotone: Claim) -> tuple[Claim, Claim]:
-    """The estimates of U and of the distance on [p, τ], for one kind of κ."""
-    linear, h, root, exponent = order == 1, rate_of(order), 1 / (2 * order), 2 * order - 1
-
-    @claim(
-        f"prop/u-estimate-{tag}", f"U stays below its decay plus the level where ζ balances it ({words})",
-        le(U_at(tau), decay(U_at(start), tau - start, order) + (Z / h) ** (1 / exponent)),
-        given=[ge(tau, start), falls(order, Z, ge(s, start), le(s, tau))],
-        place="Proof of the Proposition", uses=[u_inequality, no_increase],
-    )  # fmt: skip
-    def u_estimate(goal: Goal) -> Evidence:
-        """This replaces the step that does not follow. Let w decay by w' = −h₁w^r and let u* be the level with
-        h₁u*^r = Z. Powers of at least 1 are superadditive, so w + u* falls no faster than the inequality for U asks,
-        and the comparison lemma puts U below it. At the source U = 0 has no derivative, but nothing to show either:
-        after a visit there the estimate starts again from 0."""
-        level = (Z / h) ** (1 / exponent)
-        falling = decay(U_at(start), s - start, order)
-        denominators = [] if linear else [denominator(U_at(start), s - start, order)]
-        lemmas = [] if linear else [superadditive(falling, level, exponent)]
-        return comparison(goal, falling + level, denominators=denominators, lemmas=lemmas)
-
-    @claim(
-        f"prop/upper-bound-{tag}", f"The input-to-state estimate with the printed gain ({words})",
-        le(distance(tau), beta(distance(start), tau - start, order) + gamma(Z, order)),
-        given=[ge(tau, start), falls(order, Z, ge(s, start), le(s, tau)), le(a2, a1), *bounds_at(order, tau, start)],
-        labels=["eq:upper_bound"], uses=[u_estimate, decay_monotone, u_bounds, constants_ordered],
-    )  # fmt: skip
-    def upper_bound(goal: Goal) -> Evidence:
-        """The printed gain is right although the printed inequality before it is not: the direct comparison gives the
-        gain a₂^(−1/2κ)(s/h₁)^(1/r), and the printed one is larger by (a₁/a₂)^(1/2κ) ≥ 1."""
-        values = {first: U_at(start), second: a1**root * distance(start), elapsed: tau - start}
-        return reals(
-            goal, *specialise(goal, u_estimate, {}), *specialise(goal, decay_monotone, values),
-            power_monotone(sp.S.One, a1 / a2, root), *regular(order, U_at(start), tau - start),
-            *regular(order, a1**root * distance(start), tau - start),
-        )  # fmt: skip
-
-    return u_estimate, upper_bound

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import sympy as sp
 
 from ptproof.proof import (
@@ -21,12 +23,14 @@ from ptproof.proof import (
     limits,
     lt,
     power_monotone,
+    power_nonnegative,
     reals,
     specialise,
     squeezed,
 )
 
-from .notation import T, a1, a2, d, nu, t, t0, tau
+from .notation import T, a1, a2, d, kappa, nu, q, t, t0, tau
+from .section5b_1_lyapunov import W
 from .section5d_1_interval import (
     U_at,
     Z,
@@ -48,7 +52,6 @@ from .section5d_1_interval import (
     low,
     m,
     middle_bound,
-    one_interval,
     rate_of,
     regular,
     s,
@@ -57,14 +60,15 @@ from .section5d_1_interval import (
     zeta_at,
     zeta_suprema,
 )
+from .section5d_1_one_interval import one_interval
 
 SECTION = "5.4 Proposition: the estimate in both times"
 
 duration_in_t = (t - t0) / nu(t - t0)
 
 
-def whole(order: sp.Expr) -> ForAll:
-    """eq:Ux_inequality on the whole of [t₀, τ]."""
+def whole(order: sp.Expr) -> list[ForAll]:
+    """The inequality for V on the whole of [t₀, τ]."""
     return falls(order, zeta_at(s, order), ge(s, t0), le(s, tau))
 
 
@@ -83,6 +87,41 @@ def input_in_t(order: sp.Expr) -> sp.Expr:
     return input_gain(order) * d / (1 + (t - t0) / (2 * T * nu(t - t0))) ** 2
 
 
+slope = sp.Symbol("V_dot", real=True)
+low_input, high_input, size, pull = sp.symbols("zeta_1 zeta_2 p_x pull", nonnegative=True)
+
+
+@claim(
+    "prop/larger-input", "The inequality for V with a larger input", le(slope, 2 * kappa * (high_input * size - pull)),
+    given=[le(slope, 2 * kappa * (low_input * size - pull)), le(low_input, high_input)],
+    place="Proof of the Proposition",
+)  # fmt: skip
+def larger_input(goal: Goal) -> Evidence:
+    """Its factor is not negative."""
+    return reals(goal)
+
+
+def with_input(order: sp.Expr, forcing: sp.Expr) -> Callable[[Goal, sp.Expr], list[Fact]]:
+    """What shows the inequality for V with the constant input ``forcing``, at an arbitrary time."""
+
+    def along(there: Goal, point: sp.Expr) -> list[Fact]:
+        power, pulled = W(point) ** q(order), rate_of(order) * W(point) ** (2 * q(order))
+        said = [
+            *instances(there, point), power_nonnegative(W(point), q(order)), power_nonnegative(W(point), 2 * q(order)),
+            *specialise(there, zeta_suprema, {kappa: order, s: point, elapsed: 0}),
+        ]  # fmt: skip
+        if forcing.has(tau):
+            later = {kappa: order, elapsed: point - half}
+            said += specialise(there, zeta_suprema, later)
+        values = {
+            kappa: order, slope: sp.Derivative(W(point), point), low_input: zeta_at(point, order),
+            high_input: forcing, size: power, pull: pulled,
+        }  # fmt: skip
+        return [*said, *specialise(there, larger_input, values, said)]
+
+    return along
+
+
 def two_halves(order: sp.Expr, tag: str, words: str, upper_bound: Claim) -> tuple[Claim, Claim]:
     """The estimate on each half of [t₀, τ]."""
     g = input_gain(order)
@@ -91,21 +130,23 @@ def two_halves(order: sp.Expr, tag: str, words: str, upper_bound: Claim) -> tupl
 
     @claim(
         f"prop/upper-bound-first-half-{tag}", f"The estimate on the first half ({words})", first_part,
-        given=[ge(tau, t0), whole(order), le(a2, a1), *bounds_at(order, half, t0)],
-        labels=["eq:upper_bound1"], uses=[upper_bound, zeta_suprema],
+        given=[ge(tau, t0), *whole(order), le(a2, a1), *bounds_at(order, half, t0)],
+        labels=["eq:upper_bound1"], uses=[upper_bound, zeta_suprema, larger_input],
     )  # fmt: skip
     def upper_bound_1(goal: Goal) -> Evidence:
         """From t₀ to the middle, where ζ is at most h₂ times the largest bound of the drift."""
-        return reals(goal, *specialise(goal, upper_bound, {start: t0, tau: half, Z: g * d}))
+        values = {start: t0, tau: half, Z: g * d}
+        return reals(goal, *specialise(goal, upper_bound, values, along=with_input(order, g * d)))
 
     @claim(
         f"prop/upper-bound-second-half-{tag}", f"The estimate on the second half ({words})", second_part,
-        given=[ge(tau, t0), whole(order), le(a2, a1), *bounds_at(order, tau, half)],
-        labels=["eq:upper_bound2"], uses=[upper_bound, zeta_suprema],
+        given=[ge(tau, t0), *whole(order), le(a2, a1), *bounds_at(order, tau, half)],
+        labels=["eq:upper_bound2"], uses=[upper_bound, zeta_suprema, larger_input],
     )  # fmt: skip
     def upper_bound_2(goal: Goal) -> Evidence:
         """From the middle on, where ζ has become small."""
-        return reals(goal, *specialise(goal, upper_bound, {start: half, Z: halved(tau, order)}))
+        values, forcing = {start: half, Z: halved(tau, order)}, halved(tau, order)
+        return reals(goal, *specialise(goal, upper_bound, values, along=with_input(order, forcing)))
 
     return upper_bound_1, upper_bound_2
 
@@ -119,7 +160,7 @@ def both_times(
     @claim(
         f"prop/finale-{tag}", f"Both halves together ({words})",
         le(distance(tau), beta(middle_bound, (tau - t0) / 2, order) + gamma(halved(tau, order), order)),
-        given=[eq(middle_bound, inner(order, tau - t0)), ge(tau, t0), whole(order), le(a2, a1), *everywhere(order)],
+        given=[eq(middle_bound, inner(order, tau - t0)), ge(tau, t0), *whole(order), le(a2, a1), *everywhere(order)],
         labels=["eq:finale"], uses=[upper_bound_1, upper_bound_2, decay_monotone],
     )  # fmt: skip
     def finale(goal: Goal) -> Evidence:
@@ -138,7 +179,7 @@ def both_times(
         given=[
             ge(t, t0), lt(t, t0 + T), le(a2, a1),
             eq(distance_in_t(t), distance(end)), eq(middle_bound, inner(order, duration_in_t)),
-            falls(order, zeta_at(s, order), ge(s, t0), le(s, end)),
+            *falls(order, zeta_at(s, order), ge(s, t0), le(s, end)),
             *(part.map(lambda side: side.subs(tau, end)) for part in everywhere(order)),
         ],
         labels=["eq:finale_t"], uses=[finale],
@@ -181,8 +222,8 @@ def in_the_limit(
     after_all = decayed + gamma(halved(tau, order), order)
     towards_zero = decayed_in_t + gamma(input_in_t(order), order)
     roots = [
-        ForAll((s,), le(a2**root * distance(s), U_at(s)), (ge(s, t0),)),
-        ForAll((s,), le(U_at(s), a1**root * distance(s)), (ge(s, t0),)),
+        ForAll((s,), le(a2**root * distance(s), U_at(s, order)), (ge(s, t0),)),
+        ForAll((s,), le(U_at(s, order), a1**root * distance(s)), (ge(s, t0),)),
     ]
     clock = ForAll((s,), eq(distance_in_t(s), distance(end.subs(t, s))), (ge(s, t0), lt(s, t0 + T)))
 
@@ -199,7 +240,7 @@ def in_the_limit(
     @claim(
         f"prop/convergence-{tag}", f"The averaged vehicle reaches the source in the prescribed time ({words})",
         eq(sp.Limit(distance_in_t(t), t, t0 + T, "-"), 0),
-        given=[falls(order, zeta_at(s, order), ge(s, t0)), *roots, clock, le(a2, a1)],
+        given=[*falls(order, zeta_at(s, order), ge(s, t0)), *roots, clock, le(a2, a1)],
         labels=["proposition"], uses=[finale_in_t, second_half, finale_limit, *bounded],
     )  # fmt: skip
     def convergence(goal: Goal) -> Evidence:

@@ -37,7 +37,7 @@ def global_iss(order: sp.Expr, tag: str, words: str, upper_bound: Claim) -> Clai
     @claim(
         f"6.3/asymptotic-global-iss-{tag}", f"The averaged asymptotic seeker is input-to-state stable ({words})",
         le(distance(tau), beta(distance(t0), tau - t0, order) + gamma(forcing, order)),
-        given=[ge(tau, t0), falls(order, forcing, ge(s, t0), le(s, tau)), le(a2, a1), *bounds_at(order, tau, t0)],
+        given=[ge(tau, t0), *falls(order, forcing, ge(s, t0), le(s, tau)), le(a2, a1), *bounds_at(order, tau, t0)],
         place="Section 6.3", uses=[upper_bound, asymptotic_u_inequality],
     )  # fmt: skip
     def estimate(goal: Goal) -> Evidence:

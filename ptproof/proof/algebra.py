@@ -152,7 +152,7 @@ class Generators:
             root = base ** (monomial / common / lcm)
             sign = "positive" if base.is_positive else "nonnegative" if base.is_nonnegative else None
             # A quotient of real numbers is real wherever it is defined.
-            known = {sign: True} if sign and (monomial / common).is_real else {}
+            known = {sign: True} if sign and monomial.is_real and (common.is_real or (1 / common).is_real) else {}
             generator = self.symbol(root, **known)
             self._roots[base][monomial] = (generator, lcm)
             if not base.is_nonnegative:

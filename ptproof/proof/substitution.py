@@ -19,7 +19,7 @@ from ptproof.errors import InputError
 from ptproof.proof.declarations import everywhere, is_kind
 from ptproof.proof.definedness import Obligation, obligations
 from ptproof.proof.signs import holds
-from ptproof.proof.statement import ForAll, Relation
+from ptproof.proof.statement import ForAll, Relation, expressions_of
 
 _WITH_LIMITS = (sp.Integral, sp.Sum, sp.Product)
 BINDERS = (sp.Derivative, sp.Limit, sp.Subs, sp.Lambda, *_WITH_LIMITS)
@@ -99,7 +99,11 @@ class Substitution:
             If a value would be caught by the quantifier.
         """
         symbols, functions = self._split()
-        symbols = {letter: value for letter, value in symbols.items() if letter not in item.variables}
+        said = list(expressions_of([item]))
+        within = set().union(*(side.free_symbols for side in said)) - set(item.variables)
+        called = {node.func for side in said for node in side.atoms(AppliedUndef)}
+        symbols = {letter: value for letter, value in symbols.items() if letter in within}
+        functions = {function: value for function, value in functions.items() if function in called}
         if caught := _free(symbols.values(), functions) & set(item.variables):
             names = ", ".join(sorted(map(str, caught)))
             raise InputError(f"a value with {names} would be caught by the quantifier of {item}")

@@ -30,10 +30,10 @@ UNDEFINED = "a side is undefined"
 NOT_REAL = "a side is not real"
 POINTS = 40
 _MISSES_IN_A_ROW = 300
-_WORK = 24_000  # evaluated nodes: about a third of a second
+_WORK = 36_000  # evaluated nodes: about a third of a second
 _SMOOTH_POINTS = 8
 _CONFIRMING = 400_000  # evaluated nodes more, for a suspected failure
-_FEW = 12  # points, with which a third of the work is enough
+_FEW = 12  # points, with which a fourth of the work is enough
 _DIGITS = (50, 100, 200)
 
 
@@ -134,7 +134,7 @@ def _candidates(ready: Prepared, goal: Goal, seed: int, end: float) -> Iterator[
     for point in sampler.points():
         yield point
         misses, found = (misses + 1, found) if point is None else (0, found + 1)
-        enough = _WORK if found < _FEW else _WORK / 3
+        enough = _WORK if found < _FEW else _WORK / 4
         if misses > _MISSES_IN_A_ROW or sampler.work.steps > enough or time.process_time() > end:
             return
 

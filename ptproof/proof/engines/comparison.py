@@ -23,7 +23,7 @@ from sympy.core.function import AppliedUndef
 
 from ptproof.proof.claim import Goal, engine
 from ptproof.proof.declarations import is_plainly_real
-from ptproof.proof.engines.quantified import at_point, mask_positive
+from ptproof.proof.engines.quantified import at_point, instances, mask_positive
 from ptproof.proof.engines.reals import follows
 from ptproof.proof.facts import Fact, usable
 from ptproof.proof.signs import vanishes
@@ -53,11 +53,15 @@ def comparison(
     lemmas
         Facts for the real inequalities.
     """
-    try:
-        detail = _check(goal, solution, denominators, lemmas)
-    except _Failed as failure:
-        return Evidence(ENGINE, Verdict.UNDECIDED, str(failure))
-    return Evidence(ENGINE, Verdict.PROVED, detail, facts=tuple(lemmas))
+    reasons = []
+    for cases in _cases(goal):
+        try:
+            details = [_check(goal, solution, denominators, lemmas, first) for first in cases]
+        except _Failed as failure:
+            reasons.append(str(failure))
+            continue
+        return Evidence(ENGINE, Verdict.PROVED, details[0], facts=(*lemmas, *_at_the_ends(goal)))
+    return Evidence(ENGINE, Verdict.UNDECIDED, reasons[0])
 
 
 class _Failed(Exception):
@@ -76,30 +80,40 @@ class _Interval:
         return bool(expression.is_positive) or follows(gt(expression, 0), self.known, self.facts).shown
 
 
-def _check(goal: Goal, solution: sp.Expr, denominators: Sequence[sp.Expr], lemmas: Sequence[Fact]) -> str:
+def _cases(goal: Goal) -> list[tuple[sp.Expr, ...]]:
+    """What v(τ₀) may be, in one case or in two: of what is not negative, 0 may have to be looked at by itself."""
+    positive = sp.Dummy("v0", positive=True)
+    try:
+        inequality, _, v = _differential_inequality(goal, _bounded(goal).left)
+    except _Failed:
+        return [(sp.Dummy("v0", real=True),)]
+    if _signed(goal, v, "positive", inequality):
+        return [(positive,)]
+    if _signed(goal, v, "nonnegative", inequality):
+        return [(positive, sp.S.Zero), (sp.Dummy("v0", nonnegative=True),)]  # of powers of what may be 0 less is known
+    return [(sp.Dummy("v0", real=True),)]
+
+
+def _at_the_ends(goal: Goal) -> list[Fact]:
+    """What the goal assumes for all times, at both ends: by this the bound may be defined."""
+    inequality, s, _ = _differential_inequality(goal, _bounded(goal).left)
+    return instances(goal, _initial_time(inequality, s), _bounded(goal).left.args[0])
+
+
+def _bounded(goal: Goal) -> Relation:
     (statement,) = relations_of(goal.statement)
     if statement.sign != "<=" or not isinstance(statement.left, AppliedUndef):
         raise _Failed(f"not of the form v(time) <= bound: {statement}")
-    inequality, s, v = _differential_inequality(goal, statement.left)
-    positive = sp.Dummy("v0", positive=True)
-    if _signed(goal, v, "positive"):
-        return _from(positive, goal, inequality, s, v, solution, denominators, lemmas)
-    if not _signed(goal, v, "nonnegative"):
-        return _from(sp.Dummy("v0", real=True), goal, inequality, s, v, solution, denominators, lemmas)
-    try:  # of powers of what may be 0 less is known
-        _from(sp.S.Zero, goal, inequality, s, v, solution, denominators, lemmas)
-        return _from(positive, goal, inequality, s, v, solution, denominators, lemmas)
-    except _Failed:
-        return _from(sp.Dummy("v0", nonnegative=True), goal, inequality, s, v, solution, denominators, lemmas)
+    return statement
 
 
-def _from(
-    first: sp.Expr, goal: Goal, inequality: ForAll, s: sp.Symbol, v: AppliedUndef, solution: sp.Expr,
-    denominators: Sequence[sp.Expr], lemmas: Sequence[Fact],
-) -> str:  # fmt: skip
-    """The lemma with ``first`` for the value at the initial time."""
-    (statement,) = relations_of(goal.statement)
-    start, end = _initial_time(inequality, s), statement.left.args[0]
+def _check(
+    goal: Goal, solution: sp.Expr, denominators: Sequence[sp.Expr], lemmas: Sequence[Fact], first: sp.Expr
+) -> str:
+    statement = _bounded(goal)
+    at = statement.left
+    inequality, s, v = _differential_inequality(goal, at)
+    start, end = _initial_time(inequality, s), at.args[0]
     initial = v.subs(s, start)
 
     def read(item: Relation) -> Relation:
@@ -185,9 +199,8 @@ def _interval(
 def _lipschitz(phi: sp.Expr, value: sp.Symbol) -> bool:
     """Combinations of powers of the value, with exponents 0 or ≥ 1, or integers ≥ 0, are locally Lipschitz.
 
-    A power that is not an integer is so on [0, ∞), where a value that is declared not negative stays, and every power on
-    (0, ∞), where a value that is declared positive stays. The larger and
-    the smaller of such expressions are so as well.
+    A power that is not an integer is so on [0, ∞), where a value that is declared not negative stays, and every power
+    on (0, ∞), where one that is declared positive stays. The larger and the smaller of such expressions are so as well.
     """
     choices = {node for node in phi.atoms(sp.Max, sp.Min) if node.has(value)}
     if choices:
@@ -227,14 +240,14 @@ def _polynomial(phi: sp.Expr, value: sp.Symbol) -> bool:
     return all(node.exp.is_integer for node in powers)
 
 
-def _signed(goal: Goal, v: AppliedUndef, sign: str) -> bool:
+def _signed(goal: Goal, v: AppliedUndef, sign: str, inequality: ForAll) -> bool:
     if getattr(v, f"is_{sign}"):
         return True
     wanted = gt(v, 0) if sign == "positive" else ge(v, 0)
-    # Only without a domain: the sign is needed at every time of the interval.
+    # The sign is needed at every time of the interval, on all of which the inequality is shown to be assumed.
     return any(
-        isinstance(item, ForAll) and item.relation == wanted and not item.domain
-        and all(map(is_plainly_real, item.variables)) for item in goal.assumptions
+        isinstance(item, ForAll) and item.relation == wanted and item.variables == inequality.variables
+        and set(item.domain) <= set(inequality.domain) for item in goal.assumptions
     )  # fmt: skip
 
 
@@ -259,7 +272,7 @@ def _solves(u: sp.Expr, rate: sp.Expr, interval: _Interval, hints: Sequence[sp.E
     def mask(item: Relation) -> Relation:
         return item.map(lambda side: side.xreplace(masks))
 
-    if vanishes((slope - rate).xreplace(masks)) or vanishes(slope - rate):
+    if vanishes((slope - rate).xreplace(masks)) or vanishes(slope - rate):  # the quicker of the two first
         return "solves the equation"
     known = [mask(item) for item in interval.known] + [Relation(symbol, "=", item) for item, symbol in masks.items()]
     facts = [_map(fact, mask) for fact in interval.facts]

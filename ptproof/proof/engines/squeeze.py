@@ -6,7 +6,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import sympy as sp
-from sympy.core.function import AppliedUndef
 
 from ptproof.proof.claim import Goal, engine
 from ptproof.proof.declarations import is_plainly_real
@@ -21,7 +20,7 @@ ENGINE = "squeeze"
 
 @engine
 def squeezed(goal: Goal, bound: sp.Expr, near: Sequence[Relation], facts: Callable[[Goal], Sequence[Fact]]) -> Evidence:
-    """Show ``Limit(v(t), t, point, "-") = 0`` for a v that is declared not negative.
+    """Show ``Limit(v(t), t, point, "-") = 0`` for a v that is known not to be negative, as a norm or by declaration.
 
     Parameters
     ----------
@@ -44,8 +43,8 @@ def squeezed(goal: Goal, bound: sp.Expr, near: Sequence[Relation], facts: Callab
     value, t, point, side = statement.left.args
     if statement.right != 0 or str(side) != "-":
         return undecided("only limits from below with the value 0")
-    if not (isinstance(value, AppliedUndef) and value.is_nonnegative):
-        return undecided(f"{value} is not declared to be a function with values at or above 0")
+    if not value.is_nonnegative:
+        return undecided(f"{value} is not known to have values at or above 0")
     if not is_plainly_real(t):
         return undecided(f"{t} is not declared to be any real number, so that it may not come close to {point}")
     if any(t in part.free_symbols for part in goal.relations):
