@@ -133,7 +133,7 @@ coefficient = C2**2 * E_norm - k * C1**2 / 2
 
 
 @claim(
-    "6.2/asymptotic-inequality", "The linear inequality for the asymptotic seeker",
+    "6.2/asymptotic-inequality", "The linear inequality for the average of the asymptotic seeker",
     le(V_dot, coefficient * V),
     given=[le(V_dot, f_norm * G - k / 2 * G**2), le(f_norm, E_norm * G), *between_1],
     place="Section 6.2", uses=[asymptotic_derivative, gradient_bounds],
@@ -147,7 +147,7 @@ condition = gt(k, 2 * (C2 / C1) ** 2 * E_norm)
 
 
 @claim(
-    "6.2/gain-condition-suffices", "The gain condition makes the rate of V negative definite",
+    "6.2/gain-condition-suffices", "The gain condition makes the bound of dV/dt negative on the average",
     lt(coefficient * V, 0), given=[condition], labels=["eq:convergence_cond"], uses=[asymptotic_inequality],
 )  # fmt: skip
 def gain_condition(goal: Goal) -> Evidence:
@@ -156,7 +156,7 @@ def gain_condition(goal: Goal) -> Evidence:
 
 
 @claim(
-    "6.2/gain-condition-is-needed-for-this", "The rate is negative definite under no weaker condition", condition,
+    "6.2/gain-condition-is-needed-for-this", "The bound of dV/dt is negative under no weaker condition", condition,
     given=[lt(coefficient * V, 0)], labels=["eq:convergence_cond"], uses=[asymptotic_inequality],
 )  # fmt: skip
 def gain_condition_converse(goal: Goal) -> Evidence:
@@ -179,7 +179,7 @@ V_t = sp.Function("V", nonnegative=True)
 
 
 @claim(
-    "6.2/asymptotic-decay", "V decreases exponentially under the gain condition",
+    "6.2/asymptotic-decay", "V of the averaged asymptotic seeker stays below an exponential",
     le(V_t(t), V_t(t0) * sp.exp(coefficient * (t - t0))),
     given=[ge(t, t0), ForAll((s,), le(sp.Derivative(V_t(s), s), coefficient * V_t(s)), (ge(s, t0),))],
     place="Section 6.2", uses=[asymptotic_inequality, gain_condition],

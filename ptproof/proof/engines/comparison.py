@@ -90,7 +90,7 @@ def _cases(goal: Goal) -> list[tuple[sp.Expr, ...]]:
     if _signed(goal, v, "positive", inequality):
         return [(positive,)]
     if _signed(goal, v, "nonnegative", inequality):
-        return [(sp.Dummy("v0", nonnegative=True),), (positive, sp.S.Zero)]
+        return [(positive, sp.S.Zero), (sp.Dummy("v0", nonnegative=True),)]  # of powers of what may be 0 less is known
     return [(sp.Dummy("v0", real=True),)]
 
 
@@ -272,7 +272,7 @@ def _solves(u: sp.Expr, rate: sp.Expr, interval: _Interval, hints: Sequence[sp.E
     def mask(item: Relation) -> Relation:
         return item.map(lambda side: side.xreplace(masks))
 
-    if vanishes((slope - rate).xreplace(masks)) or vanishes(slope - rate):
+    if vanishes((slope - rate).xreplace(masks)) or vanishes(slope - rate):  # the quicker of the two first
         return "solves the equation"
     known = [mask(item) for item in interval.known] + [Relation(symbol, "=", item) for item, symbol in masks.items()]
     facts = [_map(fact, mask) for fact in interval.facts]
