@@ -6,7 +6,7 @@ import sympy as sp
 
 from ptproof.proof import Evidence, Goal, claim, definition, eq, every, gt, le, lt, power_positive, reals, specialise
 
-from .notation import E11, E12, E21, E22, E, F, F_source, R, a1, a2, b1, b2, f, kappa, rate_of, t, theta
+from .notation import E11, E12, E21, E22, E, E_norm, F, F_source, R, a1, a2, b1, b2, f, kappa, rate_of, t, theta
 
 SECTION = "3 Problem statement"
 
@@ -90,3 +90,19 @@ def quadratic_form(goal: Goal) -> Evidence:
 def spectral_norm(goal: Goal) -> Evidence:
     """‖Eg‖² is the form of EᵀE, so the bound for quadratic forms is used at the entries of EᵀE."""
     return reals(goal, *specialise(goal, quadratic_form, {_a: m11, _b: m12, _c: m22}))
+
+
+h1_drift, h2_drift = sp.symbols("h_1 h_2", real=True)
+
+
+@claim(
+    "3/drift-against-the-gradient", "For a drift h of at most ‖E‖‖g‖ the product g·h is at most ‖E‖‖g‖² in size",
+    every(
+        le(-(g1 * h1_drift + g2 * h2_drift), E_norm * (g1**2 + g2**2)),
+        le(g1 * h1_drift + g2 * h2_drift, E_norm * (g1**2 + g2**2)),
+    ),
+    given=[le(h1_drift**2 + h2_drift**2, E_norm**2 * (g1**2 + g2**2))], place="Step 4, case ii", uses=[spectral_norm],
+)  # fmt: skip
+def against_gradient(goal: Goal) -> Evidence:
+    """The inequality of Cauchy and Schwarz for the gradient g and the drift h = Eg."""
+    return reals(goal)

@@ -8,8 +8,8 @@ from ptproof.proof import Evidence, Goal, Smooth, claim, eq, every, exact, gt, l
 from ptproof.system import lie_bracket
 
 from . import chain, extended
-from .extended import pushed, rho, sigma
-from .notation import IN_TAU, E, F, T, f, k, position, t, t0, tau, y_tilde, z
+from .extended import pushed, rho, sigma, sigma_fast
+from .notation import IN_TAU, E, F, T, f, k, mu, omega, position, t, t0, tau, z
 from .section5a_2_averaging import averaged_system
 from .section5a_3_uniformity import damping, drift_factor, one_system
 from .section5a_bounds import assumption_b_drift_printed
@@ -20,21 +20,20 @@ slow_state = (*position, rho)
 b0 = (rho**4 * pushed[0], rho**4 * pushed[1], -(rho**3) / (2 * T))
 b1 = (sp.cos(k * z), -sp.sin(k * z), 0)
 b2 = (sp.sin(k * z), sp.cos(k * z), 0)
+slow = mu * sigma_fast
+
+
+_dithered = sp.Matrix(b1[:2]) * sp.cos(omega * slow) + sp.Matrix(b2[:2]) * sp.sin(omega * slow)
 
 
 @claim(
-    "5/extended-fields", "The fields of the system of all starts",
-    every(
-        eq(sp.Matrix(b0), sp.Matrix(extended.dithered_with_z.drift)),
-        *(eq(sp.Matrix(field), sp.Matrix(derived))
-          for field, derived in zip((b1, b2), extended.dithered_with_z.fields, strict=True)),
-        eq(-y_tilde, extended.boundary_layer.rhs[0]),
-    ),
-    place="Step 2", uses=[one_system],
+    "5/extended-fields", "The system of all starts is of the class of Theorem 1, and its fields do not depend on time",
+    eq(mu * sp.Matrix(b0[:2]) + mu * sp.sqrt(omega) * _dithered, extended.fast_time.vector[:2, 0]),
+    uses=[one_system],
 )  # fmt: skip
 def extended_fields(goal: Goal) -> Evidence:
-    """Three slow states x₁, x₂, ρ, the dithers cos and sin as before, and the same boundary layer. No field depends
-    on time."""
+    """Three slow states x₁, x₂, ρ, and the dithers cos and sin as before. b₁ and b₂ have no component along ρ, whose
+    rate is μ times the third component of b₀."""
     return exact(goal)
 
 
@@ -56,22 +55,23 @@ def extended_smooth(goal: Goal) -> Evidence:
     return smooth(goal)
 
 
-_composed = lie_bracket(*extended.dithered.fields, slow_state)
+_composed = lie_bracket(extended.dithered.fields[0], extended.dithered.fields[1], slow_state)
 
 
 @claim(
-    "5/extended-bracket", "The bracket of its composed fields is (k∇F, 0)",
-    eq(sp.Matrix([*(k * chain.gradient_F), 0]), sp.Matrix(_composed)),
-    place="Step 3", uses=[extended_fields],
+    "5/extended-bracket", "The bracket of its composed fields is k∇F",
+    eq(k * chain.gradient_F, sp.Matrix(_composed[:2])),
+    uses=[extended_fields],
 )  # fmt: skip
 def extended_bracket(goal: Goal) -> Evidence:
-    """They have no third component and do not depend on ρ."""
+    """In position; they have no third component and do not depend on ρ, so the bracket has none."""
     return exact(goal)
 
 
 @claim(
     "5/extended-bracket-smooth", "Assumption 1B: the derivatives of its bracket are continuous",
-    Smooth(tuple(_composed), (sigma, *slow_state, z), 1, ((F, 2),)), place="Assumption 1B", uses=[extended_bracket],
+    Smooth(tuple(k * chain.gradient_F), (sigma, *slow_state, z), 1, ((F, 2),)), place="Assumption 1B",
+    uses=[extended_bracket],
 )  # fmt: skip
 def extended_bracket_smooth(goal: Goal) -> Evidence:
     """k∇F is in C¹ because F is in C², so A₅ exists on each compact set."""
@@ -81,13 +81,12 @@ def extended_bracket_smooth(goal: Goal) -> Evidence:
 @claim(
     "5/extended-average", "The average of the system of all starts",
     eq(
-        sp.Matrix([*(rho**4 * E * chain.gradient_F + k / 2 * chain.gradient_F), -(rho**3) / (2 * T)]),
-        extended.averaged.vector,
+        rho**4 * E * chain.gradient_F + k / 2 * chain.gradient_F, extended.averaged.vector[:2, 0],
     ),
-    place="Step 3", uses=[extended_bracket],
+    uses=[extended_bracket],
 )  # fmt: skip
 def extended_average(goal: Goal) -> Evidence:
-    """ρ⁴E∇F + (k/2)∇F and −ρ³/(2T), from the pipeline; autonomous."""
+    """ρ⁴E∇F + (k/2)∇F from the pipeline, beside dρ/dτ = −ρ³/(2T), in which nothing is averaged; autonomous."""
     return exact(goal)
 
 
@@ -102,7 +101,7 @@ _drifted = dict(zip((entry.func for entry in f), pushed, strict=True))
             lambda node: isinstance(node, sp.Function) and node.func in _drifted, lambda node: _drifted[node.func]
         ),
     ),
-    given=IN_TAU, place="Step 3", labels=["eq:lie_bracket_system_real"],
+    given=IN_TAU, labels=["eq:lie_bracket_system_real"],
     uses=[extended_average, averaged_system, drift_factor],
 )  # fmt: skip
 def extended_is_averaged(goal: Goal) -> Evidence:
@@ -120,7 +119,7 @@ rho_at = rho0 / sp.sqrt(1 + rho0**2 * (tau - t0) / T)
     "5/extended-rho", "ρ from any start: the solution, and that it never grows",
     every(
         eq(sp.Derivative(rho_at, tau), -(rho_at**3) / (2 * T)), eq(sp.Subs(rho_at, tau, t0), rho0),
-        eq(rho_at**2 * (1 + rho0**2 * (tau - t0) / T), rho0**2),
+        eq(sp.Subs(rho**2 * (1 + rho0**2 * (tau - t0) / T), rho, rho_at), rho0**2),
         le(rho_at**2, rho0**2), gt(rho_at**2, 0),
     ),
     given=IN_TAU, uses=[extended_average],

@@ -7,14 +7,11 @@ import sympy as sp
 from ptproof.proof import (
     Claim,
     Evidence,
-    ForAll,
     Goal,
     claim,
-    comparison,
     eq,
     every,
     exp_monotone,
-    ge,
     gt,
     le,
     limits,
@@ -23,56 +20,20 @@ from ptproof.proof import (
     specialise,
 )
 
-from .notation import R0, V0, E_norm, R, T, V, a1, a2, c, k, t0, tau
+from .notation import R0, E_norm, R, T, a1, a2, c, k, tau
 from .section5a_3_uniformity import drift_factor
-from .section5a_6_extended import extended_average, extended_rho
-from .section5b_1_lyapunov import v_bounds
+from .section5a_6_extended import extended_rho
+from .section5b_3_all_trajectories import all_trajectories
 
 SECTION = "5.2 Theorem, Steps 4 to 6: stability"
 
-# --- V and the distance from any ρ₀ ≥ 0 -------------------------------------------------------------------------------
-
-s = sp.Symbol("s", real=True)
-V_t = sp.Function("V", nonnegative=True)  # along a trajectory of the average
 drift_rate, decay_rate = c(2, sp.S.One) ** 2 * E_norm, k * c(1, sp.S.One) ** 2 / 2
-elapsed = tau - t0
-rho0 = sp.Symbol("rho_0", nonnegative=True)
-widening = 1 + rho0**2 * (s - t0) / T
-exponent = drift_rate * rho0**4 * (s - t0) / widening - decay_rate * (s - t0)
-_rate = drift_rate * rho0**4 / widening**2 - decay_rate
-growth = sp.exp(drift_rate * T * rho0**2)
-
-
-@claim(
-    "5/step4-all-starts-v", "From any ρ₀ the drift of the average multiplies V by at most exp(c₂²‖E‖Tρ₀²)",
-    le(V_t(tau), V_t(t0) * growth * sp.exp(-decay_rate * elapsed)),
-    given=[
-        ForAll((s,), le(sp.Derivative(V_t(s), s), _rate * V_t(s)), (ge(s, t0), le(s, tau))),
-        ge(tau, t0),
-    ],
-    place="Step 4, case ii", uses=[extended_rho, extended_average],
-)  # fmt: skip
-def all_starts_v(goal: Goal) -> Evidence:
-    """ρ⁴ = ρ₀⁴/(1 + ρ₀²(τ − t₀)/T)² has the integral Tρ₀² over all times. ρ₀ = 1 is the seeker, and ρ₀ < 1 the average
-    started later."""
-    bounded = exp_monotone(exponent.subs(s, tau), drift_rate * T * rho0**2 - decay_rate * elapsed)
-    return comparison(goal, V_t(t0) * sp.exp(exponent), denominators=[widening], lemmas=[bounded])
+rho0 = sp.Symbol("rho_0", nonnegative=True)  # |ρ| at the start
 
 
 def distance_bound(start: sp.Expr, factor: sp.Expr, passed: sp.Expr) -> sp.Expr:
-    """The bound of the distance from the source, for a start at that distance with that ρ₀."""
+    """The bound of the distance from the source along the average, for a start at that distance with that ρ₀."""
     return sp.sqrt(a1 / a2) * start * sp.exp(drift_rate * T * factor**2 / 2) * sp.exp(-decay_rate / 2 * passed)
-
-
-@claim(
-    "5/step4-all-starts-distance", "And the distance by at most the root of that",
-    le(R, distance_bound(R0, rho0, elapsed)),
-    given=[le(a2 * R**2, V), le(V0, a1 * R0**2), le(V, V0 * growth * sp.exp(-decay_rate * elapsed))],
-    place="Step 4, case ii", uses=[all_starts_v, v_bounds],
-)  # fmt: skip
-def all_starts_distance(goal: Goal) -> Evidence:
-    """V lies between multiples of the squared distance; for ρ₀ = 1 this is eq:x_bar_upper_bound."""
-    return reals(goal)
 
 
 # --- The distance from the set {x*} × [−1, 1] -------------------------------------------------------------------------
@@ -80,7 +41,7 @@ def all_starts_distance(goal: Goal) -> Evidence:
 D0 = sp.Symbol("D_0", nonnegative=True)  # of the start, in (x, ρ)
 D1 = sp.Symbol("D_1", nonnegative=True)
 lag = sp.Symbol("tau_hat", nonnegative=True)  # τ − t₀
-rho = sp.Symbol("rho", nonnegative=True)
+rho = sp.Symbol("rho", nonnegative=True)  # |ρ|
 
 
 def beyond(factor: sp.Expr) -> sp.Expr:
@@ -100,7 +61,7 @@ def kl(start: sp.Expr, passed: sp.Expr) -> sp.Expr:
 
 @claim(
     "5/step4-seeker-distance", "For the seeker, where 0 < ρ ≤ 1, the distance from the set is that from the source",
-    eq(away(R, rho), R), given=[gt(rho, 0), le(rho, 1)], place="Step 5", uses=[drift_factor],
+    eq(away(R, rho), R), given=[gt(rho, 0), le(rho, 1)], uses=[drift_factor],
 )  # fmt: skip
 def seeker_distance(goal: Goal) -> Evidence:
     """So what holds within δ and ε of the set {x*} × [−1, 1] holds within δ and ε of the source."""
@@ -110,25 +71,40 @@ def seeker_distance(goal: Goal) -> Evidence:
 @claim(
     "5/step4-rho-part", "ρ enters [−1, 1] by the time T, and before that does not leave it further",
     le(beyond(rho), beyond(rho0) * sp.exp(1 - lag / T)), given=[eq(rho**2 * (1 + rho0**2 * lag / T), rho0**2)],
-    place="Step 5", uses=[extended_rho],
+    uses=[extended_rho],
 )  # fmt: skip
 def rho_part(goal: Goal) -> Evidence:
     """From τ − t₀ = T on ρ² ≤ ρ₀²/(1 + ρ₀²) < 1; until then the exponential is at least 1."""
     return reals(goal, exp_monotone(0, 1 - lag / T))
 
 
+B = sp.Symbol("B", nonnegative=True)
+
+
+@claim(
+    "5/step4-all-starts-parts", "ρ adds at most D₀ exp(1 − (τ − t₀)/T) to any bound of the position",
+    le(away(R, rho), B + away(R0, rho0) * sp.exp(1 - lag / T)),
+    given=[le(R, B), eq(rho**2 * (1 + rho0**2 * lag / T), rho0**2)], uses=[rho_part],
+)  # fmt: skip
+def all_starts_parts(goal: Goal) -> Evidence:
+    """Without drift, where the position does not depend on ρ, this is all that is needed: B is then the bound of Step 4
+    for every κ."""
+    return reals(goal, *specialise(goal, rho_part, {}))
+
+
 @claim(
     "5/step4-all-starts-guas", "The distance from the set {x*} × [−1, 1] has a class-KL bound along the average",
     le(away(R, rho), kl(away(R0, rho0), lag)),
     given=[le(R, distance_bound(R0, rho0, lag)), eq(rho**2 * (1 + rho0**2 * lag / T), rho0**2)],
-    place="Step 5", uses=[all_starts_distance, rho_part],
+    uses=[all_trajectories, all_starts_parts],
 )  # fmt: skip
 def all_starts_guas(goal: Goal) -> Evidence:
-    """The position and ρ one after the other. The average does not depend on time, so the bound is uniform in the
-    initial time; that it is of class KL is the next claim."""
+    """R is the distance from the source and ρ stands for |ρ|, at the start and now. From ρ₀ = 0 the average has no
+    drift, and the bound is that of Step 4 for E = 0. The average does not depend on time, so neither does the bound on
+    the initial time."""
     start = away(R0, rho0)
     return reals(
-        goal, *specialise(goal, rho_part, {}),
+        goal, *specialise(goal, all_starts_parts, {B: distance_bound(R0, rho0, lag)}),
         exp_monotone(drift_rate * T * rho0**2 / 2, drift_rate * T * (1 + start) ** 2 / 2),
     )  # fmt: skip
 
@@ -136,9 +112,9 @@ def all_starts_guas(goal: Goal) -> Evidence:
 @claim(
     "5/step4-all-starts-class-kl", "The bound is of class KL",
     every(
-        eq(kl(sp.S.Zero, lag), 0), lt(kl(D0, lag), kl(D1, lag)),
+        eq(sp.Subs(kl(D0, lag), D0, 0), 0), lt(kl(D0, lag), kl(D1, lag)),
     ),
-    given=[lt(D0, D1)], place="Step 5", uses=[all_starts_guas],
+    given=[lt(D0, D1)], uses=[all_starts_guas],
 )  # fmt: skip
 def all_starts_class_kl(goal: Goal) -> Evidence:
     """It is 0 at 0 and increases with the distance at the start."""
@@ -150,7 +126,7 @@ D2 = sp.Symbol("D_2", positive=True)
 
 @claim(
     "5/step4-all-starts-vanishes", "It decreases with time, to 0",
-    eq(sp.Limit(kl(D2, tau), tau, sp.oo, "-"), 0), place="Step 5", uses=[all_starts_class_kl],
+    eq(sp.Limit(kl(D2, tau), tau, sp.oo, "-"), 0), uses=[all_starts_class_kl],
 )  # fmt: skip
 def all_starts_vanishes(goal: Goal) -> Evidence:
     """Two exponentials."""
@@ -158,7 +134,7 @@ def all_starts_vanishes(goal: Goal) -> Evidence:
 
 
 @claim(
-    "5/step4-all-starts-decreases", "Strictly", lt(sp.Derivative(kl(D2, lag), lag), 0), place="Step 5",
+    "5/step4-all-starts-decreases", "Strictly", lt(sp.Derivative(kl(D2, lag), lag), 0),
     uses=[all_starts_vanishes],
 )  # fmt: skip
 def all_starts_decreases(goal: Goal) -> Evidence:
@@ -166,4 +142,10 @@ def all_starts_decreases(goal: Goal) -> Evidence:
     return reals(goal)
 
 
-stable_average: tuple[Claim, ...] = (all_starts_guas, all_starts_class_kl, all_starts_vanishes, all_starts_decreases)
+stable_average: tuple[Claim, ...] = (
+    all_trajectories,
+    all_starts_guas,
+    all_starts_class_kl,
+    all_starts_vanishes,
+    all_starts_decreases,
+)

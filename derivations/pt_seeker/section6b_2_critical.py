@@ -116,8 +116,8 @@ def critical_range_converse(goal: Goal) -> Evidence:
     given=admitted, labels=["critical-V_0"], uses=[critical_positive],
 )  # fmt: skip
 def critical_roots(goal: Goal) -> Evidence:
-    """With (1 + (τ* − t₀)/T)(1 + (τ′ − t₀)/T) = 2c₂²‖E‖/(k c₁²): the two roots lie on both sides of the instant at which
-    the drift's term and the feedback's are equal."""
+    """With (1 + (τ* − t₀)/T)(1 + (τ′ − t₀)/T) = 2c₂²‖E‖/(k c₁²): the two roots lie on both sides of the instant at
+    which the drift's term and the feedback's are equal."""
     return exact(goal)
 
 
@@ -142,8 +142,8 @@ def first_root(goal: Goal) -> Evidence:
     given=[*admitted, gt(ratio**2, turning)], labels=["critical-V_0"], uses=[critical_positive, critical_roots],
 )  # fmt: skip
 def second_root(goal: Goal) -> Evidence:
-    """Then the denominator is zero at τ* as the text says, but for the second time: between the roots it is negative, and
-    the printed right-hand side is no bound there."""
+    """Then the denominator is zero at τ* as the text says, but for the second time: between the roots it is negative,
+    and the printed right-hand side is no bound there."""
     return reals(goal, *specialise(goal, critical_roots, {tau: tau_other}))
 
 

@@ -54,7 +54,7 @@ from .notation import (
     theta,
     z,
 )  # fmt: skip
-from .section3_problem import g1, g2, spectral_norm
+from .section3_problem import against_gradient, g1, g2, h1_drift, h2_drift, spectral_norm
 from .section6c_feasibility import lowest
 
 SECTION = "6.4 Discussion: what the clipped gain guarantees"
@@ -133,19 +133,6 @@ with_gain = System(t, position, tuple(C * entry for entry in _average.rhs), name
 def average_with_gain(goal: Goal) -> Evidence:
     """C is the gain at one instant: 1/ν² gives eq:LBA_reduced_model_t, 1 the average of the asymptotic seeker."""
     return exact(goal)
-
-
-h1_drift, h2_drift = sp.symbols("h_1 h_2", real=True)
-
-
-@claim(
-    "6.4/drift-against-the-gradient", "A drift of at most ‖E‖‖g‖ takes at most ‖E‖‖g‖² from g",
-    le(-(g1 * h1_drift + g2 * h2_drift), E_norm * (g1**2 + g2**2)),
-    given=[le(h1_drift**2 + h2_drift**2, E_norm**2 * (g1**2 + g2**2))], place="Section 6.4",
-)  # fmt: skip
-def against_gradient(goal: Goal) -> Evidence:
-    """The inequality of Cauchy and Schwarz for the gradient g and the drift h."""
-    return reals(goal)
 
 
 drift = E * slope

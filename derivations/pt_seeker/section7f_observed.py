@@ -70,23 +70,15 @@ nonvanishing_oscillates = observed(
     "From every heading x₂ stays positive, the field below its peak, and the distance bounded, late in the run",
     "Section 7.2, fig:trajectories_bounded", "oscillates",
 )  # fmt: skip
-vanishing_inputs = observed(
-    "7.1/observed-inputs", "The inputs are bounded under clipping, with the vanishing drift",
-    "u₁ never exceeds √ω/ν_min², and u₂ stays finite", "Section 7.2, fig:inputs", "bounded_inputs", "vanishing",
-)  # fmt: skip
-nonvanishing_inputs = observed(
-    "7.2/observed-inputs", "The inputs are bounded under clipping, with the nonvanishing drift",
-    "u₁ never exceeds √ω/ν_min², and u₂ stays finite", "Section 7.2, fig:inputs", "bounded_inputs", "nonvanishing",
-)  # fmt: skip
 saturated_reaches = observed(
     "7.3/observed-reaches", "With the time-varying gain the saturated seeker reaches the peak in time T",
     "From every heading the distance falls to two hover radii before T", "Section 7.3, fig:field_sat",
     "saturated_reaches", HEADINGS,
 )  # fmt: skip
 three_times = observed(
-    "7.3/observed-three-times", "With the constant gain it takes about three times T",
-    "The median over the headings of the time to two hover radii lies between 2.5 T and 3.5 T",
-    "Section 7.3, fig:field_sat", "three_times_longer", HEADINGS, expected="undecided",
+    "7.3/observed-three-times", "With the constant gain it takes longer, from some headings about three times T",
+    "From every heading the time to two hover radii is more than T, and from some it lies between 2.5 T and 3.5 T",
+    "Section 7.3, fig:field_sat", "three_times_longer", HEADINGS,
 )  # fmt: skip
 effort = observed(
     "7.3/observed-effort", "The control effort is greater with the constant gain",

@@ -84,8 +84,8 @@ matching_x, matching_z = (image(t0 + length) for length in (t_f, mu * t_f))
 @claim(
     "appendix/starts-are-images", "Both printed intervals start at images of fast times",
     every(
-        eq(start_x, clock.to_t.subs(tau, t0 + settling / mu)),
-        eq(start_z, clock.to_t.subs(tau, t0 + settling)),
+        eq(start_x, sp.Subs(clock.to_t, tau, t0 + settling / mu)),
+        eq(start_z, sp.Subs(clock.to_t, tau, t0 + settling)),
     ),
     labels=["def:FxT-sPUA", "eq:t_to_tau"], uses=[inverse_map],
 )  # fmt: skip
@@ -100,7 +100,7 @@ started = mu * (t0 / mu + tau_fast)  # the slow time when tau_fast of fast time 
 
 @claim(
     "appendix/start-of-x-printed", "The interval of x starts at the image of the slow time at which x has settled",
-    eq(start_x, clock.to_t.subs(tau, started.subs(tau_fast, settling / mu))), labels=["def:FxT-sPUA"],
+    eq(start_x, sp.Subs(clock.to_t, tau, started.subs(tau_fast, settling / mu))), labels=["def:FxT-sPUA"],
     expected="refuted", grade="definition",
     wrong="The starts of the intervals are contracted from the fast time of system (1), Step 6 contracts the slow "
     "time, so that for the seeker the printed interval of x shrinks to nothing as μ tends to 0.",
@@ -117,8 +117,8 @@ def start_of_x_printed(goal: Goal) -> Evidence:
 @claim(
     "appendix/matching-starts", "The images of the slow times at which x and z have settled",
     every(
-        eq(matching_x, clock.to_t.subs(tau, started.subs(tau_fast, t_f / mu))),
-        eq(matching_z, clock.to_t.subs(tau, started.subs(tau_fast, t_f))),
+        eq(matching_x, sp.Subs(clock.to_t, tau, started.subs(tau_fast, t_f / mu))),
+        eq(matching_z, sp.Subs(clock.to_t, tau, started.subs(tau_fast, t_f))),
     ),
     labels=["def:FxT-sPUA", "eq:t_to_tau"], corrects=start_of_x_printed, uses=[inverse_map],
 )  # fmt: skip

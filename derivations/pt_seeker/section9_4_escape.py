@@ -13,7 +13,6 @@ from ptproof.proof import (
     ForAll,
     Goal,
     claim,
-    comparison,
     eq,
     exact,
     ge,
@@ -31,6 +30,7 @@ from . import chain
 from .notation import E_norm, F, T, f, k, position, t0, tau
 from .section5b_0_trajectory import s
 from .section5b_1_lyapunov import n
+from .section9_1_gain import Z, alpha, beta, elapsed, integrated_rate
 
 SECTION = "Beyond the paper"
 
@@ -41,7 +41,6 @@ radial = chain.averaged_tau.with_values({F: field, f[0]: -E_norm * slope[0], f[1
 
 # The coordinates are turned so that the vehicle starts at the right of the source; the motion is along a ray.
 X = (sp.Function("X1", positive=True), sp.Function("X2", real=True))
-elapsed = tau - t0
 
 
 def along(expression: sp.Expr, time: sp.Expr) -> sp.Expr:
@@ -81,23 +80,6 @@ def radius(goal: Goal) -> Evidence:
 def bernoulli(goal: Goal) -> Evidence:
     """Bernoulli's substitution."""
     return reals(goal)
-
-
-Z = sp.Function("Z", real=True)
-alpha, beta = sp.symbols("alpha beta", real=True)
-
-
-@claim(
-    "beyond/integrated-rate", "A rate that depends on time only, integrated",
-    le(Z(tau), Z(t0) + alpha * T * elapsed / (T + elapsed) - beta * elapsed),
-    given=[ge(tau, t0),
-           ForAll((s,), le(sp.Derivative(Z(s), s), alpha / (1 + (s - t0) / T) ** 2 - beta), (ge(s, t0), le(s, tau)))],
-)  # fmt: skip
-def integrated_rate(goal: Goal) -> Evidence:
-    """The comparison principle, for both signs of both constants."""
-    passed = s - t0
-    solution = Z(t0) + alpha * T * passed / (T + passed) - beta * passed
-    return comparison(goal, solution, denominators=[1 + passed / T, T + passed])
 
 
 on = (ge(s, t0), le(s, tau))
@@ -165,8 +147,8 @@ far = (n * order * T * margin**2 / (2 * k + margin)) ** (-1 / (2 * n))
     uses=[solution, start_of_survivors],
 )  # fmt: skip
 def escape(goal: Goal) -> Evidence:
-    """m = 2‖E‖ − k is the margin by which the gain is too small. The start r₀ is chosen so that the instant of escape is
-    t₀ + T(2‖E‖ − k)/(2‖E‖ + k), before T is over in τ."""
+    """m = 2‖E‖ − k is the margin by which the gain is too small. The start r₀ is chosen so that the instant of escape
+    is t₀ + T(2‖E‖ − k)/(2‖E‖ + k), before T is over in τ."""
     return limits(goal)
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable
+from functools import lru_cache
 
 import sympy as sp
 from sympy.core.relational import Relational
@@ -136,6 +137,7 @@ def _tidy(entry: sp.Expr, rate: sp.Expr) -> sp.Expr:
     return sp.Add(*(_cancel_factors(rate * term) for term in sp.Add.make_args(entry)))
 
 
+@lru_cache(maxsize=1024)
 def _cancel_factors(term: sp.Expr) -> sp.Expr:
     rational: list[sp.Expr] = []
     rest: list[sp.Expr] = []

@@ -38,22 +38,23 @@ def test_the_asymptotic_seeker_oscillates_off_the_source_below_the_peak():
     assert statement.data["largest field"] < 1.9
 
 
-@pytest.mark.parametrize("name", ["vanishing", "nonvanishing"])
-def test_the_inputs_are_bounded(name):
-    statement = observations.bounded_inputs(name, 4)
-    assert statement.supported
-    assert statement.data["worst largest |u1|"] == pytest.approx(statement.data["u1 bound"])
-
-
 def test_with_the_time_varying_gain_the_saturated_seeker_arrives_before_T():
     assert observations.saturated_reaches(COUNT).supported
 
 
-def test_with_the_constant_gain_it_is_three_times_slower_than_the_other_but_not_always_three_times_T():
+def test_with_the_constant_gain_it_takes_about_three_times_T_from_some_headings_only():
     statement = observations.three_times_longer(COUNT)
+    assert statement.supported
     assert 2.5 < statement.data["median arrival over that of the time-varying gain"] < 3.7
-    assert statement.data["smallest arrival over T"] < 1.6
+    assert 1 < statement.data["smallest arrival over T"] < 1.6
     assert 3 < statement.data["worst arrival over T"] < 3.7
+    assert 0.2 < statement.data["share of the headings with 2.5 to 3.5"] < 0.7
+
+
+def test_it_would_be_said_if_the_constant_gain_were_as_fast(monkeypatch):
+    real = observations.arrivals
+    monkeypatch.setattr(observations, "arrivals", lambda seeker, count: real("saturated", count))
+    assert not observations.three_times_longer(COUNT).supported
 
 
 def test_the_control_effort_is_greater_with_the_constant_gain():

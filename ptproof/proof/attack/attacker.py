@@ -30,10 +30,10 @@ UNDEFINED = "a side is undefined"
 NOT_REAL = "a side is not real"
 POINTS = 40
 _MISSES_IN_A_ROW = 300
-_WORK = 24_000  # evaluated nodes: about a third of a second
+_WORK = 36_000  # evaluated nodes: about a third of a second
 _SMOOTH_POINTS = 8
 _CONFIRMING = 400_000  # evaluated nodes more, for a suspected failure
-_FEW = 12  # points, with which a third of the work is enough
+_FEW = 12  # points, with which a fourth of the work is enough
 _DIGITS = (50, 100, 200)
 
 
@@ -134,7 +134,7 @@ def _candidates(ready: Prepared, goal: Goal, seed: int, end: float) -> Iterator[
     for point in sampler.points():
         yield point
         misses, found = (misses + 1, found) if point is None else (0, found + 1)
-        enough = _WORK if found < _FEW else _WORK / 3
+        enough = _WORK if found < _FEW else _WORK / 4
         if misses > _MISSES_IN_A_ROW or sampler.work.steps > enough or time.process_time() > end:
             return
 
@@ -236,11 +236,14 @@ def _trusted(ready: Prepared, point: Point) -> bool:
     """Whether the functions are such that a grid can tell whether an assumption over several variables holds.
 
     Over one variable the places between those of the grid are looked at too; over several only functions that were
-    made to satisfy such an assumption count.
+    made to satisfy such an assumption count, and one that speaks of numbers only is never certain to hold.
     """
     made = dict.fromkeys(ready.defined) | dict.fromkeys(ready.solutions)
     several = [item for item in ready.quantified if len(item.variables) > 1]
-    inside = {node.func for expression in expressions_of(several) for node in expression.atoms(AppliedUndef)}
+    found = [{node.func for e in expressions_of([item]) for node in e.atoms(AppliedUndef)} for item in several]
+    inside: set[Any] = set().union(*found)
+    if not all(found):
+        return False
     return all((function, concrete) in made for function, concrete in point.functions.items() if function in inside)
 
 

@@ -8,6 +8,7 @@ not known here ``Unsure``.
 from __future__ import annotations
 
 import itertools
+import math
 from collections.abc import Callable, Mapping
 from functools import lru_cache
 from typing import Any, TypeAlias
@@ -19,7 +20,7 @@ from ptproof.proof.attack.elementary import UNARY, fits
 from ptproof.proof.attack.functions import Concrete
 from ptproof.proof.attack.limiting import integral, limit
 from ptproof.proof.attack.numbers import ONE, ZERO, Exact, NotReal, Number, Undefined, Unsure
-from ptproof.proof.attack.scope import Inadmissible, Scope, Work
+from ptproof.proof.attack.scope import BINDERS, Inadmissible, Scope, Work
 from ptproof.proof.attack.series import Calculus, Series, Value, base, hashable
 
 
@@ -198,22 +199,22 @@ class Evaluator:
         return calculus.add([calculus.arctangent(calculus.mul(y, calculus.inverse(x))), turn])
 
     def _derivative(self, node: sp.Expr, scope: Scope) -> Value:
-        levels, inside = [], dict(scope.symbols)
+        levels, inside, known = [], dict(scope.symbols), {}
         for variable, count in node.variable_count:
-            if not count.is_Integer or not variable.is_Symbol or variable not in inside or count > 6:
+            start = inside.get(variable)
+            if isinstance(variable, AppliedUndef) and len(node.variable_count) == 1 and not node.args[0].has(*BINDERS):
+                start = self.value(variable, scope)  # ∂g/∂l(x): what l(x) is worth moves, wherever it stands in g
+            if not count.is_Integer or start is None or count > 6:
                 raise Unsure(f"{node} is not evaluated")
             if count:
-                tag = next(self._tag)
-                rest = (ONE,) + (ZERO,) * (int(count) - 1)
-                inside[variable] = Series(tag, (inside[variable], *rest))
-                levels.append((tag, int(count)))
-        value = self.value(node.args[0], Scope(inside))
+                moved = Series(next(self._tag), (start, ONE, *(ZERO,) * (int(count) - 1)))
+                inside[variable] = known[variable] = moved
+                levels.append((moved.tag, int(count)))
+        value = self.value(node.args[0], Scope(inside, known))
         for tag, count in reversed(levels):
             if not isinstance(value, Series) or value.tag != tag:
                 return ZERO
-            value = value.terms[count]
-            for factor in range(2, count + 1):
-                value = self.calculus.mul(Exact(factor), value)
+            value = self.calculus.mul(Exact(math.factorial(count)), value.terms[count])
         return value
 
     def _subs(self, node: sp.Expr, scope: Scope) -> Value:

@@ -177,7 +177,11 @@ def _rates(item: ForAll) -> list[tuple[Any, Concrete]]:
     value = sp.Dummy("value", positive=True)
     right = relation.right.xreplace({applied: value})
     place = _arguments(1)
-    found = closed_forms(sp.expand(right), value, time)
+    right = sp.expand(right, power_exp=False)  # a power of the state stays one power
+    found = closed_forms(right, value, time)
+    moving = sp.Add(*(term for term in sp.Add.make_args(right) if term.has(value)))
+    if relation.sign in ("<=", "<") and moving not in (0, right):
+        found += closed_forms(moving, value, time)  # it satisfies the inequality where what is left out is not negative
     return [(applied.func, Concrete(place, body.xreplace({time: place[0]}))) for body in found]
 
 

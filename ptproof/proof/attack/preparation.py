@@ -13,6 +13,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from ptproof.proof.attack.functions import Concrete, differentiable, solutions
+from ptproof.proof.attack.scope import BINDERS
 from ptproof.proof.attack.trajectories import trajectories
 from ptproof.proof.claim import Goal
 from ptproof.proof.statement import (
@@ -27,8 +28,6 @@ from ptproof.proof.statement import (
     plain,
     relations_of,
 )
-
-_BINDERS = (sp.Derivative, sp.Integral, sp.Limit, sp.Sum, sp.Product, sp.Subs)
 
 
 @dataclass(frozen=True)
@@ -153,7 +152,7 @@ def _applied_inside(everything: list[Any], quantified: Iterable[ForAll]) -> set[
     """The functions that occur where a variable is bound, or inside the arguments of others."""
     found: set[Any] = set()
     for expression in expressions_of(everything):
-        for node in expression.atoms(*_BINDERS):
+        for node in expression.atoms(*BINDERS):
             found |= {inner.func for inner in node.atoms(AppliedUndef)}
         for node in expression.atoms(AppliedUndef):
             found |= {inner.func for argument in node.args for inner in argument.atoms(AppliedUndef)}

@@ -11,6 +11,8 @@ import sympy as sp
 from ptproof.proof.attack.numbers import Number
 from ptproof.proof.attack.series import Calculus, Value
 
+BINDERS = (sp.Derivative, sp.Integral, sp.Limit, sp.Sum, sp.Product, sp.Subs)
+
 
 @dataclass(slots=True)
 class Scope:

@@ -16,7 +16,7 @@ def trajectories(items: Iterable[ForAll]) -> Iterator[tuple[Any, Concrete]]:
     """Functions that satisfy together the equations x' = rhs(s, x) among the ``items``.
 
     One of them moves and the others are 0, if their equations allow it. The constant of integration is the symbol
-    ``START``. Whoever draws one of each function checks that they belong together.
+    ``START``. Whoever draws one of each function checks that they belong together, and that they satisfy the equations.
     """
     rates = dict(_equations(items))
     for moving in rates:

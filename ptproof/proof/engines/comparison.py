@@ -148,6 +148,8 @@ def _check(
     if not vanishes(begin - first) and not follows(ge(begin, first), outside, facts).shown:
         raise _Failed(f"{solution} does not start at {initial}, nor above it")
     bound, reached = statement.right.subs(initial, first), u.subs(s, end)
+    if any(item.has(sp.nan, sp.zoo, sp.oo) for item in (bound, u, phi)):
+        raise _Failed(f"{solution} or the bound has no value where {initial} is {first}")
     if not vanishes(bound - reached):
         below = follows(ge(bound, reached), outside, facts)
         if not below.shown:
@@ -227,7 +229,7 @@ def _solves(u: sp.Expr, rate: sp.Expr, interval: _Interval, hints: Sequence[sp.E
     def mask(item: Relation) -> Relation:
         return item.map(lambda side: side.xreplace(masks))
 
-    if vanishes(slope - rate) or vanishes((slope - rate).xreplace(masks)):
+    if vanishes((slope - rate).xreplace(masks)) or vanishes(slope - rate):
         return "solves the equation"
     known = [mask(item) for item in interval.known] + [Relation(symbol, "=", item) for item, symbol in masks.items()]
     facts = [_map(fact, mask) for fact in interval.facts]

@@ -33,7 +33,7 @@ from ptproof.proof.statement import (
 from ptproof.proof.substitution import NotOfKind, Substitution
 
 Point: TypeAlias = sp.Expr | tuple[sp.Expr, ...]
-Along: TypeAlias = Callable[[Goal, sp.Expr], Sequence[Fact]]
+Along: TypeAlias = Callable[[Goal, Any], Sequence[Fact]]
 _SECONDS = 4.0
 _SAYS: dict[str, RelationSign] = {
     "positive": ">", "nonnegative": ">=", "negative": "<", "nonpositive": "<=", "nonzero": "!="
@@ -74,19 +74,18 @@ def instances(goal: Goal, *points: Point) -> list[Fact]:
 
 
 def entailed(needed: ForAll, goal: Goal, facts: Sequence[Fact] = (), along: Along | None = None) -> Answer:
-    """Whether ``needed`` follows from the goal's assumptions: shown at one arbitrary value of its variable.
+    """Whether ``needed`` follows from the goal's assumptions: shown at one arbitrary value of each of its variables.
 
     Quantified assumptions are used at that same value, where it is in their domain. ``along`` gives facts about it: it
-    gets the goal that has, in addition, the value in the domain of ``needed``, and the value.
+    gets the goal that has, in addition, the value in the domain of ``needed``, and the value, a tuple for several
+    variables.
     """
     if needed in goal.assumptions:
         return Answer(True, "it is assumed")
-    if len(needed.variables) != 1:
-        return Answer(False, "more than one bound variable")
-    (variable,) = needed.variables
-    # A fresh symbol: nothing that is assumed about a free symbol of the same name may be used.
-    point = like(variable)
-    there = Substitution({variable: point})
+    # Fresh symbols: nothing that is assumed about a free symbol of the same name may be used.
+    values = {variable: like(variable) for variable in needed.variables}
+    point = sp.Tuple(*values.values()) if len(values) > 1 else next(iter(values.values()))
+    there = Substitution(values)
     inside = replace(goal, assumptions=(*goal.assumptions, *map(there.relation, needed.domain)))
     said = usable(inside, [*facts, *(along(inside, point) if along else ())])
     known = list(inside.relations)

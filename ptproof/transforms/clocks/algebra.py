@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import lru_cache
 
 import sympy as sp
 
@@ -13,6 +14,7 @@ from ptproof.proof.statement import Relation, ge, gt
 from ptproof.proof.verdict import Verdict
 
 
+@lru_cache(maxsize=1024)
 def factored(expression: sp.Expr) -> sp.Expr:
     """``sp.factor`` with the same signs in every run: left alone, it takes the symbols in the order of their hashes."""
     if not expression.is_rational_function():

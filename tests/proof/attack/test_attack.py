@@ -15,6 +15,7 @@ n = sp.Symbol("n", integer=True, positive=True)
 F = sp.Function("F", real=True)(x)
 G = sp.Function("G", positive=True)(x)
 s, t = sp.symbols("s t", real=True)
+H, K = sp.Function("H", real=True), sp.Function("K", real=True)
 
 FALSE: dict[str, tuple[Statement, list[Assumption]]] = {
     "coefficient": (eq((x + y) ** 2, x**2 + 3 * x * y + y**2), []),
@@ -35,6 +36,9 @@ FALSE: dict[str, tuple[Statement, list[Assumption]]] = {
     "the logarithm of a negative number": (le(sp.log(x), x), []),
     "the imaginary unit": (ge(sp.exp(2 * sp.I * x), 0), []),
     "derivative": (eq(sp.Derivative(F**2, x), F * sp.Derivative(F, x)), []),
+    "chain rule": (eq(sp.diff(H(x, K(x)), x), sp.Derivative(H(x, K(x)), K(x)) * sp.Derivative(K(x), x)), []),
+    "a derivative by a function": (eq(sp.Derivative(x * K(x) ** 2, K(x)), x * K(x)), []),
+    "another function than the one that moves": (eq(sp.Derivative(H(x, K(x)), K(x)), sp.Derivative(K(x), x)), []),
     "a function that vanishes": (gt(F**2, 0), []),
     "a rate that vanishes": (gt(sp.Derivative(G, x) ** 2, 0), []),
     "integral": (eq(sp.Integral(s, (s, 0, p)), p**2), []),
@@ -54,6 +58,15 @@ TRUE: dict[str, tuple[Statement, list[Assumption]]] = {
     "quotients": (ge(p / q + q / p, 2), []),
     "root of a square": (eq(sp.sqrt(x**2), sp.Abs(x)), []),
     "derivative": (eq(sp.Derivative(F**2, x), 2 * F * sp.Derivative(F, x)), []),
+    "chain rule": (eq(sp.Derivative(sp.sin(K(x)) ** 2, x), sp.diff(sp.sin(K(x)) ** 2, K(x)) * sp.diff(K(x), x)), []),
+    "chain rule, both arguments": (
+        eq(
+            sp.Derivative(H(x, K(x)), x),
+            sp.Subs(sp.Derivative(H(s, K(x)), s), s, x) + sp.Derivative(H(x, K(x)), K(x)) * sp.Derivative(K(x), x),
+        ),
+        [],
+    ),
+    "a derivative by a function": (eq(sp.Derivative(x * K(x) ** 2, (K(x), 2)), 2 * x), []),
     "a tiny exponential": (gt(1 + sp.exp(-p), 1), []),
     "a product of tiny exponentials": (gt(sp.exp(-p * q), 0), []),
     "the root of a sum that cancels": (eq(sp.sqrt((sp.sqrt(p) + 1) ** 2 - p - 2 * sp.sqrt(p) - 1), 0), []),
