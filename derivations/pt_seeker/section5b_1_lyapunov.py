@@ -63,8 +63,6 @@ from .section5b_0_trajectory import (
     distance,
     field_between,
     here,
-    in_time,
-    instant,
     later,
     s,
     solves,
@@ -73,6 +71,7 @@ from .section5b_0_trajectory import (
 from .section5b_0_trajectory import v_bounds as everywhere_between
 from .section5b_0_trajectory import v_differential_inequality as along_solution
 from .section5b_0_trajectory import v_nonnegative as nonnegative
+from .section5b_0_with_drift import in_time, instant
 
 SECTION = "5.2 Theorem, Steps 4 to 6: stability"
 ONE = sp.S.One

@@ -50,16 +50,14 @@ from .section5b_0_trajectory import (
     assumption_2,
     at,
     distance,
-    gradient_drift_given,
-    gradient_drift_inequality,
     later,
-    norm_of_E,
     s,
     solves,
     start,
     v_bounds,
 )
 from .section5b_0_trajectory import v_nonnegative as nonnegative
+from .section5b_0_with_drift import gradient_drift_given, gradient_drift_inequality, norm_of_E
 from .section5b_1_lyapunov import ONE, W, W_nonnegative, along_X, at_order, on_interval
 
 SECTION = "5.2 Theorem, Steps 4 to 6: stability"

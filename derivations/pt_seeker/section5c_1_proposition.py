@@ -67,8 +67,6 @@ from .section5b_0_trajectory import (
     drift_norm,
     field_between,
     here,
-    in_time,
-    instant,
     later,
     m,
     order,
@@ -78,6 +76,7 @@ from .section5b_0_trajectory import (
 )
 from .section5b_0_trajectory import v_differential_inequality as along_solution
 from .section5b_0_trajectory import v_nonnegative as nonnegative
+from .section5b_0_with_drift import in_time, instant
 
 SECTION = "5.3 Proposition: a bounded drift that does not vanish"
 

@@ -160,7 +160,12 @@ def named(claims: tuple[Claim, ...], name: str) -> Claim:
     return next(item for item in claims if item.id.startswith(f"prop/{name}-kappa"))
 
 
-def on_the_trajectory(order: sp.Expr, tag: str, words: str, scalar: tuple[Claim, ...]) -> tuple[Claim, ...]:
+def at_the_middle(order: sp.Expr, duration: sp.Expr) -> sp.Expr:
+    """What the first half's estimate gives for the distance at the middle."""
+    return inner(order, duration).subs(distance(t0), distance_at(t0))
+
+
+def on_the_trajectory(order: sp.Expr, tag: str, words: str, scalar: tuple[Claim, ...]) -> tuple[Claim, Claim, Claim]:
     """The printed estimates along every solution, for one kind of κ."""
     basis = [bounded_drift, by_zeta, nonnegative, u_bounds, constants_ordered]
     upper_bound, finale = named(scalar, "upper-bound"), named(scalar, "finale")
@@ -180,16 +185,12 @@ def on_the_trajectory(order: sp.Expr, tag: str, words: str, scalar: tuple[Claim,
             *specialise(goal, upper_bound, {**PUT_IN, Z: forcing}, along=falling(order, start, forcing)),
         )  # fmt: skip
 
-    def at_the_middle(duration: sp.Expr) -> sp.Expr:
-        """What the first half's estimate gives for the distance at the middle."""
-        return inner(order, duration).subs(distance(t0), distance_at(t0))
-
     @claim(
         f"prop/solution-finale-{tag}", f"The estimate from t₀ on along every averaged solution ({words})",
         le(distance_at(tau), beta(middle_bound, (tau - t0) / 2, order) + gamma(halved(tau, order), order)),
-        given=[eq(middle_bound, at_the_middle(tau - t0)), *assumed(order, tau, t0), ge(tau, t0)],
+        given=[eq(middle_bound, at_the_middle(order, tau - t0)), *assumed(order, tau, t0), ge(tau, t0)],
         labels=["eq:finale"], uses=[finale, *basis],
-        example=example(order) | {middle_bound: example_middle(order, at_the_middle(tau - t0))},
+        example=example(order) | {middle_bound: example_middle(order, at_the_middle(order, tau - t0))},
     )  # fmt: skip
     def on_both_halves(goal: Goal) -> Evidence:
         """With the initial distance of the solution. X abbreviates what is printed there: β of the initial distance
@@ -203,18 +204,26 @@ def on_the_trajectory(order: sp.Expr, tag: str, words: str, scalar: tuple[Claim,
         f"prop/solution-finale-in-t-{tag}", f"The estimate in the original time for every averaged solution ({words})",
         le(distance_at(end), beta(middle_bound, duration_in_t / 2, order) + gamma(input_in_t(order), order)),
         given=[
-            eq(middle_bound, at_the_middle(duration_in_t)), *assumed(order, end, t0), ge(t, t0), lt(t, t0 + T),
+            eq(middle_bound, at_the_middle(order, duration_in_t)), *assumed(order, end, t0), ge(t, t0), lt(t, t0 + T),
         ],
         labels=["eq:finale_t"], uses=[on_both_halves],
-        example=example(order) | {middle_bound: example_middle(order, at_the_middle(duration_in_t))},
+        example=example(order) | {middle_bound: example_middle(order, at_the_middle(order, duration_in_t))},
     )  # fmt: skip
     def on_both_halves_in_t(goal: Goal) -> Evidence:
         """x̄(t) is X at the dilated time of t: the same signal on the other clock."""
         return reals(goal, *specialise(goal, on_both_halves, {tau: end}))
 
+    return on_one_interval, on_both_halves, on_both_halves_in_t
+
+
+def reaches_the_source(
+    order: sp.Expr, tag: str, words: str, scalar: tuple[Claim, ...], estimates: tuple[Claim, Claim, Claim]
+) -> Claim:
+    """The statement of the Proposition along every solution, for one kind of κ."""
+    on_one_interval, _, on_both_halves_in_t = estimates
     linear = order == 1
     if linear:
-        decayed = beta(at_the_middle(duration_in_t), duration_in_t / 2, order)
+        decayed = beta(at_the_middle(order, duration_in_t), duration_in_t / 2, order)
     else:
         decayed = fixed(duration_in_t / 2, order)
     bounded: tuple[Claim, ...] = () if linear else (named(scalar, "beta-uniform"),)
@@ -231,7 +240,7 @@ def on_the_trajectory(order: sp.Expr, tag: str, words: str, scalar: tuple[Claim,
 
         def facts(there: Goal) -> list[Fact]:
             if linear:
-                middle = {middle_bound: at_the_middle(duration_in_t)}
+                middle = {middle_bound: at_the_middle(order, duration_in_t)}
                 return [*specialise(there, on_both_halves_in_t, middle)]
             middle_time = half.subs(tau, end)
             values = {second: distance_at(middle_time), low: duration_in_t / 2}
@@ -242,8 +251,10 @@ def on_the_trajectory(order: sp.Expr, tag: str, words: str, scalar: tuple[Claim,
 
         return squeezed(goal, decayed + gamma(input_in_t(order), order), [gt(t, t0), lt(t, t0 + T)], facts)
 
-    return on_one_interval, on_both_halves, on_both_halves_in_t, convergence
+    return convergence
 
 
 solution_1 = on_the_trajectory(sp.Integer(1), "kappa-1", "κ = 1", kappa_1)
 solution_2 = on_the_trajectory(m + 1, "kappa-2", "κ ≥ 2", kappa_2)
+convergence_1 = reaches_the_source(sp.Integer(1), "kappa-1", "κ = 1", kappa_1, solution_1)
+convergence_2 = reaches_the_source(m + 1, "kappa-2", "κ ≥ 2", kappa_2, solution_2)

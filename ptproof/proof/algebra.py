@@ -18,7 +18,7 @@ from typing import Any
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ptproof.proof.powers import exponent_terms, fraction, split_masked, symbolic_power
+from ptproof.proof.powers import exponent_terms, fraction, positive_multiples, split_masked, symbolic_power
 
 _COMPARISONS = (sp.LessThan, sp.StrictLessThan, sp.GreaterThan, sp.StrictGreaterThan)
 
@@ -139,7 +139,7 @@ class Generators:
         common = sp.Integer(1)
         for _, denominator in fractions:
             common = sp.lcm(common, denominator)
-        if not base.is_positive and _multiples(exponents):
+        if not base.is_positive and positive_multiples(exponents):
             common = 1 / exponents[0]  # no quotient of roots, which says nothing where the base is 0
         parts: dict[sp.Expr, list[sp.Rational]] = defaultdict(list)
         for exponent in exponents:
@@ -247,13 +247,6 @@ class Generators:
         entry = (generator, generator**degree - value)
         if entry not in self.relations:
             self.relations.append(entry)
-
-
-def _multiples(exponents: Sequence[sp.Expr]) -> bool:
-    """Whether the exponents are positive rational multiples of the first, which is no number."""
-    first, *others = exponents
-    ratios = (sp.cancel(exponent / first) for exponent in others)
-    return not first.is_number and all(ratio.is_Rational and ratio.is_positive for ratio in ratios)
 
 
 def _known_of(node: sp.Expr) -> dict[str, bool]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from typing import Any
 
@@ -83,3 +83,10 @@ def split_powers(expression: sp.Expr) -> sp.Expr:
         return sp.Mul(*factors)
 
     return expression.replace(lambda node: isinstance(node, sp.Pow), split)
+
+
+def positive_multiples(exponents: Sequence[sp.Expr]) -> bool:
+    """Whether the exponents are positive rational multiples of the first, which is no number."""
+    first, *others = exponents
+    ratios = (sp.cancel(exponent / first) for exponent in others)
+    return not first.is_number and all(ratio.is_Rational and ratio.is_positive for ratio in ratios)

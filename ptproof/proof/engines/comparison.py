@@ -23,6 +23,7 @@ from sympy.core.function import AppliedUndef
 
 from ptproof.proof.claim import Goal, engine
 from ptproof.proof.declarations import is_plainly_real
+from ptproof.proof.engines.lipschitz import is_lipschitz, is_polynomial
 from ptproof.proof.engines.quantified import at_point, instances, mask_positive
 from ptproof.proof.engines.reals import follows
 from ptproof.proof.facts import Fact, usable
@@ -136,11 +137,11 @@ def _check(
     phi = inequality.relation.right.subs(v, value)
     if phi.has(AppliedUndef):
         raise _Failed("the rate depends on the function otherwise than through its value")
-    if not _lipschitz(phi, value):
+    if not is_lipschitz(phi, value):
         raise _Failed(f"the rate {inequality.relation.right} is not recognised as locally Lipschitz in {v}")
     _regular(phi, interval, hints, choices=(sp.Max, sp.Min))  # the rate has to be continuous, the solution smooth
     _regular(u, interval, hints)
-    if value.is_nonnegative and not above and not _polynomial(phi, value):
+    if value.is_nonnegative and not above and not is_polynomial(phi, value):
         _stays(u, interval)
     how = _solves(u, phi.subs(value, u), interval, hints, solution)
     begin = u.subs(s, start)
@@ -194,50 +195,6 @@ def _interval(
             if there is not None:
                 known.append(read(there))
     return _Interval(s, tuple(known), facts)
-
-
-def _lipschitz(phi: sp.Expr, value: sp.Symbol) -> bool:
-    """Combinations of powers of the value, with exponents 0 or ≥ 1, or integers ≥ 0, are locally Lipschitz.
-
-    A power that is not an integer is so on [0, ∞), where a value that is declared not negative stays, and every power
-    on (0, ∞), where one that is declared positive stays. The larger and the smaller of such expressions are so as well.
-    """
-    choices = {node for node in phi.atoms(sp.Max, sp.Min) if node.has(value)}
-    if choices:
-        if not all(_lipschitz(side, value) for node in choices for side in node.args):
-            return False
-        # As one more value of its own, by which the rate has to depend on it linearly.
-        masks = {node: sp.Dummy(f"choice{i}", real=True) for i, node in enumerate(_outermost(choices))}
-        phi = sp.expand_mul(phi.xreplace(masks))
-        rest = phi.as_independent(*masks.values(), as_Add=True)[0]
-        linear = all(phi.diff(mask).free_symbols.isdisjoint({value, *masks.values()}) for mask in masks.values())
-        return linear and (not rest.has(value) or _lipschitz(rest, value))
-    for term in sp.Add.make_args(sp.expand_mul(phi)):
-        independent, dependent = term.as_independent(value, as_Add=False)
-        if independent.has(value):
-            return False
-        if dependent == 1:
-            continue
-        base, exponent = dependent.as_base_exp()
-        if base != value or exponent.has(value):
-            return False
-        if value.is_positive and exponent.is_real:
-            continue
-        if not sp.factor(sp.together(exponent - 1)).is_nonnegative:
-            return False
-        if not value.is_nonnegative and not exponent.is_integer:
-            return False
-    return True
-
-
-def _outermost(nodes: set[sp.Expr]) -> list[sp.Expr]:
-    return sorted((node for node in nodes if not any(node != other and other.has(node) for other in nodes)), key=str)
-
-
-def _polynomial(phi: sp.Expr, value: sp.Symbol) -> bool:
-    """Whether the rate makes sense for every real value."""
-    powers = [node for node in sp.expand_mul(phi).atoms(sp.Pow) if node.base == value]
-    return all(node.exp.is_integer for node in powers)
 
 
 def _signed(goal: Goal, v: AppliedUndef, sign: str, inequality: ForAll) -> bool:
