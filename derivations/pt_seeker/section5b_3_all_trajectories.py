@@ -11,7 +11,8 @@ from .extended import rho
 from .notation import E11, E12, E21, E22, E_norm, T, f, t0, tau
 from .section3_problem import spectral_norm_squared
 from .section5a_6_extended import extended_other_data, rho0, rho_at
-from .section5b_0_trajectory import EXAMPLE, X1, X2, assumption_2, at, norm_of_E, s, start
+from .section5b_0_trajectory import EXAMPLE, X1, X2, assumption_2, at, s, start
+from .section5b_0_with_drift import norm_of_E
 from .section5b_1_lyapunov import at_order
 from .section5b_2_gradient_drift import distance_at, distance_bound_tau, printed_bound
 

@@ -43,15 +43,14 @@ from .section5b_0_trajectory import (
     at,
     derivative,
     gradient_bounds,
-    gradient_drift_given,
     here,
-    instant,
     later,
     s,
     solves,
     start,
     v_nonnegative,
 )
+from .section5b_0_with_drift import gradient_drift_given, instant
 from .section5b_1_lyapunov import n, sigma
 from .section6b_1_comparison import W
 from .section6b_2_critical import A as drift_letter

@@ -43,16 +43,14 @@ from .section5b_0_trajectory import (
     at,
     derivative,
     gradient_bounds,
-    gradient_drift_given,
     here,
-    in_time,
-    instant,
     later,
     s,
     solves,
     start,
     v_nonnegative,
 )
+from .section5b_0_with_drift import gradient_drift_given, in_time, instant
 from .section5b_1_lyapunov import n
 from .section6b_3_only import f_now, g, rate_by_norm, rho
 from .section9_1_gain import image
