@@ -53,9 +53,9 @@ from .section5b_0_trajectory import (
 from .section5b_0_with_drift import gradient_drift_given, instant
 from .section5b_1_lyapunov import n, sigma
 from .section6b_1_comparison import W
-from .section6b_2_critical import A as drift_letter
-from .section6b_2_critical import B as feed_letter
-from .section6b_2_critical import duration, finite_small_start, positive_small_start, smallest_attained
+from .section6b_2_finite import A as drift_letter
+from .section6b_2_finite import B as feed_letter
+from .section6b_2_finite import duration, finite_small_start, positive_small_start, smallest_attained
 from .section6b_3_only import f_now, g, rate_by_norm, rho
 from .section9_1_gain import Z, alpha, beta, half, image, integrated_rate
 

@@ -26,6 +26,7 @@ LEMMAS: dict[str, tuple[Fact, tuple[sp.Symbol, ...]]] = {
     "power_monotone": (lemmas.power_monotone(a, b, p), (a, b, p)),
     "power_strict": (lemmas.power_strict(a, b, p), (a, b, p)),
     "power_positive": (lemmas.power_positive(r, u), (r, u)),
+    "power_nonnegative": (lemmas.power_nonnegative(a, r), (a, r)),
     "superadditive": (lemmas.superadditive(a, b, 1 + p), (a, b, p)),
     "exp_monotone": (lemmas.exp_monotone(u, v), (u, v)),
     "cosine_parabola": (lemmas.cosine_parabola(u), (u,)),
