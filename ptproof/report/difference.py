@@ -9,7 +9,8 @@ from xml.etree.ElementTree import Element
 
 from ptproof.report.formula import Line, element, markup
 
-_ALIKE = 0.5  # below this share of common symbols, the marks would say nothing
+# Below this share of common symbols the marks would say nothing; in a long formula sooner than in one of a line or two.
+_ALIKE, _ALIKE_IF_LONG, _LONG = 0.5, 0.7, 130
 _PLACES = ("msup", "msub", "msubsup", "mfrac", "munder", "mover", "munderover", "mroot")
 
 Leaf: TypeAlias = tuple[Element, tuple[object, ...]]
@@ -47,7 +48,7 @@ def _inside(node: Element, place: tuple[object, ...]) -> Iterator[Leaf]:
 
 def _mark(first: list[Leaf], second: list[Leaf]) -> None:
     matcher = SequenceMatcher(None, [key for _, key in first], [key for _, key in second], autojunk=False)
-    if matcher.ratio() < _ALIKE:
+    if matcher.ratio() < (_ALIKE_IF_LONG if len(first) + len(second) > _LONG else _ALIKE):
         return
     for what, start, end, other_start, other_end in matcher.get_opcodes():
         if what != "equal":

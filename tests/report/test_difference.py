@@ -46,6 +46,13 @@ def test_formulas_that_have_little_in_common_are_left_as_they_are():
     assert not differing(ours[0]) + differing(theirs[0])
 
 
+def test_a_long_formula_with_many_differences_is_left_as_it_is():
+    """Two in five symbols differ: marked in a short formula, and not in one of many lines."""
+    assert differing(marked([Line("a_{1} a x + c")], [Line("b_{1} b x + c")])[0][0]) == ["a", "a"]
+    first, second = (" + ".join(f"{letter}_{{{i}}} {letter} x" for i in range(40)) for letter in "ab")
+    assert not differing(marked([Line(first)], [Line(second)])[0][0])
+
+
 def test_a_formula_that_cannot_be_converted_is_shown_as_its_latex():
     ours, theirs = marked([Line(r"x^a^b")], [Line("b")])
     assert ours == ("<code>x^a^b</code>",)
