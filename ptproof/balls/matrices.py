@@ -1,4 +1,4 @@
-"""Midpoints and radii in arrays: products of intervals, and a matrix times columns of intervals by ordinary BLAS.
+"""Midpoints and radii in arrays: products of intervals, and a sparse matrix times columns of intervals.
 
 A sum of n products of floats, in whatever order and with or without fused operations, is off by at most
 n u/(1 − n u) Σ|a||b| with u = 2⁻⁵³ (Higham, Accuracy and Stability, section 3.1), whatever the library does.
@@ -7,6 +7,7 @@ n u/(1 − n u) Σ|a||b| with u = 2⁻⁵³ (Higham, Accuracy and Stability, sec
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -41,17 +42,22 @@ class Around:
 
 @dataclass(frozen=True, eq=False)
 class Matrix:
-    """A matrix of intervals middle ± radius, to be multiplied by columns of intervals."""
+    """A sparse matrix of intervals middle ± radius, to be multiplied by columns of intervals."""
 
-    middle: Array
-    size: Array  # |middle| + radius/_SUMS
+    middle: Any
+    size: Any  # |middle| + radius/_SUMS
 
     @staticmethod
     def of(middle: Array, radius: Array) -> Matrix:
         """From middles and radii (rows × columns)."""
         if middle.shape[1] > _MOST:
             raise ValueError(f"more than {_MOST} columns: the rounding is not bounded")
-        return Matrix(middle, (np.abs(middle) + radius / _SUMS) * (1 + 8 * _ONCE))
+        from scipy.sparse import csr_array
+
+        size = (np.abs(middle) + radius / _SUMS) * (1 + 8 * _ONCE)
+        rows, columns = np.nonzero(size)  # the same places in both, also where a middle is zero
+        both = (csr_array((part[rows, columns], (rows, columns)), shape=part.shape) for part in (middle, size))
+        return Matrix(*both)
 
     def times(self, columns: Around) -> Around:
         """The product: |C − M||x| + |M||x − m| + rounding, all in one more product."""

@@ -39,6 +39,8 @@ class Model:
         W over all columns.
     reach
         A float not below δ.
+    weight
+        λ.
     """
 
     jets: Jets
@@ -49,6 +51,7 @@ class Model:
     rate: Form
     manifold: Form
     reach: float
+    weight: float
 
     def values(self, columns: Columns, boxes: Boxes, time: Intervals) -> Around:
         """The products of letters on boxes."""

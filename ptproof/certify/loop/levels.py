@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ptproof.balls.arrays import Array
+from ptproof.balls.arrays import Array, Intervals
 
 Indices = NDArray[np.intp]
 
@@ -75,14 +76,30 @@ class Slice:
     ----------
     start, end
         Its ends in t, as floats for people.
+    interval
+        It in t, from outside.
     shortest, longest
         Bounds of its length in τ; infinite where the gain is.
+    steady
+        Whether nothing in it depends on time.
+    count
+        The number of pieces for a curve.
     """
 
     start: float
     end: float
+    interval: Intervals
     shortest: float
     longest: float
+    steady: bool
+    count: int
+
+    def pieces(self) -> list[Slice]:
+        """Equal parts, in τ."""
+        n = self.count
+        marks = [self.start + (self.end - self.start) * i / n for i in range(n)] + [self.end]
+        short, long = self.shortest / n * (1 - 1e-15), self.longest / n * (1 + 1e-15)
+        return [replace(self, start=a, end=b, shortest=short, longest=long, count=1) for a, b in pairwise(marks)]
 
 
 def fallen(level: float, rates: Array, levels: Levels, shortest: float, longest: float) -> float:
