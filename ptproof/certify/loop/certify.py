@@ -21,7 +21,7 @@ import os
 import time as clock
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any
 
@@ -34,7 +34,7 @@ from ptproof.balls.ball import ball_from, interval, precision
 from ptproof.balls.rounding import down, up
 from ptproof.certify.loop.boxes import Boxes
 from ptproof.certify.loop.certificate import LoopCertificate
-from ptproof.certify.loop.cover import Model, farthest, rates
+from ptproof.certify.loop.cover import Model, farthest, guide, rates
 from ptproof.certify.loop.levels import Levels, Slice, fallen
 from ptproof.certify.loop.setup import Phase, Unfit, models, phases, slices
 from ptproof.errors import InputError
@@ -133,10 +133,13 @@ def _curve(
     omega = ball_from(tuning.omega)
     reach = up(ball_from(radius) + 1 / omega.sqrt())
     filter_start = up(ball_from(gap) / (ball_from(tuning.mu) * omega.sqrt()))
-    prepared = models(problem, spans, _ORDERS, _weight(problem, reach))
+    tallest, steepest = _sizes(problem, reach)
+    prepared = models(problem, spans, _ORDERS, _WEIGHT * tallest / steepest)
+    m = float(tuning.mu * tuning.omega)
+    typical = float(tuning.k) / (2 * (1 + m**2)) * steepest / tallest  # of −(dW/dτ)/W
     stage = _stage(prepared, spans, reach, filter_start)
     work = [(model, part) for model, span in zip(prepared, spans, strict=True) for part in slices(problem, span)]
-    bounds = _all_rates(stage, work, tolerance, workers, client)
+    bounds = _all_rates(stage, work, tolerance * typical, workers, client)
     level = stage.start
     times, reached = [work[0][1].start], [level]
     for (_, part), found in zip(work, bounds, strict=True):
@@ -164,16 +167,17 @@ def _curve(
     return tuple(times), tuple(distance[item] for item in reached), hover_level and distance[hover_level], detail
 
 
-def _weight(problem: Problem, reach: float) -> float:
-    """λ, from the size of V and of the slope at the start: any positive number would do."""
+def _sizes(problem: Problem, reach: float) -> tuple[float, float]:
+    """About how large V and ‖∇F‖² are at a distance from the source; any positive numbers would do."""
     angles = np.linspace(0, 2 * np.pi, 64, endpoint=False)
     field = sp.lambdify(problem.variables, [problem.peak - problem.field.expression, *problem.field.gradient], "numpy")
     around = (float(c) + reach * f(angles) for c, f in zip(problem.source, (np.cos, np.sin), strict=True))
-    height, first, second = (np.broadcast_to(item, angles.shape) for item in field(*around))
-    steepest = float(np.nanmax(first**2 + second**2))
-    tallest = float(np.nanmax(np.abs(height)))
-    value = _WEIGHT * tallest / steepest if steepest > 0 and tallest > 0 else _WEIGHT
-    return value if math.isfinite(value) else _WEIGHT
+    with np.errstate(all="ignore"):
+        height, first, second = (np.broadcast_to(item, angles.shape) for item in field(*around))
+        tallest, steepest = float(np.max(np.abs(height))), float(np.max(first**2 + second**2))
+    if not (0 < tallest < math.inf and 0 < steepest < math.inf):
+        raise NoCertificate("the field has no slope or no value around the start")
+    return tallest, steepest
 
 
 def _stage(prepared: Sequence[Model], spans: Sequence[Phase], reach: float, filter_start: float) -> Stage:
@@ -229,19 +233,48 @@ def _bottom(model: Model) -> float:
     return found if found > 0 else math.inf
 
 
+@dataclass(frozen=True, eq=False)
+class _Task:
+    """The rates of one stretch of time, to be bounded apart from the others."""
+
+    model: Model
+    part: Slice
+    stage: Stage
+    window: tuple[float, float] = (0.0, math.inf)
+    seen: Array | None = None
+    slack: float = math.inf
+
+    def expected(self) -> Array:
+        """About what the rates are."""
+        return guide(self.model, self.stage.levels, self.stage.half, self.part.interval)
+
+    def bounds(self) -> Array:
+        """Bounds of the rates."""
+        stage, seen = self.stage, self.expected() if self.seen is None else self.seen
+        return rates(
+            self.model, stage.levels, stage.filter_bands, stage.half, self.part.interval, self.window, seen, self.slack
+        )
+
+
 def _all_rates(
-    stage: Stage, work: Sequence[tuple[Model, Slice]], tolerance: float, workers: int | None, client: Any
+    stage: Stage, work: Sequence[tuple[Model, Slice]], slack: float, workers: int | None, client: Any
 ) -> list[Array]:
-    tasks = [(model, part, stage, (0.0, math.inf), tolerance) for model, part in work]
+    """Bounds of the rates on all stretches, sharp about the levels at which W is expected there."""
+    if len({id(model) for model, _ in work}) == 1 and all(part.steady for _, part in work):
+        return [_Task(*work[0], stage, slack=slack).bounds()] * len(work)
+    level, passed, tasks = stage.start, 0.0, []
+    for model, part in work:
+        task = _Task(model, part, stage, slack=slack)
+        seen = task.expected()
+        after = min(fallen(level, seen, stage.levels, part.shortest, part.longest), float(stage.levels.edges[-1]))
+        passed += min(part.longest, 1e6)
+        worse = math.exp(min(slack * passed, 5.0))
+        tasks.append(replace(task, seen=seen, window=(0.7 * min(level, after), 1.3 * worse * max(level, after))))
+        level = after
     if client is not None:
-        return list(client.gather(client.map(_rates, tasks, pure=False)))
+        return list(client.gather(client.map(_Task.bounds, tasks, pure=False)))
     with ThreadPoolExecutor(workers or os.cpu_count() or 1) as pool:
-        return list(pool.map(_rates, tasks))
-
-
-def _rates(task: tuple[Model, Slice, Stage, tuple[float, float], float]) -> Array:
-    model, part, stage, window, tolerance = task
-    return rates(model, stage.levels, stage.filter_bands, stage.half, part.interval, window, tolerance).values
+        return list(pool.map(_Task.bounds, tasks))
 
 
 def _hover(levels: Levels, found: Array) -> float | None:

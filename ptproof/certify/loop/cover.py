@@ -20,6 +20,7 @@ from ptproof.certify.loop.levels import Indices, Levels, largest_over, smallest_
 from ptproof.certify.loop.ranges import Bounds, Columns, Form
 
 _CHUNK = 2048
+_RADII, _ANGLES = 64, 24
 _FINEST = 1 / 32  # of δ: half the side of boxes that are not quartered any more
 
 
@@ -59,55 +60,50 @@ class Model:
         return columns.values(found, len(boxes))
 
 
-@dataclass(frozen=True, eq=False)
-class Rates:
-    """Per band of levels a bound of dW/dτ (−∞ where no W is), with the number of boxes that it took."""
-
-    values: Array
-    boxes: int
+def guide(model: Model, levels: Levels, half: float, time: Intervals) -> Array:
+    """Per band about the largest rate at q = 0, from points alone: where to look closely, and never a bound."""
+    radii = np.geomspace(model.reach / 10, half, _RADII)
+    angles = np.linspace(0, 2 * np.pi, _ANGLES, endpoint=False)
+    points = Boxes(np.outer(radii, np.cos(angles)).ravel(), np.outer(radii, np.sin(angles)).ravel(), 0.0)
+    look = _Look.at(model, points, levels, np.zeros(2), time)
+    seen = np.full(levels.bands, -np.inf)
+    np.maximum.at(seen, look.place, look.value)
+    filled = np.isfinite(seen)
+    at = np.arange(levels.bands)
+    return np.asarray(np.interp(at, at[filled], seen[filled]))
 
 
 def rates(
     model: Model, levels: Levels, filter_bands: Array, half: float, time: Intervals, window: tuple[float, float],
-    tolerance: float,
-) -> Rates:  # fmt: skip
-    """Bounds of dW/dτ over [−half, half]², all headings and all |q| up to the last of ``filter_bands``.
+    seen: Array, slack: float,
+) -> Array:  # fmt: skip
+    """Per band of levels a bound of dW/dτ over [−half, half]², all headings and all |q| ≤ the last of ``filter_bands``.
+
+    It is −∞ where W has no such level.
 
     Parameters
     ----------
     window
         The levels about which sharp bounds are wanted; others get what comes for nothing.
-    tolerance
-        How much worse than at the middles, relatively, a bound may be without refinement.
+    seen, slack
+        What :func:`guide` says, and by how much a bound may be above it without refinement, as a part of the level.
     """
-    found, seen = np.full((2, levels.bands), -np.inf)
+    found = np.full(levels.bands, -np.inf)
     wanted = (levels.edges[1:] >= window[0]) & (levels.edges[:-1] <= window[1])
-    boxes, count = Boxes.square(half), 0
+    seen, boxes = seen.copy(), Boxes.square(half)
     while len(boxes):
         looks = [(part, _Look.at(model, part, levels, filter_bands, time)) for part in boxes.parts(_CHUNK)]
         for _, look in looks:
             np.maximum.at(seen, look.place, look.value)
-        enough = np.where(wanted, _allowed(seen, levels, tolerance), np.inf)
+        enough = np.where(wanted, seen + slack * levels.edges[1:], np.inf)
         fine = boxes.half < model.reach * _FINEST
         rest = []
         for part, look in looks:
             split = np.zeros(len(part), bool) if fine else look.above(enough)
             np.maximum(found, look.largest(~split, levels.bands), out=found)
             rest.append(part.chosen(split).quarters())
-        count += len(boxes)
         boxes = Boxes.joined(rest)
-    return Rates(found, count)
-
-
-def _allowed(seen: Array, levels: Levels, tolerance: float) -> Array:
-    """What a bound may be on each band, from what has been seen at points; bands without a point go between others."""
-    empty = ~np.isfinite(seen)
-    if empty.all():
-        return np.full(seen.shape, -np.inf)
-    at = np.arange(len(seen))
-    filled = np.interp(at, at[~empty], seen[~empty])
-    relative = np.median(np.abs(filled) / levels.edges[1:])
-    return np.asarray(filled + tolerance * (np.abs(filled) + 0.05 * relative * levels.edges[1:]))
+    return found
 
 
 def farthest(

@@ -144,7 +144,7 @@ def models(
     if drift.matrix is not None:
         rows = [[ball_from(entry) for entry in drift.matrix.row(i)] for i in (0, 1)]
         matrix = ((rows[0][0], rows[0][1]), (rows[1][0], rows[1][1]))
-    letters = [jets_of(problem, span, orders[2]) for span in spans]
+    letters = [jets_of(problem, span, orders[2]) for span in (spans if drifting else spans[:1])]
     first = lyapunov(
         Flow(letters[0], values["k"], values["m"], matrix, drifting, ZERO), orders[0], orders[1], weight
     )
@@ -156,7 +156,7 @@ def models(
         forms = ((function, alone), (function, columns), (rate, columns), (flow.manifold, columns))
         made = (Form.of(part, delta, over) for part, over in forms)
         found.append(Model(jets, columns, alone, *made, up(delta), weight))
-    return tuple(found)
+    return tuple(found) if drifting else tuple(found) * len(spans)  # without a drift nothing depends on time
 
 
 def slices(problem: Problem, span: Phase) -> list[Slice]:
