@@ -1,0 +1,1 @@
+"""Guarantees for the vehicle in closed loop."""
