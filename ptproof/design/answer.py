@@ -29,7 +29,7 @@ class Trial:
 
     def to_json(self) -> dict[str, Any]:
         """As the command prints it."""
-        numbers = {name: str(value) for name, value in self.numbers.items()}
+        numbers = {name: decimal_text(value) for name, value in self.numbers.items()}
         return {"numbers": numbers, "average": self.average, "vehicle": self.vehicle, "why": self.why}
 
 
@@ -73,7 +73,7 @@ class Design:
     def to_json(self) -> dict[str, Any]:
         """As the command prints it."""
         found = self.verdict is Verdict.PROVED
-        exact = {name: {"exact": str(value), "value": float(value)} for name, value in self.numbers.items()}
+        exact = {name: {"exact": decimal_text(value), "value": float(value)} for name, value in self.numbers.items()}
         return {
             "verdict": str(self.verdict), "residual": {"exact": str(self.residual), "value": float(self.residual)},
             "numbers": exact if found else None, "final": self.certificate.final if self.certificate else None,
@@ -82,6 +82,14 @@ class Design:
             "trials": [trial.to_json() for trial in self.trials], "detail": self.detail,
             "seconds": round(self.seconds, 3),
         }  # fmt: skip
+
+
+def decimal_text(value: sp.Expr) -> str:
+    """An exact number as a problem file takes it: as a decimal where it has one."""
+    if isinstance(value, sp.Rational):
+        decimal = f"{float(value):.15g}"
+        return decimal if sp.Rational(decimal) == value else str(value)
+    return str(value)
 
 
 def numbers_of(problem: Problem) -> dict[str, sp.Expr]:

@@ -46,7 +46,7 @@ class Limits:
 def largest_gain(problem: Problem) -> sp.Expr:
     """The gain K at its largest on [t₀, t₀ + T], exact; infinite where nothing caps it."""
     clock = problem.clock
-    return sp.oo if problem.tuning.nu_min is None else sp.sympify(getattr(clock, "last_rate"))
+    return sp.oo if problem.tuning.nu_min is None else sp.sympify(clock.last_rate)
 
 
 def forward_peak(problem: Problem) -> float:
@@ -97,7 +97,7 @@ def _fastest_drift(problem: Problem, reach: float) -> float:
         if candidate is None:
             continue
         try:
-            return up(ball_from(largest_along(candidate, inside, TIME, (tuning.t0, end), _INTERVALS)) / slowest)
+            return up(arb(largest_along(candidate, inside, TIME, (tuning.t0, end), _INTERVALS)) / slowest)
         except Undefined:
             continue
     raise InputError(f"{problem.name}: the drift has no finite enclosure; give its bound")

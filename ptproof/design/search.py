@@ -1,8 +1,8 @@
 """The search for numbers: first what the average's bound and the inputs' limits rule out, then certificates.
 
 For each choice of k, T and ν_min, those nearest to the given ones first, the average's certified bound is computed; it
-depends on neither ω nor μ, and a choice whose average is not within the residual is left. Then ω is raised, from where a
-certificate can exist at all (its bound contains the radius 1/√ω of the vehicle's circle) to where the inputs' limits
+depends on neither ω nor μ, and a choice whose average is not within the residual is left. Then ω is raised, from where
+a certificate can exist at all (its bound contains the radius 1/√ω of the vehicle's circle) to where the inputs' limits
 end, until one does, and lowered again between the last two.
 """
 
@@ -35,6 +35,7 @@ _LADDERS = {
 _OMEGA_STEP, _OMEGA_MOST = 2.0, 1e7
 _REFINED = 2
 _COARSE, _FINE = 0.5, 0.12
+_NEAR = 2.5  # a coarse bound that is farther off is not worth a fine one
 _CHOICES = 40
 Advance = Callable[[int, str], None]
 
@@ -142,8 +143,9 @@ def _asked(
         size = number(sp.sympify(radius, rational=True), "radius")
     if not 0 < time_limit < math.inf:
         raise InputError(f"time_limit: must be positive, got {time_limit}")
+    gap = number(sp.sympify(gap, rational=True), "filter_gap")
     return _Asked(
-        problem, residual, limits, tuple(dict.fromkeys(free)), size, number(sp.sympify(gap, rational=True), "filter_gap"),
+        problem, residual, limits, tuple(dict.fromkeys(free)), size, gap,
         clock.monotonic() + time_limit, workers, progress or (lambda done, words: None),
     )  # fmt: skip
 
@@ -225,7 +227,10 @@ def _frequencies(asked: _Asked, choice: Problem) -> Iterator[sp.Expr]:
         most = min(most, float(asked.limits.u2_max) / float(gain))
     least = 1.1 / float(asked.residual) ** 2
     if least > most:
-        why = f"1/sqrt(omega) is within the residual from omega = {least:.4g} on, but the inputs' limits end at {most:.4g}"
+        why = (
+            f"1/sqrt(omega) is within the residual from omega = {least:.4g} on, but the limits of the inputs end at "
+            f"{most:.4g}"
+        )
         asked.trials.append(Trial(numbers_of(choice), None, None, why))
         return
     value = least
@@ -261,6 +266,10 @@ def _certified(
         why = asked.limits.excess(forward_peak(choice), peak)
     asked.trials.append(Trial(numbers_of(choice), average, final, why or ""))
     return None if why else (choice, certificate)
+
+
+def _certificate(asked: _Asked, choice: Problem, tolerance: float) -> LoopCertificate:
+    return certify_loop(choice, asked.radius, filter_gap=asked.gap, tolerance=tolerance, workers=asked.workers)
 
 
 def _why_none(asked: _Asked) -> str:

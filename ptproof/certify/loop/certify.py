@@ -30,8 +30,8 @@ import sympy as sp
 
 from ptproof.balls.arithmetic import Undefined
 from ptproof.balls.arrays import Array, Intervals
-from ptproof.balls.ball import ball_from, interval, precision
-from ptproof.balls.rounding import down, up
+from ptproof.balls.ball import ball_from, precision
+from ptproof.balls.rounding import up
 from ptproof.certify.loop.boxes import Boxes
 from ptproof.certify.loop.certificate import LoopCertificate
 from ptproof.certify.loop.cover import Model, farthest, guide, rates

@@ -17,7 +17,7 @@ from ptproof.balls.matrices import Around
 from ptproof.certify.loop.boxes import Boxes, Mask
 from ptproof.certify.loop.jets import Jets
 from ptproof.certify.loop.levels import Indices, Levels, largest_over, smallest_within
-from ptproof.certify.loop.ranges import Bounds, Columns, Form
+from ptproof.certify.loop.ranges import Columns, Form
 
 _CHUNK = 2048
 _RADII, _ANGLES = 64, 24

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
 from math import comb, factorial
 
 import sympy as sp
@@ -72,7 +71,7 @@ class Jets:
             raise Unresolved(f"{letter} has no derivative")
         name, i, j, late = letter
         new = (Letter(name, i + 1, j, late), Letter(name, i, j + 1, late), Letter(name, i, j, late + 1))[axis]
-        if name == CLOCK and axis < 2 or name == FIELD and axis == 2:
+        if (name == CLOCK and axis < 2) or (name == FIELD and axis == 2):
             return None
         return None if self.expression(new) == 0 else new
 
