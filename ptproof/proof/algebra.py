@@ -343,6 +343,11 @@ def is_zero(expression: sp.Expr) -> bool:
     >>> is_zero(sp.cos(2 * x) - 1 + sp.sin(x) ** 2)
     False
     """
+    return _vanishes(sp.sympify(expression))
+
+
+@lru_cache(maxsize=4096, typed=True)
+def _vanishes(expression: sp.Expr) -> bool:
     generators = Generators()
     (prepared,) = generators.read([expression])
     numerator, denominator = sp.fraction(sp.together(generators.rational(prepared)))
