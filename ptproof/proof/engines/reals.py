@@ -7,9 +7,10 @@ of the generators is a proof for the values that they have; a counterexample is 
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cache, lru_cache
 from typing import Any
 
 import sympy as sp
@@ -125,15 +126,31 @@ def _follows(
 def _answered(
     conclusion: Relation, assumptions: tuple[Relation, ...], facts: tuple[Implication, ...], seconds: float
 ) -> Answer:
-    import z3
-
     try:
         problem = _Problem(conclusion, assumptions, facts)
     except NotAlgebraic as error:
         return Answer(False, str(error))
-    tried = []
+    with _one_at_a_time:
+        return _asked(problem, bool(facts), seconds)
+
+
+# z3's terms live in one context, which is not made for two threads; a proof that has run out of time may still be asking.
+_one_at_a_time = threading.Lock()
+
+
+@cache
+def _library() -> Any:
+    """z3, told that terms may be given up by another thread than the one that asks."""
+    import z3
+
+    z3.Z3_enable_concurrent_dec_ref(z3.main_ctx().ref())
+    return z3
+
+
+def _asked(problem: _Problem, told_facts: bool, seconds: float) -> Answer:
+    z3, tried = _library(), []
     # What the facts say may be enough, whatever the roots in them are roots of.
-    told = bool(problem.generators.relations and facts)
+    told = bool(problem.generators.relations and told_facts)
     if told and problem.solver(z3, "default", int(1000 * min(seconds / 8, 1.0)), opaque=True).check() == z3.unsat:
         return Answer(True, "z3 (default)")
     for tactic, share in (("default", 0.5), ("qfnra-nlsat", 0.5)):
@@ -254,14 +271,12 @@ _named: dict[str, sp.Symbol] = {}
 
 def _variable(symbol: sp.Symbol) -> Any:
     """The unknown for a symbol, another one for each symbol."""
-    import z3
-
     if symbol not in _variables:
         name = symbol.name
         while name in _named:
             name += "'"
         _named[name] = symbol
-        _variables[symbol] = z3.Real(name)
+        _variables[symbol] = _library().Real(name)
     return _variables[symbol]
 
 
@@ -274,8 +289,7 @@ def _term(expression: sp.Expr) -> tuple[Any, dict[sp.Symbol, None]]:
 
 @lru_cache(maxsize=2**14)
 def _to_z3(expression: sp.Expr) -> Any:
-    import z3
-
+    z3 = _library()
     match expression:
         case sp.Rational():
             return z3.RealVal(f"{expression.p}/{expression.q}")
