@@ -14,6 +14,7 @@ from ptproof.proof import (
     exact,
     ge,
     gt,
+    integrals,
     le,
     limits,
     lt,
@@ -48,6 +49,7 @@ nu_definition = definition(
     prose="Its properties are claims: value 1 at the start, value 0 at the end, decreasing, and affine.",
 )  # fmt: skip
 elapsed = sp.Symbol("s", real=True)
+moment = sp.Symbol("t_s", real=True)
 
 
 @claim(
@@ -81,12 +83,22 @@ def nu_positive(goal: Goal) -> Evidence:
 
 
 @claim(
-    "2.2/time-map", "The time dilation is the clock's map", eq(t0 + (t - t0) / nu(t - t0), clock.to_tau),
-    given=IN_TIME, labels=["eq:tau_to_t"],
+    "2.2/time-map", "The clock undoes the printed time dilation",
+    eq(sp.Subs(clock.to_t, tau, t0 + (t - t0) / nu(t - t0)), t), given=IN_TIME, labels=["eq:tau_to_t"],
 )  # fmt: skip
 def time_map(goal: Goal) -> Evidence:
-    """The printed map, beside the clock that every later step uses."""
+    """The printed map, and the clock's way back, which every later step uses."""
     return exact(goal)
+
+
+@claim(
+    "2.2/time-map-from-gain", "It is what the gain 1/ν² adds up to from the start",
+    eq(t0 + (t - t0) / nu(t - t0), t0 + sp.Integral(1 / nu(moment - t0) ** 2, (moment, t0, t))),
+    given=IN_TIME, labels=["eq:tau_to_t"],
+)  # fmt: skip
+def time_map_from_gain(goal: Goal) -> Evidence:
+    """Dilating time and applying the gain are one thing."""
+    return integrals(goal)
 
 
 @claim(
@@ -166,14 +178,14 @@ def example_limit(goal: Goal) -> Evidence:
 @claim(
     "2.2/inverse-map", "The time contraction undoes the time dilation",
     every(
-        eq(t0 + (tau - t0) / (1 + (tau - t0) / T), clock.to_t),
+        eq(sp.Subs(clock.to_tau, t, t0 + (tau - t0) / (1 + (tau - t0) / T)), tau),
         eq((t0 + (tau - t0) / (1 + (tau - t0) / T)).subs(tau, t0 + (t - t0) / nu(t - t0)), t),
         eq((t0 + (t - t0) / nu(t - t0)).subs(t, t0 + (tau - t0) / (1 + (tau - t0) / T)), tau),
     ),
     given=[*IN_TIME, *IN_TAU], labels=["eq:t_to_tau"],
 )  # fmt: skip
 def inverse_map(goal: Goal) -> Evidence:
-    """The two printed maps are composed both ways."""
+    """The two printed maps are composed both ways, and the printed contraction with the clock's dilation."""
     return exact(goal)
 
 
