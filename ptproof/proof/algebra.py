@@ -56,6 +56,11 @@ def prepare(expression: sp.Expr) -> sp.Expr:
         lambda node: isinstance(node, AppliedUndef),
         lambda node: node.func(*(sp.factor(sp.cancel(sp.together(argument))) for argument in node.args)),
     )
+    # And one base with two equal exponents one power: a power may stand in the base of another.
+    expression = expression.replace(
+        lambda node: isinstance(node, sp.Pow) and bool(node.exp.free_symbols) and node.exp.is_rational_function(),
+        lambda node: node.base ** sp.cancel(node.exp),
+    )
     return expression.replace(
         lambda node: isinstance(node, sp.sin | sp.cos), lambda node: _angle(node.func, node.args[0])
     )
