@@ -39,7 +39,7 @@ from .section5d_1_interval import beta, decay, elapsed, end, first, fixed, low, 
 from .section5d_1_one_interval import root_of_a_bound, some_u, some_v
 from .section5d_2_estimates import kappa_1, kappa_2
 from .section5d_3_trajectory import named
-from .section9_3_every_order import KINDS, bound, for_order, never_stronger, saved
+from .section9_3_every_order import KINDS, bound, for_order, never_stronger, saved, sigma
 
 SECTION = "Beyond the paper"
 Kind: TypeAlias = tuple[Claim, Claim, Claim]
@@ -125,7 +125,8 @@ def for_kind(general: Claim, by_v: Claim, order: sp.Expr, tag: str, words: str, 
             R_end: distance_at(tau), R_begin: distance_at(start), V_end: V_along, V_begin: V_along.subs(tau, start),
             won: saved,
         }  # fmt: skip
-        return reals(goal, *said, *specialise(goal, general, {}), *specialise(goal, by_v, values, said))
+        root = power_nonnegative(V_along.subs(tau, start), sigma)
+        return reals(goal, *said, root, *specialise(goal, general, {}), *specialise(goal, by_v, values, said))
 
     @claim(
         f"beyond/distance-in-t-{tag}", f"The same in the original time, {words}",
