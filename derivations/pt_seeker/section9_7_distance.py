@@ -6,11 +6,13 @@ The bound is the Proposition's function β of class KL, with (τ − τ₀)²/(T
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TypeAlias
 
 import sympy as sp
 
 from ptproof.proof import (
+    Assumption,
     Claim,
     Evidence,
     Fact,
@@ -29,17 +31,35 @@ from ptproof.proof import (
     specialise,
     squeezed,
 )
+from ptproof.proof.substitution import Substitution
 
-from .notation import IN_TIME, T, a1, a2, kappa, nu, t, t0, tau, x1, x2
-from .section5b_0_trajectory import X1, X2, V_along, assumption_2, later, solves, start, v_nonnegative
+from .notation import IN_TIME, E_norm, T, a1, a2, f, k, kappa, nu, position, t, t0, tau, x1, x2
+from .section5b_0_trajectory import F_1, F_2, X1, X2, V_along, assumption_2, later, solves, start, v_nonnegative
 from .section5b_0_trajectory import v_bounds as between
+from .section5b_0_with_drift import gradient_drift_given
 from .section5b_1_lyapunov import n
 from .section5b_2_gradient_drift import distance_at
 from .section5d_1_interval import beta, decay, elapsed, end, first, fixed, low, m, regular, second
 from .section5d_1_one_interval import root_of_a_bound, some_u, some_v
 from .section5d_2_estimates import kappa_1, kappa_2
 from .section5d_3_trajectory import named
-from .section9_3_every_order import KINDS, bound, for_order, never_stronger, saved, sigma
+from .section9_3_every_order import (
+    KINDS,
+    At,
+    bound,
+    for_order,
+    form_by_norm,
+    form_of_minors,
+    form_of_norm,
+    g,
+    never_stronger,
+    norm_bounds,
+    pushed,
+    saved,
+    semidefinite,
+    semidefinite_form,
+    sigma,
+)
 
 SECTION = "Beyond the paper"
 Kind: TypeAlias = tuple[Claim, Claim, Claim]
@@ -166,4 +186,43 @@ by_v_claims = tuple(
 kind_one, kind_above = (
     for_kind(general, by_v, order, tag, words, scalar)
     for by_v, (general, order, tag, words), scalar in zip(by_v_claims, KINDS, SCALARS, strict=True)
+)
+
+
+# --- f = E∇F: what the theorem is about, for every κ ------------------------------------------------------------------
+
+
+def theorem(tag: str, words: str, drift: Sequence[Assumption], uses: Sequence[Claim], says: At) -> Claim:
+    """The average under f = E∇F reaches the source, for κ ≥ 2; ``says`` knows the form at a gradient."""
+    _, distance_in_t, reaches = kind_above
+    (_, order, _, kind), uniform = KINDS[1], named(kappa_2, "beta-uniform")
+
+    @claim(
+        f"beyond/theorem-{tag}", f"If {words}, every averaged trajectory under f = E∇F reaches the source in T, {kind}",
+        reaches.statement,
+        given=[*solves(None, t0), *gradient_drift_given, *drift, *for_order(assumption_2, order)],
+        uses=[distance_in_t, uniform, *uses], example=dict(reaches.example),
+    )  # fmt: skip
+    def in_time(goal: Goal) -> Evidence:
+        """From everywhere. Theorem 2 says this for κ = 1, and for every E, since its bound allows the average to be
+        driven away at first; for κ ≥ 2 that may end in an escape."""
+
+        def along(there: Goal, point: sp.Expr) -> list[Fact]:
+            if not isinstance(point, sp.Tuple):
+                return []
+            put = Substitution(dict(zip((t, *position), point, strict=True))).into
+            return says(there, dict(zip((*g, *pushed), map(put, (F_1, F_2, *f)), strict=True)))
+
+        def facts(there: Goal) -> list[Fact]:
+            values = {m: n, second: distance_at(t0), low: in_t}
+            return [*specialise(there, distance_in_t, {}, along=along), *specialise(there, uniform, values)]
+
+        return squeezed(goal, fixed(in_t, order), [gt(t, t0), lt(t, t0 + T)], facts)
+
+    return in_time
+
+
+theorem_norm = theorem("norm", "k ≥ 2‖E‖", [norm_bounds, ge(k, 2 * E_norm)], [form_by_norm], form_of_norm)
+theorem_semidefinite = theorem(
+    "semidefinite", "(k/2)I + (E + Eᵀ)/2 is positive semidefinite", semidefinite, [semidefinite_form], form_of_minors
 )
