@@ -13,7 +13,6 @@ from ptproof.proof import (
     comparison,
     eq,
     every,
-    exact,
     exp_monotone,
     ge,
     gt,

@@ -6,8 +6,8 @@ import sympy as sp
 
 from ptproof.proof import Evidence, Goal, claim, eq, every, gt, reals
 
-from .section7c_saturated import chosen
 from .notation import epsilon, mu
+from .section7c_saturated import chosen
 
 SECTION = "7.3 Simulation: saturated angular acceleration"
 
@@ -16,7 +16,7 @@ filter_constant = mu / sp.Rational("11.11")  # of the filter's line of eq:sat_se
 
 
 @claim(
-    "7.3/epsilon-over-mu", "With the data of the example ε is not small against μ, and larger than the filter's constant",
+    "7.3/epsilon-over-mu", "In the example ε is not small against μ, and larger than the filter's time constant",
     every(gt(epsilon, mu / 3), gt(epsilon, 4 * filter_constant)),
     given=[eq(epsilon, chosen[epsilon]), eq(mu, printed_mu)], place="Section 7.3",
 )  # fmt: skip

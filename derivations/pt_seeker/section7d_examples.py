@@ -12,7 +12,7 @@ from ptproof.problem import Problem, example
 from ptproof.proof import Assumption, Evidence, Goal, Relation, claim, eq, every, ge, lt, reals
 
 from . import section7a_vanishing, section7b_nonvanishing, section7c_saturated
-from .notation import C, F, S, T, epsilon, f, k, mu, nu, omega, position, t, t0, theta, u2, x1, x2, z
+from .notation import C, F, S, T, epsilon, f, k, mu, nu, omega, position, t, t0, x1, x2
 from .section4_design import closed_t_printed
 from .section6a_asymptotic import printed_asymptotic
 from .section7_clipping import clipped_gain, printed_gain

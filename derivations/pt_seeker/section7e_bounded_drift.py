@@ -173,8 +173,10 @@ right = ForAll(
 
 
 @claim(
-    "7.2/asymptotic-average-never-settles", "For k < 7/3 the average of the asymptotic seeker is never near the source for long",
-    le((7 - 3 * k) * (t - first), sp.Rational(38, 3)), given=[ge(t, first), lt(k, sp.Rational(7, 3)), *stays, right], place="Section 7.2", uses=[pushed_away],
+    "7.2/asymptotic-average-never-settles",
+    "For k < 7/3 the average of the asymptotic seeker is never near the source for long",
+    le((7 - 3 * k) * (t - first), sp.Rational(38, 3)),
+    given=[ge(t, first), lt(k, sp.Rational(7, 3)), *stays, right], place="Section 7.2", uses=[pushed_away],
 )  # fmt: skip
 def never_settles(goal: Goal) -> Evidence:
     """While |x̄₁| ≤ 1/2 the push of the claims before acts, and within 38/(3(7 − 3k)) seconds it carries x̄₁ from −1/2

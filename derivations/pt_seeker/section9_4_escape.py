@@ -60,7 +60,7 @@ def escape_gradient(goal: Goal) -> Evidence:
 
 
 @claim(
-    "beyond/escape-field", "The field of the escape satisfies Assumption 2 for κ = n + 1, with the source at the origin",
+    "beyond/escape-field", "The field of the escape satisfies Assumption 2 for κ = n + 1, its source at the origin",
     Exists(
         tuple(constants),
         (

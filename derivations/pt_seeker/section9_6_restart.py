@@ -138,7 +138,7 @@ size = sum(map(sp.Abs, (E11, E22, E12 + E21)))
 
 
 @claim(
-    "beyond/restart-comes", "For every E, k and T there is an instant from which on that matrix is positive semidefinite",
+    "beyond/restart-comes", "For every E, k and T there is an instant τ₁ at which that matrix is positive semidefinite",
     Exists((begin,), (ge(begin, t0), *(part.map(lambda side: side.subs(share, factor)) for part in semidefinite))),
     uses=[*restarted_definite],
 )  # fmt: skip

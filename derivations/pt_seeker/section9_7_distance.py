@@ -43,6 +43,7 @@ from .section5d_1_interval import beta, decay, elapsed, end, first, fixed, low, 
 from .section5d_1_one_interval import root_of_a_bound, some_u, some_v
 from .section5d_2_estimates import kappa_1, kappa_2
 from .section5d_3_trajectory import named
+from .section6b_3_only import g
 from .section9_3_every_order import (
     KINDS,
     At,
@@ -51,7 +52,6 @@ from .section9_3_every_order import (
     form_by_norm,
     form_of_minors,
     form_of_norm,
-    g,
     never_stronger,
     norm_bounds,
     pushed,
@@ -98,8 +98,6 @@ def v_of_distance(order: sp.Expr, tag: str, words: str, scalar: tuple[Claim, ...
     return by_v
 
 
-
-
 @claim(
     "beyond/time-of-the-bound", "The time in the bound starts at 0, does not decrease, and lags by less than T",
     every(
@@ -131,7 +129,7 @@ def for_kind(general: Claim, by_v: Claim, order: sp.Expr, tag: str, words: str, 
     example = dict(general.example)
 
     @claim(
-        f"beyond/distance-{tag}", f"A drift that is never stronger: the distance along every averaged trajectory, {words}",
+        f"beyond/distance-{tag}", f"A drift that is never stronger: the distance along averaged trajectories, {words}",
         le(distance_at(tau), beta(distance_at(start), saved, order)), given=[*solves(tau), *later, *assumed],
         uses=[general, between, v_nonnegative, by_v, time_of_the_bound], example=example,
     )  # fmt: skip

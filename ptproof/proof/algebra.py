@@ -18,7 +18,14 @@ from typing import Any
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ptproof.proof.powers import exponent_terms, fraction, positive_multiples, split_masked, symbolic_power
+from ptproof.proof.powers import (
+    exponent_terms,
+    fraction,
+    positive_multiples,
+    split_masked,
+    symbolic_power,
+    with_equal_exponents,
+)
 
 _COMPARISONS = (sp.LessThan, sp.StrictLessThan, sp.GreaterThan, sp.StrictGreaterThan)
 
@@ -56,11 +63,7 @@ def prepare(expression: sp.Expr) -> sp.Expr:
         lambda node: isinstance(node, AppliedUndef),
         lambda node: node.func(*(sp.factor(sp.cancel(sp.together(argument))) for argument in node.args)),
     )
-    # And one base with two equal exponents one power: a power may stand in the base of another.
-    expression = expression.replace(
-        lambda node: isinstance(node, sp.Pow) and bool(node.exp.free_symbols) and node.exp.is_rational_function(),
-        lambda node: node.base ** sp.cancel(node.exp),
-    )
+    expression = with_equal_exponents(expression)
     return expression.replace(
         lambda node: isinstance(node, sp.sin | sp.cos), lambda node: _angle(node.func, node.args[0])
     )

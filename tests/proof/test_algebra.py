@@ -54,9 +54,7 @@ NEAR_MISSES = {
     "numerator of an exponent in a base": (
         (1 + V ** (kappa / (kappa + 1))) ** q - (1 + V ** ((2 * kappa + 2) / (2 * kappa + 2))) ** q
     ),
-    "sign of an exponent in a base": (
-        (1 + V ** (1 / (2 * kappa))) ** q - (1 + V ** (-2 / (4 * kappa))) ** q
-    ),
+    "sign of an exponent in a base": ((1 + V ** (1 / (2 * kappa))) ** q - (1 + V ** (-2 / (4 * kappa))) ** q),
     "sign of an angle": sp.cos(k * F - tau) - sp.cos(k * F) * sp.cos(tau) + sp.sin(k * F) * sp.sin(tau),
     "square root of a square": sp.sqrt(x**2) - x,
     "logarithm of an exponential of another": sp.exp(x) - sp.exp(y),
