@@ -18,17 +18,9 @@ from typing import Any
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ptproof.proof.powers import (
-    exponent_terms,
-    fraction,
-    positive_multiples,
-    split_masked,
-    symbolic_power,
-    with_equal_exponents,
-)
+from ptproof.proof.powers import exponent_terms, fraction, positive_multiples, reduced, split_masked, symbolic_power
 
 _COMPARISONS = (sp.LessThan, sp.StrictLessThan, sp.GreaterThan, sp.StrictGreaterThan)
-
 
 _WRITTEN = {
     sp.tan: lambda a: sp.sin(a) / sp.cos(a),
@@ -63,8 +55,7 @@ def prepare(expression: sp.Expr) -> sp.Expr:
         lambda node: isinstance(node, AppliedUndef),
         lambda node: node.func(*(sp.factor(sp.cancel(sp.together(argument))) for argument in node.args)),
     )
-    expression = with_equal_exponents(expression)
-    return expression.replace(
+    return reduced(expression).replace(
         lambda node: isinstance(node, sp.sin | sp.cos), lambda node: _angle(node.func, node.args[0])
     )
 

@@ -26,13 +26,13 @@ def exponent_terms(exponent: sp.Expr, common: sp.Expr) -> tuple[tuple[sp.Expr, s
     return tuple((monomial, sp.Rational(coefficient)) for coefficient, monomial in pairs)
 
 
-def with_equal_exponents(expression: sp.Expr) -> sp.Expr:
+def reduced(expression: sp.Expr) -> sp.Expr:
     """Every exponent with symbols in lowest terms: equal ones are then one, also in the base of another power.
 
     Equal where both are defined, as everything in this algebra.
 
     >>> n, x = sp.symbols("n x", positive=True)
-    >>> with_equal_exponents((1 + x ** (2 * n / (2 * n + 2))) ** n)
+    >>> reduced((1 + x ** (2 * n / (2 * n + 2))) ** n)
     (x**(n/(n + 1)) + 1)**n
     """
     return expression.replace(
