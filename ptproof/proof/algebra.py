@@ -19,10 +19,9 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from ptproof.proof.content import digest
-from ptproof.proof.powers import exponent_terms, fraction, positive_multiples, split_powers, symbolic_power
+from ptproof.proof.powers import exponent_terms, fraction, positive_multiples, reduced, split_powers, symbolic_power
 
 _COMPARISONS = (sp.LessThan, sp.StrictLessThan, sp.GreaterThan, sp.StrictGreaterThan)
-
 
 _WRITTEN = {
     sp.tan: lambda a: sp.sin(a) / sp.cos(a),
@@ -57,6 +56,7 @@ def prepare(expression: sp.Expr) -> sp.Expr:
         expression = expression.replace(
             lambda node: isinstance(node, AppliedUndef), lambda node: node.func(*map(_factored, node.args))
         )
+    expression = reduced(expression)
     if not expression.has(sp.sin, sp.cos):
         return expression
     return expression.replace(

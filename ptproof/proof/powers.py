@@ -25,6 +25,21 @@ def exponent_terms(exponent: sp.Expr, common: sp.Expr) -> tuple[tuple[sp.Expr, s
     return tuple((monomial, sp.Rational(coefficient)) for coefficient, monomial in pairs)
 
 
+def reduced(expression: sp.Expr) -> sp.Expr:
+    """Every exponent with symbols in lowest terms: equal ones are then one, also in the base of another power.
+
+    Equal where both are defined, as everything in this algebra.
+
+    >>> n, x = sp.symbols("n x", positive=True)
+    >>> reduced((1 + x ** (2 * n / (2 * n + 2))) ** n)
+    (x**(n/(n + 1)) + 1)**n
+    """
+    return expression.replace(
+        lambda node: isinstance(node, sp.Pow) and bool(node.exp.free_symbols) and node.exp.is_rational_function(),
+        lambda node: node.base ** sp.cancel(node.exp),
+    )
+
+
 @lru_cache(maxsize=4096)
 def fraction(exponent: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
     """Numerator and denominator of an exponent."""
