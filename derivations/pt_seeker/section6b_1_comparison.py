@@ -47,7 +47,7 @@ from .section5b_0_trajectory import (
     v_nonnegative,
 )
 from .section5b_0_with_drift import drift_norm_below, gradient_drift_given, norm_of_E
-from .section5b_1_lyapunov import EXAMPLE_AT_REST, along_X, at_order, n, sigma, sigma_form
+from .section5b_1_lyapunov import EXAMPLE_QUARTIC, along_X, at_order, n, sigma, sigma_form
 from .section5b_1_lyapunov import W as value
 
 SECTION = "6.2 Discussion: vanishing drift and κ ≥ 2"
@@ -61,7 +61,7 @@ drift, feed = C2**2 * E_norm, k * C1**2 / 2
 after = ge(tau, t0)
 
 # A solution that moves, for κ = 2: F = −‖x‖⁴ and E = −I, so that X' = (4/(1 + s)² − 4)X³ on the ray through (1, 0).
-MOVING = EXAMPLE_AT_REST | {
+MOVING = EXAMPLE_QUARTIC | {
     n: 1, k: 2, C1: 4, C2: 4, E_norm: 1, V0: 1, **dict.fromkeys(E, 0), E[0, 0]: -1, E[1, 1]: -1,
     X1(s): (1 + 8 * s**2 / (1 + s)) ** sp.Rational(-1, 2),
     f[0]: 4 * (x1**2 + x2**2) * x1, f[1]: 4 * (x1**2 + x2**2) * x2,

@@ -11,6 +11,7 @@ import itertools
 import random
 import time
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 import sympy as sp
@@ -74,9 +75,12 @@ def check_witness(goal: Goal, values: Mapping[Any, Any]) -> tuple[Witness | None
 
 
 def at_example(goal: Goal, values: Mapping[Any, Any]) -> tuple[bool, str]:
-    """Whether exact values satisfy every assumption, and the statement does not fail there; and what is said of it."""
+    """Whether exact values satisfy every assumption, and the statement does not fail there; and what is said of it.
+
+    Nothing is said of a statement that takes a function where its value is not known to be defined.
+    """
     try:
-        there = values_where_used(goal, values)
+        there = values_where_used(replace(goal, statement=All(())), values)
     except InputError as error:
         return False, f"the example is none: {error}"
     for assumption in goal.assumptions:
