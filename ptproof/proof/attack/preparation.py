@@ -5,16 +5,17 @@ from __future__ import annotations
 import itertools
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import cached_property, lru_cache, partial
 from random import Random
 from typing import Any
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from ptproof.proof.attack.fields import Range, fields
 from ptproof.proof.attack.functions import Concrete, differentiable, solutions
 from ptproof.proof.attack.scope import BINDERS
-from ptproof.proof.attack.trajectories import trajectories
+from ptproof.proof.attack.trajectories import Motion, drifts, is_equation, motions, trajectories
 from ptproof.proof.claim import Goal
 from ptproof.proof.statement import (
     Exists,
@@ -54,6 +55,16 @@ class Bound:
 
 
 @dataclass(frozen=True)
+class Setting:
+    """A field with a motion in it: functions and letters that belong together, and the assumptions that then hold."""
+
+    functions: tuple[tuple[Any, Concrete], ...]
+    letters: tuple[tuple[Any, sp.Expr], ...]
+    ranges: tuple[tuple[Any, Range], ...]
+    items: frozenset[ForAll]
+
+
+@dataclass(frozen=True)
 class Prepared:
     """The free values of a goal, and what its assumptions say of them.
 
@@ -74,6 +85,10 @@ class Prepared:
         Functions that are differentiable only so often, by what draws one.
     smooth
         Whether the statement is about smoothness.
+    settings
+        Fields for the assumptions on several variables, each with a motion if a system is assumed.
+    definitions
+        The assumptions that define the functions of ``defined``, which therefore hold.
     """
 
     parts: tuple[Relation, ...]
@@ -86,6 +101,8 @@ class Prepared:
     special: tuple[Isolated, ...]
     limited: tuple[tuple[Any, Callable[[Random], Concrete]], ...] = ()
     smooth: bool = False
+    settings: tuple[Setting, ...] = ()
+    definitions: frozenset[ForAll] = frozenset()
 
 
 def prepared(goal: Goal) -> Prepared:
@@ -93,7 +110,8 @@ def prepared(goal: Goal) -> Prepared:
     statement: list[Statement] = [] if isinstance(goal.statement, Prose) else [goal.statement]
     everything = [*statement, *goal.assumptions]
     quantified = tuple(item for item in goal.assumptions if isinstance(item, ForAll))
-    defined = dict(_definitions(quantified))
+    definitions = {function: (concrete, item) for function, concrete, item in _definitions(quantified)}
+    defined = {function: concrete for function, (concrete, _) in definitions.items()}
     symbols = _free(goal, everything)
     applied = sorted(set().union(*(e.atoms(AppliedUndef) for e in expressions_of(everything))), key=str)
     bound_inside = _applied_inside(everything, quantified)
@@ -104,6 +122,7 @@ def prepared(goal: Goal) -> Prepared:
     functions = {node.func: node for node in applied if node not in pinned and node.func not in defined}
     relations = plain(goal.assumptions)
     parts = _parts(goal.statement)
+    used = frozenset(item for _, item in definitions.values())
     return Prepared(
         parts,
         tuple(_bound(relation, (*symbols, *pinned)) for relation in relations),
@@ -115,7 +134,31 @@ def prepared(goal: Goal) -> Prepared:
         tuple(itertools.islice(_special(_places(goal.statement), (*symbols, *pinned)), 60)),
         _limited(goal.statement),
         isinstance(goal.statement, Smooth),
+        _settings(quantified, used, tuple(defined.items())),
+        used,
     )
+
+
+@lru_cache(maxsize=64)
+def _settings(
+    quantified: tuple[ForAll, ...], used: frozenset[ForAll], given: tuple[tuple[Any, Concrete], ...]
+) -> tuple[Setting, ...]:
+    """Each field that is found, with each motion in it."""
+    defined = dict(given)
+    found = []
+    rest = tuple(item for item in quantified if item not in used)
+    ends = itertools.chain.from_iterable(solutions(item) for item in rest if len(item.variables) == 1)
+    system = tuple(item for item in rest if is_equation(item))
+    for field in fields(rest, ends):
+        letters = dict(field.letters)
+        for others in drifts(system, {**defined, **dict(field.functions)}):
+            functions = {**dict(field.functions), **others}
+            moving = motions(system, {**defined, **functions}, letters) if system else [Motion(())]
+            for motion in moving:
+                values = {**letters, **dict(motion.letters)}
+                made = {**functions, **dict(motion.functions)}
+                found.append(Setting(tuple(made.items()), tuple(values.items()), field.ranges, field.items))
+    return tuple(found)
 
 
 def _limited(statement: Statement) -> tuple[tuple[Any, Callable[[Random], Concrete]], ...]:
@@ -162,7 +205,7 @@ def _applied_inside(everything: list[Any], quantified: Iterable[ForAll]) -> set[
     return found
 
 
-def _definitions(quantified: Iterable[ForAll]) -> Iterable[tuple[Any, Concrete]]:
+def _definitions(quantified: Iterable[ForAll]) -> Iterable[tuple[Any, Concrete, ForAll]]:
     """f(s) = expression for all s: the function is that expression."""
     for item in quantified:
         left, right = item.relation.left, item.relation.right
@@ -173,7 +216,7 @@ def _definitions(quantified: Iterable[ForAll]) -> Iterable[tuple[Any, Concrete]]
             if isinstance(one, AppliedUndef) and one.args == item.variables and one.func not in inside:
                 places = tuple(sp.Dummy(variable.name, real=True) for variable in item.variables)
                 body = other.xreplace(dict(zip(item.variables, places, strict=True)))
-                yield one.func, Concrete(places, body)
+                yield one.func, Concrete(places, body), item
                 break
 
 
