@@ -8,6 +8,7 @@ from __future__ import annotations
 import sympy as sp
 
 from ptproof.proof import (
+    Assumption,
     Evidence,
     Fact,
     ForAll,
@@ -163,7 +164,7 @@ def denominator_from(value: sp.Expr) -> sp.Expr:
 falls_or_grows = ForAll((s,), le(sp.Derivative(value(s), s), rate_at(s) * value(s) ** (1 + sigma)), on)
 not_negative = ForAll((s,), ge(value(s), 0), on)
 starts = le(V_along.subs(tau, t0), V0)  # V may also start at 0, at the source
-trajectory = [
+trajectory: list[Assumption] = [
     *solves(tau, t0),
     after,
     *at_order(assumption_2, order),

@@ -26,7 +26,7 @@ from ptproof.proof import (
 )
 
 from .notation import V0, E, E_norm, T, f, k, t0, tau, x1, x2
-from .section5b_0_trajectory import X1, V_along
+from .section5b_0_trajectory import X1, V_along, s
 from .section5b_1_lyapunov import sigma_form
 from .section6b_1_comparison import (
     C1,
@@ -41,7 +41,6 @@ from .section6b_1_comparison import (
     q_printed,
     remark,
     remark_inequality,
-    s,
     trajectory,
 )
 

@@ -29,6 +29,7 @@ from .section5b_0_trajectory import (
     V_of_x,
     assumption_2,
     cauchy_schwarz,
+    distance,
     gradient_bounds,
     gradient_norm,
     v_nonnegative,
@@ -38,7 +39,7 @@ from .section5c_1_proposition import constants_ordered, u_bounds
 from .section5d_1_interval import Z, beta, gamma, input_gain, m, rate_of, start
 from .section5d_2_estimates import kappa_1, kappa_2
 from .section5d_3_trajectory import PUT_IN, named
-from .section6c_2_bounded_drift import FALLING, PUSHED, V_now, V_rate, asymptotic_derivative, at, distance, here, moved
+from .section6c_2_bounded_drift import FALLING, PUSHED, V_now, V_rate, asymptotic_derivative, at, here, moved
 
 SECTION = "6.3 Discussion: nonvanishing drift and feasibility"
 

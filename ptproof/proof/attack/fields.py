@@ -1,6 +1,6 @@
 """Concrete functions of several variables for which assumptions "for all positions" hold exactly.
 
-A field F is drawn as a power of the distance from the origin or as a quadratic form, a drift as a constant. Whether an
+A field F is drawn as a power of the distance from the origin or as a quadratic form; other functions are 0. Whether an
 assumption holds for it, and for which values of the constants in it, is decided by comparing polynomials whose terms
 are numbers times even powers: no grid is believed here.
 """
@@ -73,25 +73,36 @@ def fields(items: Sequence[ForAll], ends: Iterable[tuple[Any, Concrete]]) -> lis
     if not several:
         return []
     inside = {node.func for item in several for e in expressions_of([item]) for node in e.atoms(AppliedUndef)}
-    given = tuple(dict((function, concrete) for function, concrete in ends if function in inside).items())
-    return list(_fields(several, given))
+    given = tuple({function: concrete for function, concrete in ends if function in inside}.items())
+    return list(_fields(several, given, frozenset(_shaped(items))))
+
+
+def _shaped(items: Iterable[ForAll]) -> Iterator[Any]:
+    """The functions of which a slope, or values at several places, are spoken of."""
+    sides = [side for item in items for side in (item.relation.left, item.relation.right)]
+    for rate in set().union(*(side.atoms(sp.Derivative) for side in sides)):
+        yield from (node.func for node in rate.atoms(AppliedUndef) if len(node.args) > 1)
+    for item in items:
+        nodes = item.relation.left.atoms(AppliedUndef) | item.relation.right.atoms(AppliedUndef)
+        functions = [node.func for node in nodes if len(node.args) > 1]
+        yield from (function for function in functions if functions.count(function) > 1)
 
 
 @lru_cache(maxsize=64)
-def _fields(several: tuple[ForAll, ...], given: tuple[tuple[Any, Concrete], ...]) -> tuple[Field, ...]:
+def _fields(
+    several: tuple[ForAll, ...], given: tuple[tuple[Any, Concrete], ...], shaped: frozenset[Any]
+) -> tuple[Field, ...]:
     sides = [side for item in several for side in (item.relation.left, item.relation.right)]
     applied = {node.func: node for side in sides for node in sorted(side.atoms(AppliedUndef), key=str)}
-    moving = {node.func for side in sides for rate in side.atoms(sp.Derivative) for node in rate.atoms(AppliedUndef)}
     letters = set().union(*(side.free_symbols for side in sides)) - {x for item in several for x in item.variables}
     whole = sorted((letter for letter in letters if letter.is_integer), key=str)
     origin = tuple((letter, sp.S.Zero) for letter in sorted(letters, key=str) if _any_real(letter))
-    scales = [body for _, concrete in given if (body := concrete.body).is_Symbol]
     choices: list[list[tuple[Any, Concrete]]] = []
     for function, node in sorted(applied.items(), key=str):
         if function in dict(given):
             choices.append([(function, dict(given)[function])])
         else:
-            drawn = _shapes(len(node.args)) if function in moving else _constants(len(node.args), scales)
+            drawn = _shapes(len(node.args)) if function in shaped else _nothing(len(node.args))
             choices.append([(function, concrete) for concrete in drawn])
     found = []
     for functions in itertools.islice(itertools.product(*choices), _MOST):
@@ -119,10 +130,8 @@ def _shapes(count: int) -> Iterator[Concrete]:
     yield from (Concrete(places, body) for body in (square, square**2))
 
 
-def _constants(count: int, scales: Sequence[sp.Symbol]) -> Iterator[Concrete]:
-    places = tuple(sp.Symbol(f"_argument{i}", real=True) for i in range(count))
-    sizes = [factor * scale for scale in scales for factor in (1, -1)]
-    yield from (Concrete(places, sp.sympify(body)) for body in (0, *sizes))
+def _nothing(count: int) -> list[Concrete]:
+    return [Concrete(tuple(sp.Symbol(f"_argument{i}", real=True) for i in range(count)), sp.S.Zero)]
 
 
 def _all_hold(

@@ -5,17 +5,17 @@ from __future__ import annotations
 import itertools
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from functools import cached_property, lru_cache, partial
+from functools import cached_property, partial
 from random import Random
 from typing import Any
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ptproof.proof.attack.fields import Range, fields
 from ptproof.proof.attack.functions import Concrete, differentiable, solutions
 from ptproof.proof.attack.scope import BINDERS
-from ptproof.proof.attack.trajectories import Motion, drifts, is_equation, motions, trajectories
+from ptproof.proof.attack.settings import Setting, settings
+from ptproof.proof.attack.trajectories import trajectories
 from ptproof.proof.claim import Goal
 from ptproof.proof.statement import (
     Exists,
@@ -52,16 +52,6 @@ class Bound:
     isolated: tuple[Isolated, ...]
     roots: tuple[tuple[Any, sp.Expr], ...]
     atoms: frozenset[Any]
-
-
-@dataclass(frozen=True)
-class Setting:
-    """A field with a motion in it: functions and letters that belong together, and the assumptions that then hold."""
-
-    functions: tuple[tuple[Any, Concrete], ...]
-    letters: tuple[tuple[Any, sp.Expr], ...]
-    ranges: tuple[tuple[Any, Range], ...]
-    items: frozenset[ForAll]
 
 
 @dataclass(frozen=True)
@@ -134,31 +124,9 @@ def prepared(goal: Goal) -> Prepared:
         tuple(itertools.islice(_special(_places(goal.statement), (*symbols, *pinned)), 60)),
         _limited(goal.statement),
         isinstance(goal.statement, Smooth),
-        _settings(quantified, used, tuple(defined.items())),
+        settings(quantified, used, tuple(defined.items())),
         used,
     )
-
-
-@lru_cache(maxsize=64)
-def _settings(
-    quantified: tuple[ForAll, ...], used: frozenset[ForAll], given: tuple[tuple[Any, Concrete], ...]
-) -> tuple[Setting, ...]:
-    """Each field that is found, with each motion in it."""
-    defined = dict(given)
-    found = []
-    rest = tuple(item for item in quantified if item not in used)
-    ends = itertools.chain.from_iterable(solutions(item) for item in rest if len(item.variables) == 1)
-    system = tuple(item for item in rest if is_equation(item))
-    for field in fields(rest, ends):
-        letters = dict(field.letters)
-        for others in drifts(system, {**defined, **dict(field.functions)}):
-            functions = {**dict(field.functions), **others}
-            moving = motions(system, {**defined, **functions}, letters) if system else [Motion(())]
-            for motion in moving:
-                values = {**letters, **dict(motion.letters)}
-                made = {**functions, **dict(motion.functions)}
-                found.append(Setting(tuple(made.items()), tuple(values.items()), field.ranges, field.items))
-    return tuple(found)
 
 
 def _limited(statement: Statement) -> tuple[tuple[Any, Callable[[Random], Concrete]], ...]:

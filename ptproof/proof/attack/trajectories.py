@@ -29,7 +29,7 @@ def motions(items: Iterable[ForAll], functions: Mapping[Any, Concrete], letters:
     any number are 0. The constant of integration is the symbol ``START``.
     """
     rates = {
-        state: concretely(rate, functions).subs(dict(letters), simultaneous=True) for state, rate in _equations(items)
+        state: concretely(rate, functions).subs(dict(letters), simultaneous=True) for state, rate in equations(items)
     }
     found = []
     for moving in rates:
@@ -83,8 +83,8 @@ def drifts(items: Iterable[ForAll], functions: Mapping[Any, Concrete]) -> Iterat
 
     The arguments that the gradient takes are the last ones.
     """
-    nodes = set().union(*(rate.atoms(AppliedUndef) for _, rate in _equations(items)))
-    states = {state.func for state, _ in _equations(items)}
+    nodes = set().union(*(rate.atoms(AppliedUndef) for _, rate in equations(items)))
+    states = {state.func for state, _ in equations(items)}
     free = {node.func: len(node.args) for node in sorted(nodes, key=str) if node.func not in {*states, *functions}}
     potentials = [one for one in functions.values() if 1 < len(one.arguments) == len(free) and one.body != 0]
     for share in _SHARES if potentials and min(free.values()) >= len(free) else _SHARES[:1]:
@@ -104,10 +104,10 @@ def drifts(items: Iterable[ForAll], functions: Mapping[Any, Concrete]) -> Iterat
 
 def is_equation(item: ForAll) -> bool:
     """Whether an assumption gives the rate of a function of one time."""
-    return bool(list(_equations([item])))
+    return bool(list(equations([item])))
 
 
-def _equations(items: Iterable[ForAll]) -> Iterator[tuple[AppliedUndef, sp.Expr]]:
+def equations(items: Iterable[ForAll]) -> Iterator[tuple[AppliedUndef, sp.Expr]]:
     """Each function of one time with its rate."""
     for item in items:
         left = item.relation.left

@@ -115,7 +115,9 @@ def _uses(goal: Goal, function: Any, numbers: Mapping[Any, Any], place: sp.Symbo
                 if not _affine(argument, variables):
                     yield f"the values of {argument} may not be closed"
                     continue
-                known = [part.map(lambda side, to=letters: side.xreplace(to)) for part in domain]
+                known = [
+                    Relation(part.left.xreplace(letters), part.sign, part.right.xreplace(letters)) for part in domain
+                ]
                 yield [*known, eq(place, argument.xreplace(letters))]
 
 
