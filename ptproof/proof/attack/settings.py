@@ -41,13 +41,16 @@ def settings(
     ends = list(itertools.chain.from_iterable(solutions(item) for item in rest if len(item.variables) == 1))
     ends = [(function, concrete) for function, concrete in ends if concrete.body.is_Symbol]
     system = tuple(item for item in rest if is_equation(item))
-    for field in fields(rest, ends)[:_FIELDS]:
-        for others in drifts(system, {**defined, **dict(field.functions)}):
-            functions = {**dict(field.functions), **others}
-            for zeros in _zeros(system, {**defined, **functions}):
-                letters = {**dict(field.letters), **zeros}
-                for motion in motions(system, {**defined, **functions}, letters) if system else [Motion(())]:
-                    found.append(_setting(field, functions, letters, motion, field.items))
+    for k, field in enumerate(fields(rest, ends)[:_FIELDS]):
+        choices = [
+            ({**dict(field.functions), **others}, zeros)
+            for others in drifts(system, {**defined, **dict(field.functions)})
+            for zeros in _zeros(system, {**defined, **dict(field.functions), **others})
+        ]
+        for functions, zeros in choices[k % len(choices) :][: 1 if k else None]:  # all of them in the first field
+            letters = {**dict(field.letters), **zeros}
+            for motion in motions(system, {**defined, **functions}, letters) if system else [Motion(())]:
+                found.append(_setting(field, functions, letters, motion, field.items))
     pushed = _bounds_of_drifts(rest, system)
     for field in fields([item for item in rest if item not in pushed], ends)[:2] if pushed else ():
         functions, letters = dict(ends) | dict(field.functions), dict(field.letters)
