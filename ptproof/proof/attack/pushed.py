@@ -30,6 +30,8 @@ def pushes(
     rates = {
         state: concretely(rate, functions).subs(dict(letters), simultaneous=True) for state, rate in equations(system)
     }
+    if any(rate.has(sp.Derivative, sp.Subs) for rate in rates.values()):
+        return
     drifts = {node.func for rate in rates.values() for node in rate.atoms(AppliedUndef)} - {s.func for s in rates}
     for state in itertools.islice(rates, 1):
         rest = {other: sp.S.Zero for other in rates if other != state}

@@ -31,7 +31,9 @@ def motions(items: Iterable[ForAll], functions: Mapping[Any, Concrete], letters:
     rates = {
         state: concretely(rate, functions).subs(dict(letters), simultaneous=True) for state, rate in equations(items)
     }
-    found = []
+    found: list[Motion] = []
+    if any(rate.has(sp.Derivative, sp.Subs) for rate in rates.values()):
+        return found
     for moving in rates:
         rest = {other: sp.S.Zero for other in rates if other != moving}
         if not all(map(_may_vanish, rest)) or not _may_be_positive(moving):
