@@ -18,7 +18,7 @@ import sympy as sp
 from ptproof.proof.algebra import Generators, NotAlgebraic
 from ptproof.proof.claim import Goal, engine
 from ptproof.proof.definedness import Obligation, domain_of
-from ptproof.proof.facts import Fact, usable
+from ptproof.proof.facts import Fact, is_said, usable
 from ptproof.proof.statement import MEANING, Implication, Relation, free_symbols, relations_of, undefined_functions
 from ptproof.proof.verdict import Evidence, Verdict
 
@@ -84,10 +84,13 @@ def follows(
         known += [_relation(need) for need in needs if need.necessary and not need.given]
     elif not (defined := are_met(needs, known, facts, seconds=min(seconds, _SECONDS_TO_BE_DEFINED))).shown:
         return defined
-    if not facts:
-        return _follows(conclusion, known, (), seconds)
-    alone = _follows(conclusion, known, (), min(seconds / 8, _SECONDS_ALONE))
-    if alone.shown:
+    return _shown(conclusion, known, facts, seconds)
+
+
+def _shown(conclusion: Relation, known: Sequence[Relation], facts: Sequence[Implication], seconds: float) -> Answer:
+    """Without the facts for a short time, then with them."""
+    alone = _follows(conclusion, known, (), min(seconds / 8, _SECONDS_ALONE) if facts else seconds)
+    if alone.shown or not facts:
         return alone
     together = _follows(conclusion, known, facts, seconds)
     # What facts make no easier may only have needed longer.
@@ -101,13 +104,11 @@ def are_met(
     """Whether everything that an expression needs in order to be defined is shown to follow, one after the other."""
     known = list(assumptions)
     for need in needs:
-        if need.settled:
-            continue
         if need.relation is None:
             return Answer(False, str(need))
-        answer = _follows(need.relation, [*known, *need.given], (), seconds or SECONDS)
-        if not answer.shown and facts:
-            answer = _follows(need.relation, [*known, *need.given], facts, seconds or SECONDS)
+        if need.settled or is_said(need.relation, facts):
+            continue
+        answer = _shown(need.relation, [*known, *need.given], facts, seconds or SECONDS)
         if not answer.shown:
             return Answer(False, f"{need} is not shown, without which {need.node} is not defined: {answer.how}")
         if not need.given:
