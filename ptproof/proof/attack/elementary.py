@@ -93,3 +93,13 @@ UNARY: dict[str, Callable[[Calculus, Value], Value]] = {
     "re": lambda c, v: v,
     "conjugate": lambda c, v: v,
 }
+
+COMPARISONS: dict[str, Callable[[int], bool]] = {
+    "Equality": lambda sign: sign == 0,
+    "Unequality": lambda sign: sign != 0,
+    "LessThan": lambda sign: sign <= 0,
+    "StrictLessThan": lambda sign: sign < 0,
+    "GreaterThan": lambda sign: sign >= 0,
+    "StrictGreaterThan": lambda sign: sign > 0,
+}
+"""By the name of SymPy's relation: what it says of the sign of the difference."""

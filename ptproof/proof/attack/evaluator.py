@@ -15,7 +15,7 @@ from typing import Any, TypeAlias
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ptproof.proof.attack.elementary import UNARY, fits
+from ptproof.proof.attack.elementary import COMPARISONS, UNARY, fits
 from ptproof.proof.attack.functions import Concrete
 from ptproof.proof.attack.limiting import integral, limit
 from ptproof.proof.attack.numbers import ONE, ZERO, Exact, NotReal, Number, Undefined, Unsure
@@ -142,7 +142,7 @@ class Evaluator:
         if name in ("And", "Or", "Not"):
             inner = [self.truth(part, scope) for part in condition.args]
             return all(inner) if name == "And" else any(inner) if name == "Or" else not inner[0]
-        test = _COMPARISONS.get(name)
+        test = COMPARISONS.get(name)
         if test is None:
             raise Unsure(f"the condition {condition} is not evaluated")
         left, right = (self.value(side, scope) for side in condition.args)
@@ -258,14 +258,6 @@ class Evaluator:
         return limit(self, node, scope)
 
 
-_COMPARISONS: dict[str, Callable[[int], bool]] = {
-    "Equality": lambda sign: sign == 0,
-    "Unequality": lambda sign: sign != 0,
-    "LessThan": lambda sign: sign <= 0,
-    "StrictLessThan": lambda sign: sign < 0,
-    "GreaterThan": lambda sign: sign >= 0,
-    "StrictGreaterThan": lambda sign: sign > 0,
-}
 _Handler: TypeAlias = Callable[[Evaluator, Node, Scope], Value]
 _ON_NODES: dict[str, _Handler] = {"Add": Evaluator._add, "Mul": Evaluator._mul, "Pow": Evaluator._pow}
 _NODES: dict[str, Callable[[Evaluator, Any, Scope], Value]] = {

@@ -7,10 +7,9 @@ of the generators is a proof for the values that they have; a counterexample is 
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from functools import cache, lru_cache
+from functools import lru_cache
 from typing import Any
 
 import sympy as sp
@@ -18,6 +17,7 @@ import sympy as sp
 from ptproof.proof.algebra import Generators, NotAlgebraic
 from ptproof.proof.claim import Goal, engine
 from ptproof.proof.definedness import Obligation, domain_of
+from ptproof.proof.engines.terms import known_of, library, one_at_a_time, term, variable_of
 from ptproof.proof.facts import Fact, is_said, usable
 from ptproof.proof.statement import MEANING, Implication, Relation, free_symbols, relations_of, undefined_functions
 from ptproof.proof.verdict import Evidence, Verdict
@@ -131,25 +131,12 @@ def _answered(
         problem = _Problem(conclusion, assumptions, facts)
     except NotAlgebraic as error:
         return Answer(False, str(error))
-    with _one_at_a_time:
+    with one_at_a_time:
         return _asked(problem, bool(facts), seconds)
 
 
-# z3's terms live in one context, which is not made for two threads; a proof that has run out of time may still be asking.
-_one_at_a_time = threading.Lock()
-
-
-@cache
-def _library() -> Any:
-    """z3, told that terms may be given up by another thread than the one that asks."""
-    import z3
-
-    z3.Z3_enable_concurrent_dec_ref(z3.main_ctx().ref())
-    return z3
-
-
 def _asked(problem: _Problem, told_facts: bool, seconds: float) -> Answer:
-    z3, tried = _library(), []
+    z3, tried = library(), []
     # What the facts say may be enough, whatever the roots in them are roots of.
     told = bool(problem.generators.relations and told_facts)
     if told and problem.solver(z3, "default", int(1000 * min(seconds / 8, 1.0)), opaque=True).check() == z3.unsat:
@@ -205,9 +192,9 @@ class _Problem:
         used: dict[sp.Symbol, None] = {}
 
         def number(expression: sp.Expr) -> Any:
-            term, symbols = _term(expression)
+            told, symbols = term(expression)
             used.update(symbols)
-            return term
+            return told
 
         def relation(item: Relation) -> Any:
             return MEANING[item.sign](number(item.left), number(item.right))
@@ -236,11 +223,11 @@ class _Problem:
         solver.add(z3.Not(relation(self.conclusion)))
         for base, product in self.generators.split_bases():
             value = number(product)
-            facts = [value == number(base)] if base.is_Rational else _known(base, value, None, z3)
+            facts = [value == number(base)] if base.is_Rational else known_of(base, value, None, z3)
             for fact in facts:
                 solver.add(fact)
         for symbol in used:
-            for fact in _known(symbol, _variable(symbol), self.generators.meaning.get(symbol), z3):
+            for fact in known_of(symbol, variable_of(symbol), self.generators.meaning.get(symbol), z3):
                 solver.add(fact)
         return solver
 
@@ -264,78 +251,3 @@ def _domains(relations: Sequence[Relation]) -> Iterator[Obligation]:
 def _relation(need: Obligation) -> Relation:
     assert need.relation is not None
     return need.relation
-
-
-_variables: dict[sp.Symbol, Any] = {}
-_named: dict[str, sp.Symbol] = {}
-
-
-def _variable(symbol: sp.Symbol) -> Any:
-    """The unknown for a symbol, another one for each symbol."""
-    if symbol not in _variables:
-        name = symbol.name
-        while name in _named:
-            name += "'"
-        _named[name] = symbol
-        _variables[symbol] = _library().Real(name)
-    return _variables[symbol]
-
-
-@lru_cache(maxsize=2**14)
-def _term(expression: sp.Expr) -> tuple[Any, dict[sp.Symbol, None]]:
-    """The expression for z3, and the symbols in it."""
-    symbols = dict.fromkeys(sorted(expression.free_symbols, key=sp.default_sort_key))
-    return _to_z3(expression), symbols
-
-
-@lru_cache(maxsize=2**14)
-def _to_z3(expression: sp.Expr) -> Any:
-    z3 = _library()
-    match expression:
-        case sp.Rational():
-            return z3.RealVal(f"{expression.p}/{expression.q}")
-        case sp.Symbol():
-            return _variable(expression)
-        case sp.Add():
-            return z3.Sum([_to_z3(argument) for argument in expression.args])
-        case sp.Mul():
-            numerator, denominator = sp.fraction(expression)
-            if denominator != 1:
-                return _to_z3(numerator) / _to_z3(denominator)
-            return z3.Product([_to_z3(argument) for argument in expression.args])
-        case sp.Pow():
-            base, exponent = _to_z3(expression.base), int(expression.exp)
-            power = z3.Product([base] * abs(exponent)) if exponent else z3.RealVal(1)
-            return power if exponent >= 0 else 1 / power
-    raise NotAlgebraic(f"no rule for {expression}")
-
-
-def _known(symbol: sp.Symbol, variable: Any, meaning: sp.Expr | None, z3: Any) -> list[Any]:
-    """The facts that hold for a symbol by its declaration, or for a generator by its meaning."""
-    facts = []
-    whole = bool(symbol.is_integer)
-    if symbol.is_positive:
-        facts.append(variable >= 1 if whole else variable > 0)
-    elif symbol.is_nonnegative:
-        facts.append(variable >= 0)
-    elif symbol.is_negative:
-        facts.append(variable <= -1 if whole else variable < 0)
-    elif symbol.is_nonpositive:
-        facts.append(variable <= 0)
-    elif symbol.is_nonzero:
-        facts.append(variable != 0)
-    if isinstance(meaning, sp.Pow) and meaning.exp.is_Rational and not meaning.exp.is_Integer:
-        facts.append(variable >= 0)  # a root is real only of what is not negative, and is then not negative
-    if isinstance(meaning, sp.sin | sp.cos):
-        facts += [variable <= 1, variable >= -1]
-    if meaning is not None and meaning.is_NumberSymbol:
-        from ptproof.balls.ball import enclose
-
-        ball = enclose(meaning, {}, bits=64)
-        facts += [variable >= _fraction(ball.lower(), z3), variable <= _fraction(ball.upper(), z3)]
-    return facts
-
-
-def _fraction(end: Any, z3: Any) -> Any:
-    exact = end.fmpq()
-    return z3.RealVal(f"{exact.p}/{exact.q}")
