@@ -109,11 +109,11 @@ def of_problem(problem: DitherProblem, order: int) -> Oscillation:
     system, fast = problem.system, problem.fast
     fields = [[*entries] for entries in system.fields]
     drift = [*system.drift]
-    matrix, steady = _linear(fast) if fast else (sp.zeros(0, 0), ())
+    matrix, steady = linear(fast) if fast else (sp.zeros(0, 0), ())
     scaled = tuple(_scaled(z, problem) for z in fast.state) if fast and problem.mu_omega is not None else ()
     if fast:
         ends = (DELTA * y for y in scaled) if scaled else (sp.S.Zero for _ in fast.state)
-        there = {z: l + end for z, l, end in zip(fast.state, steady, ends, strict=True)}
+        there = {z: value + end for z, value, end in zip(fast.state, steady, ends, strict=True)}
         fields = [[entry.subs(there, simultaneous=True) for entry in entries] for entries in fields]
         drift = [entry.subs(there, simultaneous=True) for entry in drift]
     waves = [*zip(fields, system.dithers, strict=True)]
@@ -131,7 +131,8 @@ def of_problem(problem: DitherProblem, order: int) -> Oscillation:
         rates = [*(matrix / problem.mu_omega * sp.Matrix(scaled) - moved.applyfunc(_spread))]
         matrix = matrix / problem.mu_omega
     meaning = {
-        y: sp.sqrt(system.omega) * (z - l) for y, z, l in zip(scaled, fast.state if fast else (), steady, strict=False)
+        y: sp.sqrt(system.omega) * (z - value)
+        for y, z, value in zip(scaled, fast.state if fast else (), steady, strict=False)
     }
     return in_delta(
         Oscillation(
@@ -162,9 +163,9 @@ def of_turning(
     """
     rate = dict(zip(system.state, system.rhs, strict=True))
     own = FastStates(tuple(fast), tuple(sp.expand(mu * rate[z]) for z in fast))
-    matrix, steady = _linear(own)
+    matrix, steady = linear(own)
     scaled = tuple(sp.Symbol(f"{z.name}_gap", real=True) for z in fast)
-    there = {z: l + DELTA * y for z, l, y in zip(fast, steady, scaled, strict=True)}
+    there = {z: value + DELTA * y for z, value, y in zip(fast, steady, scaled, strict=True)}
     orders = {omega: DELTA**-2, mu: mu_omega * DELTA**2}
 
     def put(entry: sp.Expr) -> sp.Expr:
@@ -176,7 +177,7 @@ def of_turning(
         states, slow = (*states, system.time), [*slow, DELTA**2]
     moved = sp.Matrix(list(steady)).jacobian(list(states)) * sp.Matrix(slow) / DELTA
     rates = matrix / mu_omega * sp.Matrix(scaled) - moved.applyfunc(_spread)
-    meaning = {y: sp.sqrt(omega) * (z - l) for y, z, l in zip(scaled, fast, steady, strict=True)}
+    meaning = {y: sp.sqrt(omega) * (z - value) for y, z, value in zip(scaled, fast, steady, strict=True)}
     return in_delta(
         Oscillation(
             phase, period, states, (), scaled, sp.ImmutableDenseMatrix(matrix / mu_omega), meaning=meaning,
@@ -251,7 +252,7 @@ def _power_of_delta(rest: sp.Expr) -> tuple[int, sp.Expr]:
     return power, sp.Mul(*inside)
 
 
-def _linear(fast: FastStates) -> tuple[sp.Matrix, Vector]:
+def linear(fast: FastStates) -> tuple[sp.Matrix, Vector]:
     """A and l of the rates A (z − l(x)), with A constant and stable."""
     matrix = sp.Matrix(list(fast.rate)).jacobian(list(fast.state)).applyfunc(sp.expand)
     for i, rate in enumerate(fast.rate, start=1):
