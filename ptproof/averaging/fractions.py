@@ -49,6 +49,34 @@ class Fractions:
             _add(total, entry)
         return bool(self._numerator(total)[0] == 0)
 
+    def simplest(self, value: Sum) -> Sum:
+        """The same without the terms that vanish by the relations."""
+        reduced = {below: self._reduced(part) for below, part in value.items()}
+        return {below: part for below, part in reduced.items() if part != 0}
+
+    def letters(self, value: Sum) -> set[sp.Expr]:
+        """What stands in the sum."""
+        polynomials = [*value.values(), *(self._denominators[index] for below in value for index, _ in below)]
+        return {
+            self._meanings[place] for part in polynomials for place, degree in enumerate(part.degrees()) if degree > 0
+        }
+
+    def expression(self, value: Sum) -> sp.Expr:
+        """The sum as a SymPy expression."""
+        return sp.Add(
+            *(
+                self._terms(part) / sp.Mul(*(self._terms(self._denominators[index]) ** power for index, power in below))
+                for below, part in value.items()
+            )
+        )
+
+    def _terms(self, part: Polynomial) -> sp.Expr:
+        terms = []
+        for exponents, number in part.terms():
+            powers = (self._meanings[i] ** int(power) for i, power in enumerate(exponents) if power)
+            terms.append(sp.Mul(sp.Rational(int(number.p), int(number.q)), *powers))
+        return sp.Add(*terms)
+
     def _constant(self, value: Any) -> Polynomial:
         return self._context.constant(value)
 

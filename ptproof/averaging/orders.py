@@ -24,6 +24,7 @@ from ptproof.proof.verdict import Evidence, Verdict
 from ptproof.system import DitherSystem, System
 
 HIGHEST = 12
+_TIDIED = 16
 
 
 @dataclass(frozen=True)
@@ -60,7 +61,7 @@ class Orders:
     @functools.cached_property
     def averages(self) -> tuple[Vector, ...]:
         """A_1, …, A_N, n expressions each, in readable form."""
-        return tuple(tuple(map(tidy, self._of_states(row))) for row in self.expansion.means[1:])
+        return tuple(tuple(map(_readable, self._of_states(row))) for row in self.expansion.means[1:])
 
     @functools.cached_property
     def correctors(self) -> tuple[Vector, ...]:
@@ -219,6 +220,10 @@ def _smooth(problem: DitherProblem, fast: dict[sp.Symbol, sp.Expr], order: int) 
         if evidence.verdict is not Verdict.PROVED:
             return Evidence(evidence.engine, evidence.verdict, f"{place}: {evidence.detail}", witness=evidence.witness)
     return Evidence("smoothness", Verdict.PROVED, f"fields and drift are C^{order + 1}")
+
+
+def _readable(entry: sp.Expr) -> sp.Expr:
+    return tidy(entry) if len(sp.Add.make_args(entry)) <= _TIDIED else entry
 
 
 def _applied(entry: sp.Expr, declared: bool) -> dict[Any, Any]:

@@ -11,8 +11,9 @@ from ptproof.averaging.boundary import hurwitz
 from ptproof.averaging.brackets import Vector
 from ptproof.averaging.problem import DitherProblem, FastStates
 from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided
+from ptproof.averaging.rotating import rotating
 from ptproof.errors import InputError
-from ptproof.system import System, check_names
+from ptproof.system import DitherSystem, System, check_names
 
 DELTA = sp.Symbol("delta", positive=True)
 
@@ -107,40 +108,53 @@ def of_problem(problem: DitherProblem, order: int) -> Oscillation:
         If the fast states are not linear with a constant matrix that is shown to be stable.
     """
     system, fast = problem.system, problem.fast
-    fields = [[*entries] for entries in system.fields]
-    drift = [*system.drift]
     matrix, steady = linear(fast) if fast else (sp.zeros(0, 0), ())
-    scaled = tuple(_scaled(z, problem) for z in fast.state) if fast and problem.mu_omega is not None else ()
-    if fast:
-        ends = (DELTA * y for y in scaled) if scaled else (sp.S.Zero for _ in fast.state)
-        there = {z: value + end for z, value, end in zip(fast.state, steady, ends, strict=True)}
-        fields = [[entry.subs(there, simultaneous=True) for entry in entries] for entries in fields]
-        drift = [entry.subs(there, simultaneous=True) for entry in drift]
-    waves = [*zip(fields, system.dithers, strict=True)]
-    slow = [
-        DELTA * sp.Add(*(field[row] * dither for field, dither in waves)) + DELTA**2 * drift[row]
-        for row in range(len(system.state))
-    ]
+    moving = fast is not None and problem.mu_omega is not None
+    scaled = tuple(_letter(f"{z.name}_gap", problem) for z in fast.state) if fast and moving else ()
+    ends = [DELTA * y for y in scaled] if moving else [sp.S.Zero] * len(steady)
+    there = {z: value + end for z, value, end in zip(fast.state if fast else (), steady, ends, strict=True)}
+
+    def put(entry: sp.Expr) -> sp.Expr:
+        return entry.subs(there, simultaneous=True)
+
+    turned = _letter("psi", problem)
+    angle, waves = rotating(system, turned) or (sp.S.Zero, _sum_of_waves(system))
+    slow = [DELTA * put(wave) + DELTA**2 * put(entry) for wave, entry in zip(waves, system.drift, strict=True)]
     states = system.state
-    if any(system.time in entry.free_symbols for entry in slow):
+    if any(system.time in entry.free_symbols for entry in (*slow, angle)):
         states, slow = (*states, system.time), [*slow, DELTA**2]
-    rates = []
-    if scaled:
-        slope = sp.Matrix(list(steady)).jacobian(list(states))
-        moved = slope * sp.Matrix(slow) / DELTA
-        rates = [*(matrix / problem.mu_omega * sp.Matrix(scaled) - moved.applyfunc(_spread))]
+    rates: list[sp.Expr] = []
+    if moving:
         matrix = matrix / problem.mu_omega
+        moved = sp.Matrix(list(steady)).jacobian(list(states)) * sp.Matrix(slow) / DELTA
+        rates = [*(matrix * sp.Matrix(scaled) - moved.applyfunc(_spread))]
+    # dz/dσ = A (z − l)/m exactly where the fast states move; else A(x, z) is a function of x.
+    turning = sp.S.One
+    if angle != 0:
+        own = angle if moving else put(angle)
+        speeds = {**dict(zip(states, slow, strict=True))}
+        if fast and moving:
+            speeds |= dict(zip(fast.state, DELTA * matrix * sp.Matrix(scaled), strict=True))
+        turning -= sp.Add(*(put(sp.diff(own, symbol)) * speed for symbol, speed in speeds.items()))
     meaning = {
         y: sp.sqrt(system.omega) * (z - value)
         for y, z, value in zip(scaled, fast.state if fast else (), steady, strict=False)
     }
+    if angle != 0:
+        meaning[turned] = system.phase - (angle if moving else put(angle))
     return in_delta(
         Oscillation(
-            system.phase, system.period, states, (), scaled, sp.ImmutableDenseMatrix(matrix if scaled else sp.zeros(0, 0)),
-            meaning=meaning, whole=(*slow, sp.S.One, *rates), name=system.name,
+            turned if angle != 0 else system.phase, system.period, states, (), scaled,
+            sp.ImmutableDenseMatrix(matrix if moving else sp.zeros(0, 0)),
+            meaning=meaning, whole=(*slow, turning, *rates), name=system.name,
         ),
         order,
     )  # fmt: skip
+
+
+def _sum_of_waves(system: DitherSystem) -> Vector:
+    pairs = [*zip(system.fields, system.dithers, strict=True)]
+    return tuple(sp.Add(*(field[row] * dither for field, dither in pairs)) for row in range(len(system.state)))
 
 
 def of_turning(
@@ -273,10 +287,11 @@ def linear(fast: FastStates) -> tuple[sp.Matrix, Vector]:
     return matrix, tuple(-(matrix.inv() * rest).applyfunc(sp.expand))
 
 
-def _scaled(state: sp.Symbol, problem: DitherProblem) -> sp.Symbol:
-    """A letter for √ω (z − l(x)) that nothing else has."""
-    system, name = problem.system, f"{state.name}_gap"
-    entries = (*system.drift, *(entry for field in system.fields for entry in field), *system.dithers)
+def _letter(name: str, problem: DitherProblem) -> sp.Symbol:
+    """A real symbol of this name, or of one that nothing else has."""
+    system = problem.system
+    entries = [*system.drift, *(entry for field in system.fields for entry in field), *system.dithers]
+    entries += problem.fast.rate if problem.fast else ()
     taken = {symbol.name for entry in entries for symbol in entry.free_symbols} | {s.name for s in system.state}
     while name in taken:
         name += "_"
