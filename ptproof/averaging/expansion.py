@@ -1,12 +1,13 @@
 """Averages to any order by a near-identity change of variables, solved order by order in exact algebra.
 
-For an :class:`Oscillation` put L_j = f_j · ∂/∂x + p_j ∂/∂φ + h_j · ∂/∂y and L₀ = ∂/∂φ + (A y + h_0) · ∂/∂y, so that along
-its solutions dW/dσ = Σ δ^j L_j W. Two questions have one recursion, L₀ W_n = mean − (Σ_{j ≥ 1} L_j W_{n−j} − known):
+For an :class:`Oscillation` put L_j = f_j · ∂/∂x + p_j ∂/∂φ + h_j · ∂/∂y and L₀ = ∂/∂φ + (A y + h_0) · ∂/∂y, so that
+along its solutions dW/dσ = Σ δ^j L_j W. Two questions have one recursion,
+L₀ W_n = mean − (Σ_{j ≥ 1} L_j W_{n−j} − known):
 
 - *closed*: X = x + δ W_1 + … + δ^N W_N with dX/dσ = δ G_1(X) + … + δ^N G_N(X) + O(δ^(N+1)); what is known at order n is
   what G_1, …, G_{n−1} at X contribute. G does not depend on phase and fast states: it is the average.
-- *open*: for scalar functions V(x), W = V + δ W_1 + … with dW/dσ = δ M_1(x) + … + δ^N M_N(x) + O(δ^(N+1)), nothing known. What
-  is left over is a finite sum, and given whole: what a Lyapunov function needs.
+- *open*: for scalar functions V(x), W = V + δ W_1 + … with dW/dσ = δ M_1(x) + … + δ^N M_N(x) + O(δ^(N+1)), nothing
+  known. What is left over is a finite sum, and given whole: what a Lyapunov function needs.
 """
 
 from __future__ import annotations
@@ -40,7 +41,7 @@ class Expansion:
     oscillation, observables
         What was expanded; the observables are V_1, …, V_p.
     means
-        [n−1] holds the p means at order δ^n, functions of the slow states: G_n of a closed expansion, M_n of an open one.
+        [n−1] holds the p means at order δ^n, functions of the slow states: G_n if it is closed, M_n if it is open.
     correctors
         [n−1] holds W_n for each observable, in phase, slow and fast states.
     rest

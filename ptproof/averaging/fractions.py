@@ -1,6 +1,6 @@
 """A normal form of zero for long sums: polynomials over products of denominators, modulo sin² + cos² = 1 and roots.
 
-Not the algebra in which averages are expanded (:mod:`ptproof.averaging.ring`): what that has found is checked with this.
+Not the algebra in which averages are expanded (:mod:`ptproof.averaging.ring`): what that finds is checked with this.
 """
 
 from __future__ import annotations

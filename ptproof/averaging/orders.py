@@ -14,9 +14,10 @@ from ptproof.averaging.average import check_form, derive, parts
 from ptproof.averaging.brackets import Vector, tidy
 from ptproof.averaging.coefficients import signals
 from ptproof.averaging.expansion import Expansion, normal_form
-from ptproof.averaging.oscillation import DELTA, linear, of_problem
+from ptproof.averaging.oscillation import DELTA
 from ptproof.averaging.problem import DitherProblem
 from ptproof.averaging.residual import put_back
+from ptproof.averaging.scaled import linear, of_problem
 from ptproof.errors import InputError
 from ptproof.proof.algebra import is_zero
 from ptproof.proof.engines.smoothness import smoothness
@@ -29,7 +30,7 @@ _TIDIED = 16
 
 @dataclass(frozen=True)
 class Orders:
-    """X = x + ω^(−1/2) W_1 + … + ω^(−(N+1)/2) W_(N+1) and dX/dτ = A_1(X) + ω^(−1/2) A_2(X) + … + ω^(−(N−1)/2) A_N(X) + r.
+    """X = x + ω^(−1/2) W_1 + … + ω^(−(N+1)/2) W_(N+1), with dX/dτ = A_1(X) + … + ω^(−(N−1)/2) A_N(X) + r.
 
     Guaranteed where ``evidence`` is proved: along every solution of the system the identity holds, with the remainder
     r = ω^(−N/2) · ``remainder``, whose factor is bounded on every compact set of slow states and y, uniformly in τ and

@@ -7,13 +7,10 @@ from dataclasses import dataclass, field, replace
 
 import sympy as sp
 
-from ptproof.averaging.boundary import hurwitz
 from ptproof.averaging.brackets import Vector
-from ptproof.averaging.problem import DitherProblem, FastStates
-from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided
-from ptproof.averaging.rotating import rotating
+from ptproof.averaging.refusal import AveragingRefused
 from ptproof.errors import InputError
-from ptproof.system import DitherSystem, System, check_names
+from ptproof.system import check_names
 
 DELTA = sp.Symbol("delta", positive=True)
 
@@ -96,111 +93,6 @@ class Oscillation:
         return *slow, 1 + series(self.turning, 1), *fast
 
 
-def of_problem(problem: DitherProblem, order: int) -> Oscillation:
-    """A dither system in σ = ωτ, with all that counts up to δ^``order``.
-
-    With ``problem.mu_omega`` = m the fast states keep their own dynamics: z = l(x) + y/√ω, where l is the quasi-steady
-    state and dy/dσ = A y/m − … Without it, they are at their quasi-steady state.
-
-    Raises
-    ------
-    AveragingRefused, AveragingUndecided
-        If the fast states are not linear with a constant matrix that is shown to be stable.
-    """
-    system, fast = problem.system, problem.fast
-    matrix, steady = linear(fast) if fast else (sp.zeros(0, 0), ())
-    moving = fast is not None and problem.mu_omega is not None
-    scaled = tuple(_letter(f"{z.name}_gap", problem) for z in fast.state) if fast and moving else ()
-    ends = [DELTA * y for y in scaled] if moving else [sp.S.Zero] * len(steady)
-    there = {z: value + end for z, value, end in zip(fast.state if fast else (), steady, ends, strict=True)}
-
-    def put(entry: sp.Expr) -> sp.Expr:
-        return entry.subs(there, simultaneous=True)
-
-    turned = _letter("psi", problem)
-    angle, waves = rotating(system, turned) or (sp.S.Zero, _sum_of_waves(system))
-    slow = [DELTA * put(wave) + DELTA**2 * put(entry) for wave, entry in zip(waves, system.drift, strict=True)]
-    states = system.state
-    if any(system.time in entry.free_symbols for entry in (*slow, angle)):
-        states, slow = (*states, system.time), [*slow, DELTA**2]
-    rates: list[sp.Expr] = []
-    if moving:
-        matrix = matrix / problem.mu_omega
-        moved = sp.Matrix(list(steady)).jacobian(list(states)) * sp.Matrix(slow) / DELTA
-        rates = [*(matrix * sp.Matrix(scaled) - moved.applyfunc(_spread))]
-    # dz/dσ = A (z − l)/m exactly where the fast states move; else A(x, z) is a function of x.
-    turning = sp.S.One
-    if angle != 0:
-        own = angle if moving else put(angle)
-        speeds = {**dict(zip(states, slow, strict=True))}
-        if fast and moving:
-            speeds |= dict(zip(fast.state, DELTA * matrix * sp.Matrix(scaled), strict=True))
-        turning -= sp.Add(*(put(sp.diff(own, symbol)) * speed for symbol, speed in speeds.items()))
-    meaning = {
-        y: sp.sqrt(system.omega) * (z - value)
-        for y, z, value in zip(scaled, fast.state if fast else (), steady, strict=False)
-    }
-    if angle != 0:
-        meaning[turned] = system.phase - (angle if moving else put(angle))
-    return in_delta(
-        Oscillation(
-            turned if angle != 0 else system.phase, system.period, states, (), scaled,
-            sp.ImmutableDenseMatrix(matrix if moving else sp.zeros(0, 0)),
-            meaning=meaning, whole=(*slow, turning, *rates), name=system.name,
-        ),
-        order,
-    )  # fmt: skip
-
-
-def _sum_of_waves(system: DitherSystem) -> Vector:
-    pairs = [*zip(system.fields, system.dithers, strict=True)]
-    return tuple(sp.Add(*(field[row] * dither for field, dither in pairs)) for row in range(len(system.state)))
-
-
-def of_turning(
-    system: System, phase: sp.Symbol, fast: Sequence[sp.Symbol], *, omega: sp.Symbol, mu: sp.Symbol,
-    mu_omega: sp.Expr, order: int, period: sp.Expr = 2 * sp.pi,
-) -> Oscillation:  # fmt: skip
-    """A system whose fast phase is a state, such as a vehicle's heading, in σ = ωτ and with μ = m/ω.
-
-    Parameters
-    ----------
-    system
-        dx/dτ = … in which ``phase`` turns at the rate ω + O(√ω), and μ dz/dτ is affine in the ``fast`` states z.
-    mu_omega
-        m, positive.
-
-    Raises
-    ------
-    AveragingRefused, AveragingUndecided
-        If the rates are not of these orders, or the fast states not linear and stable.
-    """
-    rate = dict(zip(system.state, system.rhs, strict=True))
-    own = FastStates(tuple(fast), tuple(sp.expand(mu * rate[z]) for z in fast))
-    matrix, steady = linear(own)
-    scaled = tuple(sp.Symbol(f"{z.name}_gap", real=True) for z in fast)
-    there = {z: value + DELTA * y for z, value, y in zip(fast, steady, scaled, strict=True)}
-    orders = {omega: DELTA**-2, mu: mu_omega * DELTA**2}
-
-    def put(entry: sp.Expr) -> sp.Expr:
-        return _spread(DELTA**2 * entry.subs(there, simultaneous=True).subs(orders, simultaneous=True))
-
-    states = tuple(symbol for symbol in system.state if symbol != phase and symbol not in there)
-    slow = [put(rate[symbol]) for symbol in states]
-    if any(system.time in entry.free_symbols for entry in (*slow, rate[phase])):
-        states, slow = (*states, system.time), [*slow, DELTA**2]
-    moved = sp.Matrix(list(steady)).jacobian(list(states)) * sp.Matrix(slow) / DELTA
-    rates = matrix / mu_omega * sp.Matrix(scaled) - moved.applyfunc(_spread)
-    meaning = {y: sp.sqrt(omega) * (z - value) for y, z, value in zip(scaled, fast, steady, strict=True)}
-    return in_delta(
-        Oscillation(
-            phase, period, states, (), scaled, sp.ImmutableDenseMatrix(matrix / mu_omega), meaning=meaning,
-            whole=(*slow, put(rate[phase]), *rates), name=system.name,
-        ),
-        order,
-    )  # fmt: skip
-
-
 def in_delta(oscillation: Oscillation, order: int) -> Oscillation:
     """The same with its series in δ, up to ``order``, taken from ``whole``, which goes where they are the whole.
 
@@ -233,7 +125,7 @@ def in_delta(oscillation: Oscillation, order: int) -> Oscillation:
 def _taylor(entry: sp.Expr, order: int, where: str) -> list[sp.Expr]:
     """The coefficients of δ^0 … δ^order at δ = 0."""
     found: list[sp.Expr] = [sp.S.Zero] * (order + 1)
-    for term in sp.Add.make_args(_spread(entry)):
+    for term in sp.Add.make_args(spread(entry)):
         factor, rest = term.as_independent(DELTA, as_Add=False)
         power, inside = _power_of_delta(rest)
         if power < 0:
@@ -247,7 +139,7 @@ def _taylor(entry: sp.Expr, order: int, where: str) -> list[sp.Expr]:
     return found
 
 
-def _spread(entry: sp.Expr) -> sp.Expr:
+def spread(entry: sp.Expr) -> sp.Expr:
     """Expanded, but as it is inside of functions that are free of δ."""
     kinds = (sp.Function, sp.Derivative, sp.Subs)
     nodes = [node for node in entry.atoms(*kinds) if DELTA not in node.free_symbols]
@@ -264,35 +156,3 @@ def _power_of_delta(rest: sp.Expr) -> tuple[int, sp.Expr]:
         else:
             inside.append(factor)
     return power, sp.Mul(*inside)
-
-
-def linear(fast: FastStates) -> tuple[sp.Matrix, Vector]:
-    """A and l of the rates A (z − l(x)), with A constant and stable."""
-    matrix = sp.Matrix(list(fast.rate)).jacobian(list(fast.state)).applyfunc(sp.expand)
-    for i, rate in enumerate(fast.rate, start=1):
-        for value in matrix.row(i - 1):
-            if value.free_symbols - {symbol for symbol in value.free_symbols if symbol.is_positive} or value.has(
-                sp.Function, sp.Derivative
-            ):
-                raise AveragingRefused(
-                    "E", f"system.fast.rate[{i}]",
-                    f"{rate} is not linear in the fast states with constant coefficients, which a finite mu*omega needs",
-                )  # fmt: skip
-    if not hurwitz(matrix):
-        raise AveragingUndecided(
-            f"system.fast.rate: the matrix {matrix.tolist()} of the fast states is not shown to be stable "
-            "by the Routh-Hurwitz conditions, which a finite mu*omega needs"
-        )
-    rest = sp.Matrix(list(fast.rate)).subs(dict.fromkeys(fast.state, 0))
-    return matrix, tuple(-(matrix.inv() * rest).applyfunc(sp.expand))
-
-
-def _letter(name: str, problem: DitherProblem) -> sp.Symbol:
-    """A real symbol of this name, or of one that nothing else has."""
-    system = problem.system
-    entries = [*system.drift, *(entry for field in system.fields for entry in field), *system.dithers]
-    entries += problem.fast.rate if problem.fast else ()
-    taken = {symbol.name for entry in entries for symbol in entry.free_symbols} | {s.name for s in system.state}
-    while name in taken:
-        name += "_"
-    return sp.Symbol(name, real=True)

@@ -1,7 +1,8 @@
 """Functions of the phase over one period, as combinations of a basis: products, derivatives, means, antiderivatives.
 
-A basis function is named by a key; what multiplies it is a polynomial of :mod:`ptproof.averaging.ring`. Sines and cosines
-have one basis, dithers with jumps and kinks another: powers times sines and cosines, each on one piece of the period.
+A basis function is named by a key; what multiplies it is a polynomial of :mod:`ptproof.averaging.ring`. Sines and
+cosines have one basis, dithers with jumps and kinks another: powers times sines and cosines, each on one piece of the
+period.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ Terms = tuple[tuple[Key, Coefficient], ...]
 class Phases(ABC):
     """The functions of the phase that a calculation needs.
 
-    ``multiply``, ``derivative`` and ``primitive`` give (key, coefficient) pairs, each result once for each pair of keys.
+    ``multiply`` and ``primitive`` give (key, coefficient) pairs, each calculated once.
     ``primitive`` is the antiderivative of zero mean of the function less its mean.
     """
 
@@ -127,7 +128,7 @@ class Harmonics(Phases):
 
 
 class Pieces(Phases):
-    """φ^n cos(rφ), key (p, n, r, 0), and φ^n sin(rφ), key (p, n, r, 1), on the piece p of the period and 0 elsewhere."""
+    """φ^n cos(rφ), key (p, n, r, 0), and φ^n sin(rφ), key (p, n, r, 1), on the piece p of the period, 0 elsewhere."""
 
     def __init__(self, ring: Ring, phase: sp.Symbol, period: sp.Expr, points: Sequence[sp.Expr]) -> None:
         super().__init__(ring, phase, period)
@@ -164,7 +165,7 @@ class Pieces(Phases):
         if all(piece == pieces[0] for piece in pieces):
             if pieces[0].is_trigonometric_polynomial:
                 return pieces[0].expression(self.phase)
-            return Signal(self.period, (self.points[0], self.points[-1]), pieces[:1]).expression(self.phase)
+            return Signal(self.period, (self.points[0], self.points[-1]), (pieces[0],)).expression(self.phase)
         return Signal(self.period, self.points, tuple(pieces)).expression(self.phase)
 
     def _signal(self, key: Key) -> Signal:
@@ -195,6 +196,10 @@ class Pieces(Phases):
         return self._terms(shifted.primitive)
 
 
+def _compared(first: sp.Expr, second: sp.Expr) -> int:
+    return exact_sign(first - second)
+
+
 def phases_for(
     ring: Ring, phase: sp.Symbol, period: sp.Expr, expressions: Iterable[sp.Expr], *, smooth: str = ""
 ) -> Phases:
@@ -214,7 +219,7 @@ def phases_for(
         points.update(read_signal(expression, phase, period, f"dither {i}").points)
     if not points:
         return Harmonics(ring, phase, period)
-    ordered = sorted(points, key=functools.cmp_to_key(lambda a, b: exact_sign(a - b)))
+    ordered = sorted(points, key=functools.cmp_to_key(_compared))
     merged = [ordered[0]]
     for before, point in itertools.pairwise(ordered):
         if exact_sign(point - before) > 0:

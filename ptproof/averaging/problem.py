@@ -64,7 +64,7 @@ class DitherProblem:
     expected
         The average that the author claims, n expressions, or None.
     mu_omega
-        m = μω, positive and free of states, where the fast states are as fast as the dithers; None where they are faster.
+        m = μω, a positive constant, where the fast states are as fast as the dithers; None where they are faster.
     """
 
     system: DitherSystem

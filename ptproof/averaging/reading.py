@@ -59,8 +59,8 @@ def load_dither_system(path: str | Path) -> DitherProblem:
     their arguments), ``bounded`` (those functions of ``tau`` that are assumed bounded in it, with their
     derivatives), ``start`` (the earliest τ asked about, 0 if left out), ``name`` and ``[system.fast]``
     (``state``, ``rate``, and ``quasi_steady_state`` where the author knows it). With fast states there may be
-    ``mu_omega``, the product μω where it is held fixed: a positive number, or a name for one. ``[region]`` gives the interval
-    of a state (``x1 = ["-1", "1"]``), ``[expected]`` the ``average`` that the author claims. In expressions
+    ``mu_omega``, the product μω where it is held fixed: a positive number, or a name for one. ``[region]`` gives the
+    interval of a state (``x1 = ["-1", "1"]``), ``[expected]`` the ``average`` that the author claims. In expressions
     ``tau`` is the slow time, ``theta`` the phase ωτ and ``omega`` the frequency. An example stands at
     :func:`read_dither_system`, which reads the same from text.
 

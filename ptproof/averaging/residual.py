@@ -28,8 +28,8 @@ def put_back(expansion: Expansion) -> Evidence:
     """proved: along every solution dW/dσ equals the means up to the order of the expansion, exactly.
 
     For a closed expansion the means are taken at X = x + δ W_1 + …, for an open one at x, and there all of ``rest`` is
-    checked too. The correctors are checked to be continuous and periodic where dithers switch, and the means to depend on
-    slow states only. undecided: something did not cancel in the algebra that is used.
+    checked too. The correctors are checked to be continuous and periodic where dithers switch, and the means to depend
+    on slow states only. undecided: something did not cancel in the algebra that is used.
     """
     own = expansion.oscillation
     for row in expansion.means:
@@ -193,7 +193,7 @@ def _at_piece(entry: sp.Expr, phase: sp.Symbol, middle: sp.Expr) -> sp.Expr:
 
 
 def _first_jump(expansion: Expansion, left: sp.Expr, right: sp.Expr, first: sp.Expr, second: sp.Expr) -> str | None:
-    """A corrector that is not shown to be continuous where the pieces around ``first`` and ``second`` meet, in words."""
+    """A corrector that is not shown to be continuous where the pieces around two points meet, in words."""
     phase, algebra = expansion.oscillation.phase, Fractions()
     for power, row in enumerate(expansion.correctors, start=1):
         for entry in row:

@@ -1,7 +1,7 @@
 """A polynomial ring that is closed under derivatives: the coefficients of averages to any order.
 
-What is not arithmetic in an expression (a value or a derivative of an undefined function, a sine, a root, the inverse of
-a sum) becomes a generator when it is met, and so do its derivatives. Polynomials are FLINT's, over the rationals.
+What is not arithmetic in an expression (a value or a derivative of an undefined function, a sine, a root, the inverse
+of a sum) becomes a generator when it is met, and so do its derivatives. Polynomials are FLINT's, over the rationals.
 """
 
 from __future__ import annotations

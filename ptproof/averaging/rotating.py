@@ -24,10 +24,7 @@ def rotating(system: DitherSystem, turned: sp.Symbol) -> tuple[sp.Expr, Vector] 
     theta = system.phase
     if any(innermost(dither, {theta}) is not None for dither in system.dithers):
         return None
-    waves = [
-        sp.Add(*(field[row] * dither for field, dither in zip(system.fields, system.dithers, strict=True)))
-        for row in range(len(system.state))
-    ]
+    waves = sum_of_waves(system)
     found = set().union(*(entry.atoms(sp.sin, sp.cos) for field in system.fields for entry in field))
     angles = {node.args[0] for node in found if not node.args[0].is_number}
     if len(angles) > _MOST:
@@ -39,7 +36,13 @@ def rotating(system: DitherSystem, turned: sp.Symbol) -> tuple[sp.Expr, Vector] 
     return None
 
 
-def _written(waves: list[sp.Expr], theta: sp.Symbol, turned: sp.Symbol, angle: sp.Expr) -> Vector | None:
+def sum_of_waves(system: DitherSystem) -> Vector:
+    """Σ b_i u_i."""
+    pairs = [*zip(system.fields, system.dithers, strict=True)]
+    return tuple(sp.Add(*(field[row] * dither for field, dither in pairs)) for row in range(len(system.state)))
+
+
+def _written(waves: Vector, theta: sp.Symbol, turned: sp.Symbol, angle: sp.Expr) -> Vector | None:
     algebra = Fractions()
     result = []
     try:

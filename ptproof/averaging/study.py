@@ -91,7 +91,7 @@ class Average:
 
     @property
     def as_expected(self) -> bool:
-        """Covered by the theorem, the author's claim, if any, proved, and the orders, if asked for, found and checked."""
+        """Covered by the theorem, the author's claim, if any, proved, and orders, if asked for, found and checked."""
         claimed = self.expected is None or self.expected.verdict is Verdict.PROVED
         checked = self.orders is None or (
             self.orders.evidence.verdict is Verdict.PROVED and self.orders.smooth.verdict is not Verdict.REFUTED

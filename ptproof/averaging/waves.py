@@ -1,4 +1,4 @@
-"""Functions of phase, slow and fast states: waves in the phase, polynomials in the fast states, anything in the slow."""
+"""Functions of phase, slow and fast states: waves in the phase, polynomials in the fast, anything in the slow."""
 
 from __future__ import annotations
 

@@ -39,8 +39,8 @@ class Outcome:
 def average(file: str, as_json: bool, order: int | None, timeout: float) -> int:
     """Average the dither system in FILE.toml, and examine every assumption of the theorem.
 
-    With --order N: the averages of dX/dtau = A1(X) + A2(X)/sqrt(omega) + ..., the change of variables that leads to them,
-    and what is left, put back into the system and checked.
+    With --order N: the averages of dX/dtau = A1(X) + A2(X)/sqrt(omega) + ..., the change of variables that leads to
+    them, and what is left, put back into the system and checked.
 
     Exit status 1 if the theorem does not cover the system, the average is not known, or the average that FILE
     claims is not proved.
