@@ -33,55 +33,64 @@ def finite_seeker(rate: Any) -> DitherProblem:
 
 def left_over(found: Orders) -> float:
     """The power of ω with which dX/dτ, along the system in its own letters, approaches the average at X."""
+    left = _Left(found)
     small, large = 10**8, 10**12
-    return math.log(_left(found, large) / _left(found, small)) / math.log(large / small)
+    with mpmath.workdps(110):
+        return math.log(left.at(mpmath.mpf(large)) / left.at(mpmath.mpf(small))) / math.log(large / small)
 
 
-def _left(found: Orders, omega: int) -> float:
-    problem, system = found.problem, found.problem.system
-    change = [entry.subs(found.fast, simultaneous=True) for entry in found.transformed]
-    moving = problem.fast if problem.fast and problem.mu_omega is not None else None
-    root = sp.sqrt(OMEGA)
-    rates: dict[sp.Symbol, sp.Expr] = {TIME: sp.S.One, PHASE: OMEGA}
-    for row, symbol in enumerate(system.state):
-        waves = (field[row] * dither for field, dither in zip(system.fields, system.dithers, strict=True))
-        rates[symbol] = system.drift[row] + root * sp.Add(*waves)
-    values: dict[sp.Symbol, Any] = {TIME: sp.Rational(3, 7), PHASE: sp.Rational(4, 9)}
-    values |= dict(zip(system.state, (sp.Rational(2, 7), sp.Rational(5, 11)), strict=False))
-    if moving is not None and problem.mu_omega is not None:
-        rates |= {z: OMEGA * rate / problem.mu_omega for z, rate in zip(moving.state, moving.rate, strict=True)}
-        steady = sp.solve([_concrete([rate])[0] for rate in moving.rate], moving.state, dict=True)[0]
-        for place, fast in enumerate(moving.state):
-            values[fast] = (steady[fast] + sp.Rational(3 + place, 5) / root).subs(values).subs(OMEGA, omega)
-    along = [sp.Add(*(sp.diff(entry, symbol) * rate for symbol, rate in rates.items())) for entry in change]
-    numbers = _numbers([*along, *change], values, omega)
-    speeds, there = numbers[: len(along)], numbers[len(along) :]
-    moved = values | dict(zip(system.state, there, strict=True))
-    means = _numbers(list(found.system.rhs), moved, omega)
-    return float(mpmath.norm([speed - mean for speed, mean in zip(speeds, means, strict=True)]))
+class _Left:
+    """dX/dτ − average(X) at one point, in numbers: the derivative is a quotient of differences of 110 digits."""
+
+    def __init__(self, found: Orders) -> None:
+        problem, system = found.problem, found.problem.system
+        moving = problem.fast if problem.fast and problem.mu_omega is not None else None
+        rates = [sp.S.One, OMEGA]
+        for row, _ in enumerate(system.state):
+            waves = (field[row] * dither for field, dither in zip(system.fields, system.dithers, strict=True))
+            rates.append(system.drift[row] + sp.sqrt(OMEGA) * sp.Add(*waves))
+        gaps: list[sp.Expr] = []
+        if moving is not None:
+            rates += [OMEGA * rate / problem.mu_omega for rate in moving.rate]
+            steady = sp.solve(moving.rate, moving.state, dict=True)[0]
+            gaps = [steady[fast] + sp.Rational(3 + i, 5) / sp.sqrt(OMEGA) for i, fast in enumerate(moving.state)]
+        self.letters = (TIME, PHASE, *system.state, *(moving.state if moving else ()))
+        change = [entry.subs(found.fast, simultaneous=True) for entry in found.transformed]
+        self.gaps, self.rates = self._function(gaps), self._function(rates)
+        self.change, self.means = self._function(change), self._function(found.system.rhs)
+        self.start = [sp.Rational(3, 7), sp.Rational(4, 9), sp.Rational(2, 7), sp.Rational(5, 11)][: 2 + len(system.state)]
+
+    def _function(self, expressions: Any) -> Any:
+        exact = _concrete(tuple(expressions))
+        free = set().union(*(entry.free_symbols for entry in exact)) - {*self.letters, OMEGA}
+        exact = [entry.subs({symbol: _parameter(symbol) for symbol in free}) for entry in exact]
+        return sp.lambdify((*self.letters, OMEGA), exact, "mpmath", cse=True)
+
+    def at(self, omega: Any) -> float:
+        start = [mpmath.mpf(value.p) / value.q for value in self.start]
+        rest = [mpmath.mpf(0)] * (len(self.letters) - len(start))
+        point = [*start, *self.gaps(*start, *rest, omega)]
+        speeds, step = self.rates(*point, omega), mpmath.mpf(10) ** -45
+
+        def moved(sign: int) -> Any:
+            return self.change(*(value + sign * step * v for value, v in zip(point, speeds, strict=True)), omega)
+
+        slope = [(after - before) / (2 * step) for after, before in zip(moved(1), moved(-1), strict=True)]
+        there = [*point[:2], *self.change(*point, omega), *point[2 + len(slope) :]]
+        return float(mpmath.norm([a - b for a, b in zip(slope, self.means(*there, omega), strict=True)]))
+
+
+def _parameter(symbol: sp.Symbol) -> sp.Rational:
+    return sp.Rational(2 + sum(map(ord, symbol.name)) % 5, 3)
 
 
 def _concrete(expressions: Any) -> Any:
-    """With polynomials in place of the unknown functions."""
-    functions = set().union(*(entry.atoms(AppliedUndef) for entry in expressions))
+    """With a polynomial in place of each unknown function, the same one each time."""
+    functions = set().union(*(entry.atoms(AppliedUndef) for entry in expressions), set())
     values = {}
-    for place, node in enumerate(sorted(functions, key=str)):
-        names = sorted({other.func for other in functions if other.func == node.func}, key=str)
+    for node in functions:
         own = node.args
-        assert names
-        values[node] = sum((i + 2 + place) * a / 7 for i, a in enumerate(own)) + math.prod(own) / 3 + own[-1] ** 3 / 5
+        if all(argument.is_Symbol for argument in own):
+            place = sum(map(ord, str(node.func))) % 7
+            values[node] = sum((i + 2 + place) * a / 7 for i, a in enumerate(own)) + math.prod(own) / 3 + own[-1] ** 3 / 5
     return substitute(expressions, values)
-
-
-def _numbers(expressions: Any, values: Any, omega: int) -> Any:
-    mpmath.mp.dps = 90
-    parameters = {symbol: sp.Rational(2 + i, 3) for i, symbol in enumerate(_parameters(expressions, values))}
-    exact = [entry.subs(parameters).subs(OMEGA, omega) for entry in _concrete(expressions)]
-    own = {symbol: sp.sympify(value).subs(parameters).evalf(90) for symbol, value in values.items()}
-    return [entry.doit().subs(own, simultaneous=True).evalf(80) for entry in exact]
-
-
-def _parameters(expressions: Any, values: Any) -> list[sp.Symbol]:
-    free = set().union(*(entry.free_symbols for entry in expressions)) - values.keys() - {OMEGA}
-    free |= set().union(*(sp.sympify(value).free_symbols for value in values.values())) - {OMEGA}
-    return sorted((symbol for symbol in free if symbol.is_positive), key=str)
