@@ -19,7 +19,9 @@ MU = sp.Symbol("mu", positive=True)
 
 
 def dithered(state: Any, drift: Any, fields: Any, dithers: Any, period: Any = 2 * sp.pi) -> DitherSystem:
-    return DitherSystem(TIME, PHASE, OMEGA, tuple(state), tuple(drift), tuple(map(tuple, fields)), tuple(dithers), period)
+    return DitherSystem(
+        TIME, PHASE, OMEGA, tuple(state), tuple(drift), tuple(map(tuple, fields)), tuple(dithers), period
+    )
 
 
 def finite_seeker(rate: Any) -> DitherProblem:
@@ -58,7 +60,9 @@ class _Left:
         change = [entry.subs(found.fast, simultaneous=True) for entry in found.transformed]
         self.gaps, self.rates = self._function(gaps), self._function(rates)
         self.change, self.means = self._function(change), self._function(found.system.rhs)
-        self.start = [sp.Rational(3, 7), sp.Rational(4, 9), sp.Rational(2, 7), sp.Rational(5, 11)][: 2 + len(system.state)]
+        self.start = [sp.Rational(3, 7), sp.Rational(4, 9), sp.Rational(2, 7), sp.Rational(5, 11)][
+            : 2 + len(system.state)
+        ]
 
     def _function(self, expressions: Any) -> Any:
         exact = _concrete(tuple(expressions))
@@ -92,5 +96,7 @@ def _concrete(expressions: Any) -> Any:
         own = node.args
         if all(argument.is_Symbol for argument in own):
             place = sum(map(ord, str(node.func))) % 7
-            values[node] = sum((i + 2 + place) * a / 7 for i, a in enumerate(own)) + math.prod(own) / 3 + own[-1] ** 3 / 5
+            values[node] = (
+                sum((i + 2 + place) * a / 7 for i, a in enumerate(own)) + math.prod(own) / 3 + own[-1] ** 3 / 5
+            )
     return substitute(expressions, values)

@@ -196,7 +196,9 @@ def test_the_period_map_is_that_of_the_average(name: str, order: int) -> None:
     there = _cut_vector([entry.subs(dict(zip(own.slow, _picard(own, own.right_hand_side, order), strict=True)),
                                     simultaneous=True) for entry in change], order)  # fmt: skip
     flow = _picard(own, mean, order)
-    back = _cut_vector([entry.subs(dict(zip(own.slow, change, strict=True)), simultaneous=True) for entry in flow], order)
+    back = _cut_vector(
+        [entry.subs(dict(zip(own.slow, change, strict=True)), simultaneous=True) for entry in flow], order
+    )
     assert [sp.expand(left - right) for left, right in zip(there, back, strict=True)] == [0] * len(own.slow)
 
 
@@ -250,9 +252,7 @@ def test_a_lyapunov_function_is_expanded_with_all_that_is_left() -> None:
     from derivations.pt_seeker.notation import mu, omega, theta
     from derivations.pt_seeker.notation import z as filtered
 
-    vehicle = of_turning(
-        chain.closed_loop_tau, theta, [filtered], omega=omega, mu=mu, mu_omega=m, order=2
-    )
+    vehicle = of_turning(chain.closed_loop_tau, theta, [filtered], omega=omega, mu=mu, mu_omega=m, order=2)
     assert vehicle.whole == ()
     found = along(vehicle, [chain.F], 2)
     assert sorted(found.rest) == [3, 4]
@@ -261,6 +261,7 @@ def test_a_lyapunov_function_is_expanded_with_all_that_is_left() -> None:
 
 def _corrupted(found: Expansion) -> dict[str, Expansion]:
     """One coefficient changed in a mean, in a corrector and in what is left."""
+
     def spoilt(rows: Any, place: int) -> Any:
         return tuple(
             tuple(entry + sp.Rational(1, 10**9) * (x if place == n else 0) for entry in row)
