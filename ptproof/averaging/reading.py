@@ -165,7 +165,8 @@ def _mu_omega(system: Mapping[str, Any], taken: dict[str, Any], functions: Mappi
     if "fast" not in system:
         raise InputError(f"{where}: there are no fast states; add [system.fast] or leave it out")
     parameters = {name: symbol for name, symbol in taken.items() if symbol.is_positive and symbol != OMEGA}
-    if isinstance(value, str) and value.isidentifier() and value not in taken and value not in functions:
+    known = {*taken, *functions, "inf", "nan", "infinity"}
+    if isinstance(value, str) and value.isidentifier() and value not in known:
         taken |= {
             name: sp.Symbol(name, positive=True) for name in declared([value], where, _RESERVED | {MU.name}, taken)
         }

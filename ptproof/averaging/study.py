@@ -17,6 +17,7 @@ from ptproof.averaging.ledger import Ledger, examine
 from ptproof.averaging.orders import Orders, average_to_order
 from ptproof.averaging.problem import DitherProblem
 from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided
+from ptproof.averaging.scaled import linear
 from ptproof.proof.claim import Goal
 from ptproof.proof.engines.exact import exact
 from ptproof.proof.settling import settle
@@ -152,12 +153,14 @@ def study(problem: DitherProblem | DitherSystem, order: int | None = None) -> Av
     """
     if isinstance(problem, DitherSystem):
         problem = DitherProblem(problem)
-    asked, ledger = problem.expected, examine(problem)
+    asked, ledger = problem.expected, _filter_of(problem) or examine(problem)
 
     def without(v: Coefficients, reason: str) -> Average:
         expected = None if asked is None else Evidence("average", Verdict.UNDECIDED, reason)
         return Average(problem, None, v, {}, ledger, expected)
 
+    if "mu_omega" in ledger.entries:
+        return without({}, "there is no average to compare with")
     known = all(ledger.entries[letter].verdict is Verdict.PROVED for letter in ("form", "D"))
     solved = problem.fast is None or ledger.steady is not None
     if ledger.verdict is Verdict.REFUTED or not (known and solved):
@@ -174,6 +177,19 @@ def study(problem: DitherProblem | DitherSystem, order: int | None = None) -> Av
         system = replace(system, rhs=orders.averages[0], parameters=None)
     expected = None if asked is None else compare(system, asked, problem.domain)
     return Average(problem, system, derived.v, derived.brackets, ledger, expected, orders, reason)
+
+
+def _filter_of(problem: DitherProblem) -> Ledger | None:
+    """Why fast states cannot keep their own dynamics, where they should: nothing else has to be asked then."""
+    if problem.mu_omega is None or problem.fast is None:
+        return None
+    try:
+        linear(problem.fast)
+    except AveragingRefused as error:
+        return Ledger({"mu_omega": Evidence("linear", Verdict.REFUTED, str(error))}, None)
+    except AveragingUndecided as error:
+        return Ledger({"mu_omega": Evidence("linear", Verdict.UNDECIDED, str(error))}, None)
+    return None
 
 
 def _orders(problem: DitherProblem, order: int | None) -> tuple[Orders | None, str]:

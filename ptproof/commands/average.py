@@ -92,17 +92,17 @@ def _study(path: str, order: int | None) -> Outcome:
         tuple(str(symbol) for symbol in problem.system.state),
         f"drift + ({gradient[0]}) * grad {gradient[1]}" if gradient else "",
         found.caveats if found.system is not None else (),
-        f"{path}: {found.unexpanded}" if found.unexpanded else _reason(found),
+        f"{path}: {found.unexpanded}" if found.unexpanded else _reason(found, path),
     )
 
 
-def _reason(found: Average) -> str:
+def _reason(found: Average, path: str) -> str:
     """Why there is no average, in one line."""
     if found.system is not None:
         return ""
     if found.refusals:
-        return "; ".join(f"refused, {text}" for text in found.refusals)
-    return "; ".join(f"undecided, {text}" for text in found.caveats)
+        return f"{path}: " + "; ".join(f"refused, {text}" for text in found.refusals)
+    return f"{path}: " + "; ".join(f"undecided, {text}" for text in found.caveats)
 
 
 def _show(outcome: Outcome) -> None:
