@@ -127,7 +127,7 @@ def test_filters_leave_what_the_order_says(name: str) -> None:
 
 
 def test_van_der_pol_has_the_published_frequency() -> None:
-    """ẍ + x = ε (1 − x²) ẋ: on its limit cycle the amplitude is 2 and the frequency 1 − ε²/16 (Bogoliubov, Mitropolsky)."""
+    """ẍ + x = ε (1 − x²) ẋ: the limit cycle has amplitude 2 and frequency 1 − ε²/16 (Bogoliubov, Mitropolsky)."""
     wave = s + a
     force = (1 - r**2 * cos(wave) ** 2) * -r * sin(wave)
     found = normal_form(Oscillation(s, 2 * sp.pi, (r, a), ((-sin(wave) * force, -cos(wave) * force / r),)), 2)
@@ -139,7 +139,7 @@ def test_van_der_pol_has_the_published_frequency() -> None:
 
 
 def test_the_tongue_of_mathieu_has_the_published_border() -> None:
-    """ẍ + (1/4 + d₁ε + d₂ε² + ε cos t) x = 0 is periodic for d₁ = 1/2, d₂ = −1/8 (Verhulst): a coupling vanishes there."""
+    """ẍ + (1/4 + d₁ε + d₂ε² + ε cos t) x = 0 has periodic solutions for d₁ = 1/2, d₂ = −1/8 (Verhulst)."""
     d = sp.Symbol("d", real=True)
     u, v = sp.symbols("u v", real=True)
     own, half = u * cos(s / 2) + v * sin(s / 2), sp.Rational(1, 2)
@@ -163,7 +163,7 @@ def test_the_pendulum_on_a_shaking_pivot_stands_upright() -> None:
 
 
 def test_a_vibrated_mechanical_system_moves_by_the_symmetric_product() -> None:
-    """q̈ = f(q) + b(q) v̇(t), fast v: the average has −⟨v²⟩/2 ⟨b : b⟩, with ⟨b : b⟩ = 2 b′ b for q in one dimension (Bullo)."""
+    """q̈ = f(q) + b(q) v̇(t), fast v: the average has −⟨v²⟩/2 ⟨b : b⟩, in one dimension ⟨b : b⟩ = 2 b′ b (Bullo)."""
     q, p = sp.symbols("q p", real=True)
     b, f = sp.Function("b", real=True)(q), sp.Function("f", real=True)(q)
     v = cos(s) + sin(2 * s) / 3
@@ -183,7 +183,7 @@ POLYNOMIAL = {
 
 
 @pytest.mark.parametrize("name", POLYNOMIAL)
-@pytest.mark.parametrize("order", [3, 4])
+@pytest.mark.parametrize("order", [2, 3])
 def test_the_period_map_is_that_of_the_average(name: str, order: int) -> None:
     """The iterated integrals of Picard's series over one period: X ∘ P = (flow of the average over a period) ∘ X."""
     own = POLYNOMIAL[name]
@@ -203,40 +203,41 @@ def test_the_period_map_is_that_of_the_average(name: str, order: int) -> None:
 
 
 def _picard(own: Oscillation, rates: Any, order: int) -> list[sp.Expr]:
-    """The solution after one period as a series in δ, by Picard's iterated integrals."""
+    """The solution after one period as a series in δ, by Picard's iterated integrals, with E = exp(is)."""
+    turns = {s_function(n * s): _in_turns(s_function, n) for s_function in (sin, cos) for n in (1, 2)}
+    rates = [sp.sympify(rate).subs(turns) for rate in rates[: len(own.slow)]]
     now = list(own.slow)
     for _ in range(order):
-        moved = [sp.sympify(rate).subs(dict(zip(own.slow, now, strict=True)), simultaneous=True) for rate in rates]
-        moved = moved[: len(own.slow)]
-        now = [
-            symbol + sum(DELTA**n * _integral(term) for n, term in _series(rate, order).items())
-            for symbol, rate in zip(own.slow, moved, strict=True)
-        ]
-    return [entry.subs(s, 2 * sp.pi) for entry in now]
+        moved = [rate.subs(dict(zip(own.slow, now, strict=True)), simultaneous=True) for rate in rates]
+        now = [symbol + _integral(rate, order) for symbol, rate in zip(own.slow, moved, strict=True)]
+    return [entry.subs({s: 2 * sp.pi, TURN: 1}) for entry in now]
 
 
-def _series(rate: sp.Expr, order: int) -> dict[int, sp.Expr]:
-    polynomial = sp.Poly(sp.expand(rate), DELTA)
-    return {n: polynomial.coeff_monomial(DELTA**n) for n in range(1, order + 1)}
+TURN = sp.Symbol("E")
 
 
-def _integral(term: sp.Expr) -> sp.Expr:
-    """∫₀^s of a sum of s^n e^(irs), by parts, in exponentials."""
-    total = sp.S.Zero
-    for entry in sp.Add.make_args(sp.expand(sp.expand(term).rewrite(sp.exp), power_exp=False)):
-        entry = sp.powsimp(entry)
-        factor, rest = entry.as_independent(s, as_Add=False)
-        rate = sp.cancel(sum((node.args[0] / s for node in rest.atoms(sp.exp)), sp.S.Zero))
-        n = int(sp.degree(sp.cancel(rest / sp.exp(rate * s)), s)) if rest != 1 else 0
-        if rate == 0:
-            total += factor * s ** (n + 1) / (n + 1)
+def _in_turns(function: Any, n: int) -> sp.Expr:
+    return (TURN**n + TURN**-n) / 2 if function is cos else (TURN**n - TURN**-n) / (2 * sp.I)
+
+
+def _integral(rate: sp.Expr, order: int) -> sp.Expr:
+    """∫₀^s of a sum of s^n E^r with powers of δ up to the order, each by parts."""
+    total = []
+    for term in sp.Add.make_args(sp.expand(rate)):
+        powers = term.as_powers_dict()
+        n, turns = int(powers.get(s, 0)), int(powers.get(TURN, 0))
+        if powers.get(DELTA, 0) > order:
             continue
-        power, coefficient, part = n, factor / rate, sp.S.Zero
-        while power >= 0:
-            part += coefficient * s**power * sp.exp(rate * s)
-            coefficient, power = -coefficient * power / rate, power - 1
-        total += part - part.subs(s, 0)
-    return sp.expand(sp.expand(total).rewrite(cos))
+        factor = term / s**n / TURN**turns
+        if turns == 0:
+            total.append(factor * s ** (n + 1) / (n + 1))
+        else:
+            part, coefficient = sp.S.Zero, 1 / (sp.I * turns)
+            for power in range(n, -1, -1):
+                part += coefficient * s**power * TURN**turns
+                coefficient *= sp.I * power / turns
+            total.append(factor * (part - part.subs({s: 0, TURN: 1}, simultaneous=True)))
+    return sp.expand(sp.Add(*total))
 
 
 def _cut_vector(entries: list[sp.Expr], order: int) -> list[sp.Expr]:
@@ -284,8 +285,6 @@ def _corrupted(found: Expansion) -> dict[str, Expansion]:
 def test_a_corrupted_expansion_does_not_cancel(name: str, part: str) -> None:
     found = average_to_order(SYSTEMS[name], 2).expansion
     twin = _corrupted(found)[part]
-    if part == "correctors 3":
-        pytest.skip("a function of the states alone in the last corrector is of the next order") if False else None
     assert put_back(found).verdict is Verdict.PROVED
     verdict = put_back(twin).verdict
     # A function of x alone in the last corrector is left over at the next order only.
@@ -295,19 +294,16 @@ def test_a_corrupted_expansion_does_not_cancel(name: str, part: str) -> None:
 def test_a_jump_in_a_corrector_is_seen() -> None:
     found = average_to_order(SYSTEMS["square waves"], 1).expansion
     twin = replace(found)
-    jump = sp.Piecewise((0, PHASE < sp.pi), (1, True)).subs(PHASE, PHASE - 2 * sp.pi * sp.floor(PHASE / (2 * sp.pi)))
+    jump = sp.Piecewise((0, sp.pi > PHASE), (1, True)).subs(PHASE, PHASE - 2 * sp.pi * sp.floor(PHASE / (2 * sp.pi)))
     twin.__dict__["means"], twin.__dict__["rest"] = found.means, found.rest
     twin.__dict__["correctors"] = (*found.correctors[:-1], tuple(entry + jump for entry in found.correctors[-1]))
     assert "continuous" in put_back(twin).detail
 
 
 def test_the_remainder_is_what_is_left() -> None:
-    found = average_to_order(SYSTEMS["scalar seeker"], 1)
     values = {TIME: sp.Rational(1, 3), PHASE: sp.Rational(1, 2), x: sp.Rational(2, 5)}
-    quadratic = [entry.subs(F1, 0) for entry in ()]
-    assert quadratic == []
     concrete = average_to_order(system([[1], [x**2]], [cos(PHASE), sin(PHASE)], [-x]), 1)
     limit = concrete.leading[0].subs(values).evalf(30)
     near = concrete.remainder[0].subs(values).subs(OMEGA, sp.Integer(10) ** 16).evalf(30)
     assert abs(near - limit) < sp.Float("1e-6")
-    assert found.leading[0] != 0
+    assert abs(limit) > sp.Float("1e-3")
