@@ -1,6 +1,7 @@
 """Averages to any order: other routes to the same averages, published ones, and expansions that are corrupted."""
 
 import itertools
+import random
 from dataclasses import replace
 from typing import Any
 
@@ -68,14 +69,14 @@ def test_a_second_order_that_does_not_vanish() -> None:
     assert average_to_order(SYSTEMS["three harmonics"], 2).averages[1] != (0,)
 
 
-@pytest.mark.parametrize("name", ["unicycle", "square waves", "triangle", "slow amplitude", "turning"])
-@pytest.mark.parametrize("order", [1, 2, 3])
+@pytest.mark.parametrize("name", ["three harmonics", "square waves", "triangle", "slow amplitude", "turning"])
+@pytest.mark.parametrize("order", [1, 3])
 def test_what_is_left_along_the_system_itself_has_the_order(name: str, order: int) -> None:
     """By high precision numbers in the letters of the system, apart from the exact check."""
     assert left_over(average_to_order(SYSTEMS[name], order)) == pytest.approx(-order / 2, abs=0.02)
 
 
-@pytest.mark.parametrize("order", [1, 2, 3])
+@pytest.mark.parametrize("order", [1, 2])
 def test_what_is_left_with_a_filter_has_the_order(order: int) -> None:
     assert left_over(average_to_order(finite_seeker(m), order)) == pytest.approx(-order / 2, abs=0.02)
 
@@ -173,6 +174,30 @@ def test_a_vibrated_mechanical_system_moves_by_the_symmetric_product() -> None:
     mean = sp.Rational(1, 2) * (1 + sp.Rational(1, 9))
     symmetric = 2 * sp.diff(b, q) * b
     assert is_zero(found.means[0][1] - (f - mean / 2 * symmetric))
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_random_polynomial_system_is_averaged_to_order_three(seed: int) -> None:
+    """Fields, drift, signals and a filter at random; what is left along it is of order ω^(−3/2)."""
+    rng = random.Random(seed)
+
+    def number() -> sp.Rational:
+        return sp.Rational(rng.choice([-3, -2, -1, 1, 2, 3]), rng.choice([1, 2, 3]))
+
+    def polynomial(*letters: sp.Symbol) -> sp.Expr:
+        return number() + sp.Add(*(number() * letter ** rng.choice([1, 2]) for letter in rng.sample(letters, 2)))
+
+    def signal() -> sp.Expr:
+        return number() * cos(rng.choice([1, 2]) * PHASE) + number() * sin(rng.choice([1, 2, 3]) * PHASE)
+
+    fields = [[polynomial(x, y), number()], [number(), polynomial(x, z)]]
+    own = system(fields, [signal(), signal()], [polynomial(x, y), -y])
+    filtered = FastStates((z,), (number() ** 2 * (x * y + number() - z),))
+    problem = DitherProblem(own, filtered, mu_omega=number() ** 2 if seed % 2 else None)
+    found = average_to_order(problem, 3)
+    assert found.evidence.verdict is Verdict.PROVED
+    if problem.mu_omega is not None:
+        assert left_over(found) == pytest.approx(-1.5, abs=0.02)
 
 
 POLYNOMIAL = {
@@ -281,7 +306,7 @@ def _corrupted(found: Expansion) -> dict[str, Expansion]:
 
 
 @pytest.mark.parametrize("part", [f"{a} {b}" for a, b in itertools.product(("means", "correctors"), (1, 2, 3))])
-@pytest.mark.parametrize("name", ["unicycle", "square waves"])
+@pytest.mark.parametrize("name", ["unicycle", "triangle"])
 def test_a_corrupted_expansion_does_not_cancel(name: str, part: str) -> None:
     found = average_to_order(SYSTEMS[name], 2).expansion
     twin = _corrupted(found)[part]
