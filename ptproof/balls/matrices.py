@@ -1,0 +1,108 @@
+"""Small matrices of balls: magnitudes, and what a linear differential inequality lets grow."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from flint import arb, arb_mat
+
+from ptproof.balls.tape import Undefined
+
+Vector = list[arb]
+
+
+def matrix(rows: Any) -> arb_mat:
+    """A matrix of balls from an array of floats (n × m)."""
+    return arb_mat(len(rows), len(rows[0]), [arb(float(entry)) for row in rows for entry in row])
+
+
+def column(entries: Sequence[arb]) -> arb_mat:
+    """A column of balls."""
+    return arb_mat(len(entries), 1, list(entries))
+
+
+def identity(size: int) -> arb_mat:
+    """The identity (n × n)."""
+    return arb_mat(size, size, [arb(int(i == j)) for i in range(size) for j in range(size)])
+
+
+def magnitudes(balls: arb_mat) -> arb_mat:
+    """For each entry a number that no value of it exceeds in absolute value."""
+    return arb_mat(balls.nrows(), balls.ncols(), [entry.abs_upper() for entry in balls.entries()])
+
+
+def floats(balls: arb_mat) -> Any:
+    """The midpoints, rounded to floats (n × m); they prove nothing."""
+    return np.array([float(entry.mid()) for entry in balls.entries()]).reshape(balls.nrows(), balls.ncols())
+
+
+def times(balls: arb_mat, radii: Sequence[arb]) -> Vector:
+    """The product of a matrix of magnitudes with a column of them, from above."""
+    return [entry.upper() for entry in (balls * column(radii)).entries()]
+
+
+def inverse(balls: arb_mat) -> arb_mat:
+    """The inverse; raises :class:`Undefined` where the matrix may be singular."""
+    try:
+        return balls.inv()
+    except ZeroDivisionError:
+        raise Undefined("a matrix that may be singular") from None
+
+
+@dataclass(frozen=True)
+class Growth:
+    """What u does not exceed, entry by entry: at the end, and on the way (the end included)."""
+
+    end: Vector
+    over: Vector
+
+
+def grown(rates: arb_mat, source: Sequence[arb], start: Sequence[arb], duration: Any) -> Growth:
+    """Bounds of every continuous u >= 0 with u(0) <= start and D⁺u <= rates·u + source, entry by entry.
+
+    ``rates`` (n × n, exact) has no negative entry off its diagonal, so that u stays below the solution of the linear
+    system with equality (Müller's comparison theorem): its value at the end comes from the exponential of a matrix. On
+    the way, where rates·w <= λw for some w > 0, the largest uᵢ/wᵢ obeys the scalar inequality with λ; w is Perron's
+    vector in floating-point numbers, λ is what it gives in balls.
+
+    Raises :class:`Undefined` where a bound is not finite.
+    """
+    n = len(source)
+    entries = rates.entries()
+    if any(entries[i * n + j] < 0 for i in range(n) for j in range(n) if i != j):
+        raise ValueError("the rates off the diagonal must not be negative")
+    rows = [[*entries[i * n : (i + 1) * n], source[i]] for i in range(n)]
+    flat = [entry for row in rows for entry in row]
+    whole = (arb_mat(n + 1, n + 1, [*flat, *[arb(0)] * (n + 1)]) * duration).exp()
+    end = [entry.upper() for entry in (whole * column([*start, arb(1)])).entries()[:n]]
+    weights = [arb(w) for w in _perron(floats(rates))]
+    pushed = (rates * column(weights)).entries()
+    rate = max(((a / w).upper() for a, w in zip(pushed, weights, strict=True)), key=_key)
+    factor = (rate.max(arb(0)) * duration).exp()
+    first, driven = (
+        max(((a / w).upper() for a, w in zip(given, weights, strict=True)), key=_key) for given in (start, source)
+    )
+    over = [((first + driven * duration) * factor * w).upper() for w in weights]
+    if not all(entry.is_finite() for entry in (*end, *over)):
+        raise Undefined("growth beyond all bounds")
+    return Growth(end, over)
+
+
+def _key(ball: arb) -> float:
+    return float(ball)
+
+
+def _perron(rates: Any) -> list[float]:
+    """Positive weights, near the eigenvector of the largest eigenvalue where that is defined; any would do."""
+    n = len(rates)
+    try:
+        off = rates + 1e-9 * max(1e-30, float(np.abs(rates).max())) * (1 - np.eye(n))
+        values, vectors = np.linalg.eig(off)
+        found = np.abs(np.real(vectors[:, int(np.argmax(values.real))]))
+        found = found / found.max()
+    except (np.linalg.LinAlgError, ValueError, FloatingPointError):
+        return [1.0] * n
+    return [float(w) for w in np.maximum(found, 1e-9)] if np.all(np.isfinite(found)) else [1.0] * n
