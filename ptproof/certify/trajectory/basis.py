@@ -7,51 +7,41 @@ from typing import Any
 import numpy as np
 
 Array = Any
-_FAST = 3.0
+_FAST, _APART = 8.0, 2.0
 
 
 def split(jacobian: Array, length: float) -> tuple[Array, int]:
     """A basis (columns, n × n) with the slow directions first, and how many of these there are.
 
-    A direction is fast if it dies out within the step. Each group has orthonormal columns; all are slow where the
-    groups can't be told apart.
+    A direction is fast if it dies out within the step. Each group is an invariant plane by Schur's decomposition of the
+    balanced matrix, which does not mind eigenvectors that come close to each other; without fast directions, or where
+    the groups can't be told apart, the basis is the identity.
     """
+    from scipy import linalg
+
     n = len(jacobian)
     everything = np.eye(n), n
     try:
-        values, vectors = np.linalg.eig(jacobian)
-    except np.linalg.LinAlgError:
-        return everything
-    order = np.argsort(-values.real, kind="stable")
-    rates = values.real[order] * length
-    slow = n
-    for k in range(1, n):
-        if rates[k] < -_FAST and rates[k] < 3 * min(rates[k - 1], 0.0) - _FAST:
-            slow = k
-            break
-    if slow == n or slow == 0:
-        return everything
-    groups = [order[:slow], order[slow:]]
-    columns = []
-    for group in groups:
-        found = _plane(vectors[:, group])
-        if found is None:
+        rates = np.sort(np.linalg.eigvals(jacobian).real)[::-1] * length
+        slow = int(np.sum(rates >= -_FAST))
+        if slow in (0, n) or rates[slow - 1] - rates[slow] < _APART:
             return everything
-        columns.append(found)
-    basis = np.concatenate(columns, axis=1)
-    if not np.all(np.isfinite(basis)) or np.linalg.cond(basis) > 1e8:
+        between = (rates[slow - 1] + rates[slow]) / 2 / length
+        balanced, (scale, _) = linalg.matrix_balance(jacobian, permute=False, separate=True)
+        shifted = balanced - between * np.eye(n)
+        columns = []
+        for sort, size in (("rhp", slow), ("lhp", n - slow)):
+            _, vectors, count = linalg.schur(shifted, sort=sort)
+            if count != size:
+                return everything
+            columns.append(vectors[:, :size])
+    except (np.linalg.LinAlgError, ValueError):
+        return everything
+    basis = scale[:, None] * np.concatenate(columns, axis=1)
+    basis = basis / np.abs(basis).max(axis=0)
+    if not np.all(np.isfinite(basis)) or np.linalg.cond(basis / np.abs(basis).max(axis=1)[:, None]) > 1e10:
         return everything
     return basis, slow
-
-
-def _plane(vectors: Array) -> Array | None:
-    """An orthonormal basis of the real space that conjugate pairs of vectors span."""
-    size = vectors.shape[1]
-    parts = np.concatenate([vectors.real, vectors.imag], axis=1)
-    left, values, _ = np.linalg.svd(parts)
-    if len(values) > size and values[size] > 1e-8 * values[0]:
-        return None
-    return left[:, :size]
 
 
 def slow_part(jacobian: Array, length: float, slow: int) -> Array | None:

@@ -10,10 +10,11 @@ from typing import Any
 import numpy as np
 import sympy as sp
 from flint import arb
+from numpy.polynomial import legendre
 
 from ptproof.balls.ball import ball_from
 from ptproof.balls.flow import GuardCrossed, Piece, Proposal, flow
-from ptproof.balls.kinks import across, certainly_positive, lowest
+from ptproof.balls.kinks import across, certainly_positive
 from ptproof.balls.matrices import identity
 from ptproof.balls.region import Region
 from ptproof.balls.tape import Undefined
@@ -24,6 +25,7 @@ from ptproof.certify.trajectory.modes import Choices, Mode
 
 Progress = Callable[[float], None]
 _ORDER = DEGREE - 1
+_ADDED, _SHARE = 300.0, 1e-3  # a step may add so many tolerances, and that share of the errors that there are
 _SHORTEST = 1e-13  # of the length of the run
 
 
@@ -76,8 +78,8 @@ class _Walk:
         self.length = march.length or self.whole / 1000
         self.last: tuple[Trial, Any, float] | None = None
         self.mode: Mode | None = None
-        self.margin = 4.0
-        self.done = False
+        self.retreat, self.event = 1e-11 * self.whole, None
+        self.done, self.tries = False, 0
         self.bridge: tuple[arb, tuple[int, ...]] | None = None
         self.bridging = 1e-12 * self.whole
 
@@ -96,14 +98,15 @@ class _Walk:
             length = remaining
         try:
             self.smooth(length)
-        except GuardCrossed:
-            self.margin *= 8
-            self.shorten(length / 2, "a switch could not be told apart from its absence")
+        except GuardCrossed as error:
+            self.retreat *= 16
+            self.shorten(length / 2 if self.event is None else length, str(error))
         except Undefined as error:
             self.shorten(length / 2, str(error))
 
     def shorten(self, length: float, why: str) -> None:
-        if length < _SHORTEST * self.whole:
+        self.tries += 1
+        if length < _SHORTEST * self.whole or self.tries > 200:
             raise Stopped(f"no step could be proved at {self.choices.system.time} = {float(self.now):.10g}: {why}")
         self.length, self.last = length, None if length < 0.1 * self.length else self.last
 
@@ -118,7 +121,7 @@ class _Walk:
                 return False
         except Undefined:
             return False
-        self.mode = mode
+        self.mode, self.retreat, self.event = mode, 1e-11 * self.whole, None
         if self.bridge is not None:
             start, before = self.bridge
             if before != mode.choice:
@@ -160,20 +163,30 @@ class _Walk:
             return self.shorten(length * factor, "the run could not be followed in floating-point numbers")
         crossing = self.crossing(mode, trial, length)
         if crossing is not None:
-            away, doubt = crossing
-            if away < 8 * doubt or away < 1e-10 * length:
-                self.mode = None
-                self.bridging = max(away, 0.0) + 2 * doubt + 1e-15 * self.whole
-                return self.hull(self.bridging)
-            return self.shorten(min(away - 2 * doubt, 0.999 * length), "a switch")
+            self.event = now + crossing
+        away = np.inf if self.event is None else self.event - now
+        if length > away - self.retreat / 2:
+            if away < 2 * self.retreat:
+                self.mode, self.event = None, None
+                return self.hull(max(away, 0.0) + self.retreat)
+            return self.shorten(away - self.retreat, "a switch")
         closing = length >= float(self.end - self.now) * (1 - 1e-12)
         after = self.end if closing else arb(now + length)
         exact = after - self.now
         piece, region = flow(mode.field, march.region, self.now, exact, self.proposal(mode, trial, length, begin))
-        self.last, self.margin = (trial, begin, length), 4.0
+        worst = self.worst(piece, begin)
+        if worst > 1 and length > 1e-7 * self.whole:
+            return self.shorten(length * max(0.3, 0.9 * worst ** (-1 / _ORDER)), "the proved errors grow too fast")
+        self.last = trial, begin, length
         self.accept(piece, region, after)
         self.length = length * min(2.0, max(0.4, 0.9 * (march.tolerance / max(trial.tail, 1e-30)) ** (1 / _ORDER)))
         march.length = self.length
+
+    def worst(self, piece: Piece, state: Any) -> float:
+        """The errors that a step adds, as a share of those that it may add."""
+        scale = np.maximum(np.abs(state), 1e-6 * np.abs(state).max())
+        allowed = _ADDED * self.march.tolerance * scale + _SHARE * np.array([float(e) for e in self.march.region.errors])
+        return float((np.array([float(entry) for entry in piece.added]) / np.maximum(allowed, 1e-300)).max())
 
     def solve(self, mode: Mode, now: float, length: float, begin: Any) -> Trial | None:
         flat = np.tile(begin, (DEGREE, 1))
@@ -193,34 +206,38 @@ class _Walk:
             kept = np.eye(len(basis))
         return collocation.proposal(trial, self.march.region.centre, length, kept, basis)
 
-    def crossing(self, mode: Mode, trial: Trial, length: float) -> tuple[float, float] | None:
-        """How far away a guard vanishes in the step, in floats, and by how much that is in doubt."""
+    def crossing(self, mode: Mode, trial: Trial, length: float) -> float | None:
+        """How far away a guard vanishes first in the step, in floats; None where none does."""
         if not mode.rates.guards:
             return None
         first = mode.rates.of(np.array([float(self.now)]), self.state[None, :])[2]
         nodes = np.concatenate([[-1.0], collocation.scheme(DEGREE).nodes])
-        values = np.concatenate([first, trial.guards])
-        sure = lowest(mode.guards, self.march.region, self.now)
+        values, dense = np.concatenate([first, trial.guards]), np.linspace(-1, 1, 401)
         found = []
         for index in range(mode.rates.guards):
-            series = np.polynomial.legendre.legfit(nodes, values[:, index], DEGREE)
-            dense = np.linspace(-1, 1, 401)
-            along = np.polynomial.legendre.legval(dense, series)
+            series = legendre.legfit(nodes, values[:, index], DEGREE)
+            along = legendre.legval(dense, series)
             below = np.nonzero(along < 0)[0]
-            if not len(below):
-                continue
-            k = int(below[0])
-            s = -1.0 if k == 0 else float(dense[k] - 0.005 * along[k] / min(along[k] - along[k - 1], -1e-300))
-            rate = abs(float(np.polynomial.legendre.legval(s, np.polynomial.legendre.legder(series)))) * 2 / length
-            doubt = self.margin * abs(float(first[0, index]) - float(sure[index])) / max(rate, 1e-300)
-            found.append(((s + 1) / 2 * length, doubt + 1e-15 * self.whole))
-        return min(found) if found else None
+            if len(below):
+                k = int(below[0])
+                s = -1.0 if k == 0 else _root(series, float(dense[k - 1]), float(dense[k]))
+                found.append((s + 1) / 2 * length)
+        return min(found, default=None)
 
     def accept(self, piece: Piece, region: Region, after: arb) -> None:
         """Go on from there. Each instant but a stretch's end is exact, so that no doubt about the time adds up."""
         self.march.pieces.append(piece)
-        self.march.region = region
+        self.march.region, self.tries = region, 0
         self.now, self.done = after, after is self.end
+        if self.event is not None and self.event - float(after) > 0.5 * self.whole:
+            self.event = None
+
+
+def _root(series: Any, low: float, high: float) -> float:
+    for _ in range(60):
+        middle = (low + high) / 2
+        low, high = (middle, high) if legendre.legval(middle, series) >= 0 else (low, middle)
+    return low
 
 
 def spread_of(region: Region) -> float:
