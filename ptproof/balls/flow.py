@@ -147,9 +147,7 @@ def hull(path: arb_mat, errors: Sequence[arb]) -> list[arb]:
 class _Step:
     """The terms of the theorem for one step."""
 
-    def __init__(
-        self, field: VectorField, region: Region, start: arb, length: arb, proposal: Proposal
-    ) -> None:
+    def __init__(self, field: VectorField, region: Region, start: arb, length: arb, proposal: Proposal) -> None:
         self.field, self.region, self.proposal = field, region, proposal
         self.half = length / 2
         self.middle = start + self.half

@@ -6,12 +6,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import flint
 import numpy as np
 from flint import arb, arb_mat
 
 from ptproof.balls.tape import Undefined
 
 Vector = list[arb]
+_BITS = 64  # bounds need no more
 
 
 def matrix(rows: Any) -> arb_mat:
@@ -64,9 +66,8 @@ def grown(rates: arb_mat, source: Sequence[arb], start: Sequence[arb], duration:
     """Bounds of every continuous u >= 0 with u(0) <= start and D⁺u <= rates·u + source, entry by entry.
 
     ``rates`` (n × n, exact) has no negative entry off its diagonal, so that u stays below the solution of the linear
-    system with equality (Müller's comparison theorem): its value at the end comes from the exponential of a matrix. On
-    the way, where rates·w <= λw for some w > 0, the largest uᵢ/wᵢ obeys the scalar inequality with λ; w is Perron's
-    vector in floating-point numbers, λ is what it gives in balls.
+    system with equality (Müller's comparison theorem): its value at the end comes from the exponential of a matrix. With
+    the negative entries of the diagonal replaced by zero that solution increases, so that its end bounds u on the way.
 
     Raises :class:`Undefined` where a bound is not finite.
     """
@@ -74,35 +75,17 @@ def grown(rates: arb_mat, source: Sequence[arb], start: Sequence[arb], duration:
     entries = rates.entries()
     if any(entries[i * n + j] < 0 for i in range(n) for j in range(n) if i != j):
         raise ValueError("the rates off the diagonal must not be negative")
-    rows = [[*entries[i * n : (i + 1) * n], source[i]] for i in range(n)]
-    flat = [entry for row in rows for entry in row]
-    whole = (arb_mat(n + 1, n + 1, [*flat, *[arb(0)] * (n + 1)]) * duration).exp()
-    end = [entry.upper() for entry in (whole * column([*start, arb(1)])).entries()[:n]]
-    weights = [arb(w) for w in _perron(floats(rates))]
-    pushed = (rates * column(weights)).entries()
-    rate = max(((a / w).upper() for a, w in zip(pushed, weights, strict=True)), key=_key)
-    factor = (rate.max(arb(0)) * duration).exp()
-    first, driven = (
-        max(((a / w).upper() for a, w in zip(given, weights, strict=True)), key=_key) for given in (start, source)
-    )
-    over = [((first + driven * duration) * factor * w).upper() for w in weights]
+    with flint.ctx.workprec(_BITS):
+        end = _solved(entries, source, start, duration)
+        over = _solved([entry.max(arb(0)) for entry in entries], source, start, duration)
     if not all(entry.is_finite() for entry in (*end, *over)):
         raise Undefined("growth beyond all bounds")
-    return Growth(end, over)
+    return Growth(end, [a.max(b).upper() for a, b in zip(end, over, strict=True)])
 
 
-def _key(ball: arb) -> float:
-    return float(ball)
-
-
-def _perron(rates: Any) -> list[float]:
-    """Positive weights, near the eigenvector of the largest eigenvalue where that is defined; any would do."""
-    n = len(rates)
-    try:
-        off = rates + 1e-9 * max(1e-30, float(np.abs(rates).max())) * (1 - np.eye(n))
-        values, vectors = np.linalg.eig(off)
-        found = np.abs(np.real(vectors[:, int(np.argmax(values.real))]))
-        found = found / found.max()
-    except (np.linalg.LinAlgError, ValueError, FloatingPointError):
-        return [1.0] * n
-    return [float(w) for w in np.maximum(found, 1e-9)] if np.all(np.isfinite(found)) else [1.0] * n
+def _solved(entries: Sequence[arb], source: Sequence[arb], start: Sequence[arb], duration: Any) -> Vector:
+    """The solution of u' = rates·u + source from ``start`` (a constant 1 carries the source), from above."""
+    n = len(source)
+    rows = [entry for i in range(n) for entry in (*entries[i * n : (i + 1) * n], source[i])]
+    whole = (arb_mat(n + 1, n + 1, [*rows, *[arb(0)] * (n + 1)]) * duration).exp()
+    return [entry.upper() for entry in (whole * column([*start, arb(1)])).entries()[:n]]

@@ -104,7 +104,9 @@ class Trial:
     solver: Array
 
 
-def attempt(rates: Rates, start: float, length: float, begin: Array, guess: Array, degree: int = DEGREE) -> Trial | None:
+def attempt(
+    rates: Rates, start: float, length: float, begin: Array, guess: Array, degree: int = DEGREE
+) -> Trial | None:
     """Solve the step from the state ``begin``; None where Newton's method does not converge.
 
     ``guess`` has the stage values to begin with (N × n).

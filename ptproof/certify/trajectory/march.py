@@ -15,7 +15,6 @@ from numpy.polynomial import legendre
 from ptproof.balls.ball import ball_from
 from ptproof.balls.flow import GuardCrossed, Piece, Proposal, flow
 from ptproof.balls.kinks import across, certainly_positive
-from ptproof.balls.matrices import identity
 from ptproof.balls.region import Region
 from ptproof.balls.tape import Undefined
 from ptproof.certify.trajectory import collocation
@@ -47,7 +46,7 @@ class Switch:
 class March:
     """What has been enclosed so far, and how to go on.
 
-    ``tolerance`` is the relative size at which the last terms of a step's polynomial are left out; ``deadline`` an
+    ``ends`` has a ball for each state at the end of each piece. ``tolerance`` is the relative size at which the last terms of a step's polynomial are left out; ``deadline`` an
     instant of the wall clock; ``progress`` is told the time that has been reached.
     """
 
@@ -56,6 +55,7 @@ class March:
     deadline: float
     progress: Progress = lambda _: None
     pieces: list[Piece] = field(default_factory=list)
+    ends: list[list[arb]] = field(default_factory=list)
     switches: list[Switch] = field(default_factory=list)
     length: float = 0.0
 
@@ -185,7 +185,9 @@ class _Walk:
     def worst(self, piece: Piece, state: Any) -> float:
         """The errors that a step adds, as a share of those that it may add."""
         scale = np.maximum(np.abs(state), 1e-6 * np.abs(state).max())
-        allowed = _ADDED * self.march.tolerance * scale + _SHARE * np.array([float(e) for e in self.march.region.errors])
+        allowed = _ADDED * self.march.tolerance * scale + _SHARE * np.array(
+            [float(e) for e in self.march.region.errors]
+        )
         return float((np.array([float(entry) for entry in piece.added]) / np.maximum(allowed, 1e-300)).max())
 
     def solve(self, mode: Mode, now: float, length: float, begin: Any) -> Trial | None:
@@ -227,6 +229,7 @@ class _Walk:
     def accept(self, piece: Piece, region: Region, after: arb) -> None:
         """Go on from there. Each instant but a stretch's end is exact, so that no doubt about the time adds up."""
         self.march.pieces.append(piece)
+        self.march.ends.append(region.box)
         self.march.region, self.tries = region, 0
         self.now, self.done = after, after is self.end
         if self.event is not None and self.event - float(after) > 0.5 * self.whole:
@@ -238,16 +241,3 @@ def _root(series: Any, low: float, high: float) -> float:
         middle = (low + high) / 2
         low, high = (middle, high) if legendre.legval(middle, series) >= 0 else (low, middle)
     return low
-
-
-def spread_of(region: Region) -> float:
-    """The widest side of the box around a region."""
-    return max(2 * float(e) for e in region.errors)
-
-
-def begin(values: list[arb]) -> Region:
-    """The region of the initial values."""
-    return Region.around(values)
-
-
-__all__ = ["March", "Stopped", "Switch", "begin", "identity", "spread_of"]

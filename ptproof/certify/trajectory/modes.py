@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
+from itertools import pairwise
 from typing import Any
 
 import flint
@@ -96,14 +97,16 @@ def stretches(system: System, start: sp.Expr, end: sp.Expr) -> list[tuple[sp.Exp
         For choices at instants that are not known, for jumps, and for what has no enclosure.
     """
     if system.undefined_functions:
-        raise InputError(f"{system.name}: {', '.join(map(str, system.undefined_functions))} undefined; put them in first")
+        raise InputError(
+            f"{system.name}: {', '.join(map(str, system.undefined_functions))} undefined; put them in first"
+        )
     if system.parameters:
         raise InputError(f"{system.name}: no value for {', '.join(map(str, system.parameters))}")
     relations = sorted(set().union(*(entry.atoms(Relational) for entry in system.rhs)), key=str)
     inside = [instant for item in relations if (instant := _instant(system, item)) is not None]
     cuts = _sorted([start, end, *(instant for instant in inside if _less(start, instant) and _less(instant, end))])
     parts = []
-    for first, last in zip(cuts, cuts[1:], strict=False):
+    for first, last in pairwise(cuts):
         middle = _between(first, last)
         truth = {item: _holds(system, item, middle) for item in relations}
         rhs = tuple(entry.xreplace(truth) for entry in system.rhs)
@@ -139,7 +142,9 @@ def _instant(system: System, relation: Relational) -> sp.Expr | None:
     if system.time not in difference.free_symbols:
         return None
     if not difference.is_polynomial(system.time) or sp.degree(difference, system.time) != 1:
-        raise InputError(f"{system.name}: when the condition {relation} changes is not known; write it as time < instant")
+        raise InputError(
+            f"{system.name}: when the condition {relation} changes is not known; write it as time < instant"
+        )
     slope = difference.coeff(system.time, 1)
     return sp.nsimplify(-difference.coeff(system.time, 0) / slope, rational=False)
 
