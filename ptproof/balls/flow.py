@@ -132,7 +132,7 @@ def flow(field: VectorField, region: Region, start: arb, length: arb, proposal: 
     step.guarded(errors)
     ends = [sum(row, arb(0)) for row in step.rows]
     carried = sum(proposal.spread[1:], proposal.spread[0])
-    after = region.moved(ends, carried, (proposal.basis, growth.end))
+    after = region.moved(ends, carried, proposal.basis, (proposal.basis, growth.end))
     added = times(magnitudes(proposal.basis), growth.end)
     return Piece(start, length, proposal.path, tuple(errors), tuple(added)), after
 

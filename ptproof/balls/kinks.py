@@ -45,7 +45,7 @@ def across(tape: Tape, region: Region, start: arb, length: arb) -> tuple[Piece, 
             half = length / 2
             rows = [row for c, v in zip(centre, velocity, strict=True) for row in (c + v * half, v * half)]
             ends = [c + v * length for c, v in zip(centre, velocity, strict=True)]
-            after = region.moved(ends, identity(n), (identity(n), growth.end))
+            after = region.moved(ends, identity(n), None, (identity(n), growth.end))
             return Piece(start, length, arb_mat(n, 2, rows), tuple(errors), tuple(growth.end)), after
         guess = [(3 * entry + limit).upper() for entry, limit in zip(growth.over, guess, strict=True)]
     raise Undefined("no tube closes around the step across a kink")

@@ -39,15 +39,20 @@ class Region:
         """The sides of the smallest box around it."""
         return [arb(c, r) for c, r in zip(self.centre, self.errors, strict=True)]
 
-    def moved(self, ends: Sequence[arb], carried: arb_mat, *rest: tuple[arb_mat, Sequence[arb]]) -> Region:
+    def moved(
+        self, ends: Sequence[arb], carried: arb_mat, metric: arb_mat | None, *rest: tuple[arb_mat, Sequence[arb]]
+    ) -> Region:
         """A region with all ``ends`` + ``carried``·(B·r) + Σ matrix·[−radii, radii] over the ``rest``.
 
-        The new frame is orthogonal (Lohner): the longest direction is kept as it is, so that errors along it do not
-        spill over into the others. Any frame would be right; only its inverse has to be enclosed.
+        In the coordinates whose axes are the columns of ``metric`` the new frame is orthogonal (Lohner): the longest
+        direction is kept as it is, so that errors along it do not spill over into the others. Without a metric the frame
+        is kept. Any frame would be right; only its inverse has to be enclosed.
         """
         centre = tuple(ball.mid() for ball in ends)
-        image = carried * self.frame
-        frame = matrix(_orthogonal(floats(image) * np.array([float(r) for r in self.radii])))
+        image, frame = carried * self.frame, self.frame
+        if metric is not None:
+            inner = floats(inverse(metric) * image) * np.array([float(r) for r in self.radii])
+            frame = (metric * matrix(_orthogonal(inner))).mid()
         back = inverse(frame)
         found = times(magnitudes(back * image), self.radii)
         for part, radii in (*rest, (identity(len(centre)), [ball.rad().upper() for ball in ends])):

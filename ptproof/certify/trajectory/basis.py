@@ -15,20 +15,19 @@ def split(jacobian: Array, length: float) -> tuple[Array, int]:
 
     A direction is fast if it dies out within the step. Each group is an invariant plane by Schur's decomposition of the
     balanced matrix, which does not mind eigenvectors that come close to each other; without fast directions, or where
-    the groups can't be told apart, the basis is the identity.
+    the groups can't be told apart, the basis has the axes, as the balanced matrix scales them.
     """
     from scipy import linalg
 
     n = len(jacobian)
-    everything = np.eye(n), n
     try:
-        rates = np.sort(np.linalg.eigvals(jacobian).real)[::-1] * length
+        balanced, (scale, _) = linalg.matrix_balance(jacobian, permute=False, separate=True)
+        everything = np.diag(scale), n
+        rates = np.sort(np.linalg.eigvals(balanced).real)[::-1] * length
         slow = int(np.sum(rates >= -_FAST))
         if slow in (0, n) or rates[slow - 1] - rates[slow] < _APART:
             return everything
-        between = (rates[slow - 1] + rates[slow]) / 2 / length
-        balanced, (scale, _) = linalg.matrix_balance(jacobian, permute=False, separate=True)
-        shifted = balanced - between * np.eye(n)
+        shifted = balanced - (rates[slow - 1] + rates[slow]) / 2 / length * np.eye(n)
         columns = []
         for sort, size in (("rhp", slow), ("lhp", n - slow)):
             _, vectors, count = linalg.schur(shifted, sort=sort)
@@ -36,12 +35,11 @@ def split(jacobian: Array, length: float) -> tuple[Array, int]:
                 return everything
             columns.append(vectors[:, :size])
     except (np.linalg.LinAlgError, ValueError):
+        return np.eye(n), n
+    planes = np.concatenate(columns, axis=1)
+    if not np.all(np.isfinite(planes)) or np.linalg.cond(planes) > 1e10:
         return everything
-    basis = scale[:, None] * np.concatenate(columns, axis=1)
-    basis = basis / np.abs(basis).max(axis=0)
-    if not np.all(np.isfinite(basis)) or np.linalg.cond(basis / np.abs(basis).max(axis=1)[:, None]) > 1e10:
-        return everything
-    return basis, slow
+    return scale[:, None] * planes, slow
 
 
 def slow_part(jacobian: Array, length: float, slow: int) -> Array | None:

@@ -17,7 +17,9 @@ from flint import arb, arb_mat, fmpq
 from numpy.polynomial import legendre
 
 from ptproof.balls.flow import Proposal
-from ptproof.balls.matrices import matrix
+from ptproof.balls.ball import BALLS
+from ptproof.balls.matrices import floats, matrix
+from ptproof.balls.tape import Tape, Undefined
 
 Array = Any
 DEGREE = 16
@@ -30,14 +32,15 @@ class Scheme:
     """Nodes (N) on [−1, 1], the integrals from −1 to each node, and what turns values into coefficients.
 
     ``integrals`` (N × N) maps the values at the nodes of a polynomial of degree N − 1 to its integrals; ``powers`` (N × N)
-    to its coefficients of powers; ``spectrum`` to those of Legendre polynomials, and ``low`` (fewer rows) to the powers of
-    the first of these.
+    to its integrals;
+    ``exact`` and ``fine`` are
     """
 
     nodes: Array
     integrals: Array
     low: Array
     exact: arb_mat
+    fine: arb_mat
     spectrum: Array
 
 
@@ -59,9 +62,11 @@ def scheme(degree: int) -> Scheme:
         vander = arb_mat(degree, degree, [arb(float(s)) ** k for s in nodes for k in range(degree)])
         exact = vander.inv()
         exact = arb_mat(degree, degree, [entry.mid() for entry in exact.entries()])
+        powers = [(arb(float(s)) ** (k + 1) - (-1) ** (k + 1)) / (k + 1) for s in nodes for k in range(degree)]
+        fine = arb_mat(degree, degree, powers) * exact
     kept = min(_SPREAD, degree)
     to_powers = np.array([[*legendre.leg2poly(np.eye(kept)[k])] + [0.0] * (kept - 1 - k) for k in range(kept)]).T
-    return Scheme(nodes, integrals, to_powers @ spectrum[:kept], exact, spectrum)
+    return Scheme(nodes, integrals, to_powers @ spectrum[:kept], exact, fine, spectrum)
 
 
 @dataclass(frozen=True)
@@ -150,11 +155,38 @@ def _trial(
     return Trial(stages, f, jacobian, guards, tail, solver)
 
 
-def proposal(trial: Trial, centre: Sequence[arb], length: float, begin: Array, basis: Array) -> Proposal:
-    """The polynomials of a solved step. ``begin`` (n × n) is the spread at its start: the identity, or less."""
+def refined(trial: Trial, tape: Tape, centre: Sequence[arb], now: arb, length: arb) -> arb_mat:
+    """The rates at the nodes (N × n) after one more step of Newton's method, with the residual in balls.
+
+    What rounding leaves in floats, fast systems enlarge; their own precision is that of the balls. ``tape`` gives the
+    rates alone.
+    """
     degree, n = trial.stages.shape
     plan, half = scheme(degree), length / 2
-    slopes = plan.exact * matrix(half * trial.rates)  # the coefficients of p' as rows, one per power
+    times = [now + half * (1 + arb(float(s))) for s in plan.nodes]
+    stages, start = matrix(trial.stages), arb_mat(degree, n, list(centre) * degree)
+    residual = stages - start - half * (plan.fine * _rates(tape, times, stages))
+    step = np.linalg.solve(trial.solver, floats(residual).ravel()).reshape(degree, n)
+    if not np.all(np.isfinite(step)):
+        raise Undefined("no finite correction")
+    return _rates(tape, times, stages - matrix(step))
+
+
+def _rates(tape: Tape, times: Sequence[arb], stages: arb_mat) -> arb_mat:
+    degree, n = stages.nrows(), stages.ncols()
+    flat = stages.entries()
+    rows = [tape.run([time, *flat[k * n : (k + 1) * n]], BALLS) for k, time in enumerate(times)]
+    return arb_mat(degree, n, [entry.mid() for row in rows for entry in row])
+
+
+def proposal(
+    trial: Trial, rates: arb_mat, centre: Sequence[arb], length: float, begin: Array, basis: Array
+) -> Proposal:
+    """The polynomials of a solved step. ``rates`` (N × n) are those of :func:`refined`; ``begin`` (n × n) is the spread at
+    the start: the identity, or less."""
+    degree, n = trial.stages.shape
+    plan, half = scheme(degree), length / 2
+    slopes = plan.exact * (rates * arb(half))  # the coefficients of p' as rows, one per power
     entries = slopes.entries()
     rows = []
     for i, c in enumerate(centre):

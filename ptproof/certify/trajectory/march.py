@@ -140,6 +140,9 @@ class _Walk:
             return
         if length > 1e-3 * self.whole:
             raise Stopped(f"a switch at {self.choices.system.time} = {float(self.now):.10g} could not be resolved")
+        self.tries += 1
+        if self.tries > 200:
+            raise Stopped(f"a switch at {self.choices.system.time} = {float(self.now):.10g} could not be resolved")
         try:
             piece, region = across(self.choices.tape, self.march.region, self.now, after - self.now)
         except Undefined as error:
@@ -173,7 +176,7 @@ class _Walk:
         closing = length >= float(self.end - self.now) * (1 - 1e-12)
         after = self.end if closing else arb(now + length)
         exact = after - self.now
-        piece, region = flow(mode.field, march.region, self.now, exact, self.proposal(mode, trial, length, begin))
+        piece, region = flow(mode.field, march.region, self.now, exact, self.proposal(mode, trial, exact, begin))
         worst = self.worst(piece, begin)
         if worst > 1 and length > 1e-7 * self.whole:
             return self.shorten(length * max(0.3, 0.9 * worst ** (-1 / _ORDER)), "the proved errors grow too fast")
@@ -198,7 +201,9 @@ class _Walk:
                 return trial
         return collocation.attempt(mode.rates, now, length, begin, flat)
 
-    def proposal(self, mode: Mode, trial: Trial, length: float, begin: Any) -> Proposal:
+    def proposal(self, mode: Mode, trial: Trial, exact: arb, begin: Any) -> Proposal:
+        centre, length = self.march.region.centre, float(exact)
+        rates = collocation.refined(trial, mode.plain, centre, self.now, exact)
         basis, slow = split(trial.jacobians[DEGREE // 2], length)
         kept = None
         if slow < len(basis):
@@ -206,7 +211,7 @@ class _Walk:
             kept = slow_part(first[0], length, slow)
         if kept is None:
             kept = np.eye(len(basis))
-        return collocation.proposal(trial, self.march.region.centre, length, kept, basis)
+        return collocation.proposal(trial, rates, centre, length, kept, basis)
 
     def crossing(self, mode: Mode, trial: Trial, length: float) -> float | None:
         """How far away a guard vanishes first in the step, in floats; None where none does."""

@@ -32,6 +32,7 @@ class Mode:
     field: VectorField
     rates: Rates
     guards: Tape
+    plain: Tape
 
 
 @dataclass(frozen=True)
@@ -84,7 +85,7 @@ def _mode(choices: Choices, choice: tuple[int, ...]) -> Mode:
     symbols = (system.time, *system.state)
     return Mode(
         choice, VectorField.of(system.time, system.state, rates, guards),
-        Rates.compiled(system.time, system.state, rates, guards), compile_tape(guards, symbols),
+        Rates.compiled(system.time, system.state, rates, guards), compile_tape(guards, symbols), compile_tape(rates, symbols),
     )  # fmt: skip
 
 
