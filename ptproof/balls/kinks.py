@@ -29,12 +29,17 @@ def across(tape: Tape, region: Region, start: arb, length: arb) -> tuple[Piece, 
     """
     n = len(region.centre)
     clock, centre = start + length * interval(0, 1), list(region.centre)
-    velocity = [rate.mid() for rate in tape.run([start, *centre], BALLS)]
+    values = tape.run([start, *centre], BALLS)
+    velocity = [value.mid() for value in values]
     line = [c + v * length * interval(0, 1) for c, v in zip(centre, velocity, strict=True)]
     known = region.errors
+    # Along the line the slope is taken first and its hull over both sides of a kink then: terms that cancel do so.
+    along = [Jet(clock, (arb(1),)), *(Jet(p, (v,)) for p, v in zip(line, velocity, strict=True))]
+    bends = [output.slopes[0] if isinstance(output, Jet) else None for output in tape.run(along, JETS)]
     off = [
-        (length * (f - v)).abs_upper() for f, v in zip(tape.run([clock, *line], BALLS), velocity, strict=True)
-    ]  # fmt: skip
+        (length * ((f - v).abs_upper() + (arb(0) if bend is None else bend.abs_upper() * length))).upper()
+        for f, v, bend in zip(values, velocity, bends, strict=True)
+    ]
     guess = [(2 * a + arb(2) ** (-flint.ctx.prec)).upper() for a in off]
     for _ in range(6):
         errors = [(a + b).upper() for a, b in zip(known, guess, strict=True)]

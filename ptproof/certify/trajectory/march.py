@@ -14,7 +14,7 @@ from numpy.polynomial import legendre
 
 from ptproof.balls.ball import ball_from
 from ptproof.balls.flow import GuardCrossed, Piece, Proposal, flow
-from ptproof.balls.kinks import across, certainly_positive
+from ptproof.balls.kinks import across, certainly_positive, lowest
 from ptproof.balls.region import Region
 from ptproof.balls.tape import Undefined
 from ptproof.certify.trajectory import collocation
@@ -99,7 +99,7 @@ class _Walk:
         try:
             self.smooth(length)
         except GuardCrossed as error:
-            self.retreat *= 16
+            self.retreat *= 4
             self.shorten(length / 2 if self.event is None else length, str(error))
         except Undefined as error:
             self.shorten(length / 2, str(error))
@@ -166,7 +166,8 @@ class _Walk:
             return self.shorten(length * factor, "the run could not be followed in floating-point numbers")
         crossing = self.crossing(mode, trial, length)
         if crossing is not None:
-            self.event = now + crossing
+            self.event = now + crossing[0]
+            self.retreat = max(self.retreat, crossing[1])
         away = np.inf if self.event is None else self.event - now
         if length > away - self.retreat / 2:
             if away < 2 * self.retreat:
@@ -213,12 +214,13 @@ class _Walk:
             kept = np.eye(len(basis))
         return collocation.proposal(trial, rates, centre, length, kept, basis)
 
-    def crossing(self, mode: Mode, trial: Trial, length: float) -> float | None:
-        """How far away a guard vanishes first in the step, in floats; None where none does."""
+    def crossing(self, mode: Mode, trial: Trial, length: float) -> tuple[float, float] | None:
+        """How far away a guard vanishes first in the step, in floats, and how long its doubt lasts there; or None."""
         if not mode.rates.guards:
             return None
         first = mode.rates.of(np.array([float(self.now)]), self.state[None, :])[2]
         nodes = np.concatenate([[-1.0], collocation.scheme(DEGREE).nodes])
+        sure = lowest(mode.guards, self.march.region, self.now)
         values, dense = np.concatenate([first, trial.guards]), np.linspace(-1, 1, 401)
         found = []
         for index in range(mode.rates.guards):
@@ -228,7 +230,9 @@ class _Walk:
             if len(below):
                 k = int(below[0])
                 s = -1.0 if k == 0 else _root(series, float(dense[k - 1]), float(dense[k]))
-                found.append((s + 1) / 2 * length)
+                rate = abs(float(legendre.legval(s, legendre.legder(series)))) * 2 / length
+                doubt = max(float(first[0, index]) - float(sure[index]), 0.0)
+                found.append(((s + 1) / 2 * length, min(4 * doubt / max(rate, 1e-300), 1e-5 * self.whole)))
         return min(found, default=None)
 
     def accept(self, piece: Piece, region: Region, after: arb) -> None:
