@@ -66,11 +66,14 @@ class Proposal:
         that die out within the step are better left out of it.
     basis
         The coordinates (columns, n × n) in which what is left is compared; they should tell fast from slow.
+    metric
+        The coordinates in which the frame of the next region is orthogonal; they should change little from step to step.
     """
 
     path: arb_mat
     spread: tuple[arb_mat, ...]
     basis: arb_mat
+    metric: arb_mat
 
 
 @dataclass(frozen=True)
@@ -132,7 +135,7 @@ def flow(field: VectorField, region: Region, start: arb, length: arb, proposal: 
     step.guarded(errors)
     ends = [sum(row, arb(0)) for row in step.rows]
     carried = sum(proposal.spread[1:], proposal.spread[0])
-    after = region.moved(ends, carried, proposal.basis, (proposal.basis, growth.end))
+    after = region.moved(ends, carried, proposal.metric, (proposal.basis, growth.end))
     added = times(magnitudes(proposal.basis), growth.end)
     return Piece(start, length, proposal.path, tuple(errors), tuple(added)), after
 

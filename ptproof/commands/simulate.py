@@ -14,6 +14,7 @@ from ptproof.errors import InputError
 from ptproof.simulation.engines import names
 
 if TYPE_CHECKING:
+    from ptproof.certify.trajectory import Enclosure
     from ptproof.simulation import Ensemble, Trajectory
 
 
@@ -51,18 +52,24 @@ def _seeker(context: click.Context, option: click.Parameter, name: str | None) -
 @click.option("--workers", type=click.IntRange(1, 1024), default=1, show_default=True, help="Threads for an ensemble.")
 @options.cluster
 @click.option("--time-limit", type=float, default=60.0, show_default=True, help="Seconds for each run.")
+@click.option("--enclose", "enclosing", is_flag=True, help="Enclose the run as well: a theorem about this trajectory.")
+@click.option(
+    "--enclose-width", default="1e-6", show_default=True, metavar="NUMBER", help="How closely, in each state."
+)
 @options.plot("the run, or the distances of an ensemble,")
 @options.as_json
 def simulate(
     problem: str, seeker: str | None, ensemble: int | None, vary: tuple[str, ...], seed: int, workers: int,
-    cluster: str | None, plot: str | None, as_json: bool, **how: Any,
+    cluster: str | None, plot: str | None, as_json: bool, enclosing: bool, enclose_width: str, **how: Any,
 ) -> int:  # fmt: skip
     """Integrate a seeker to its prescribed time.
 
     NAME is vanishing, nonvanishing or saturated, the paper's examples; anything else is read as a problem file.
-    The status is 0 if T was reached (by all members of an ensemble), 1 if not or if the field was larger on the way
-    than at the stated source, 2 for bad input, such as a stated source that certainly is no maximum of the field.
+    The status is 0 if T was reached (by all members of an ensemble) and the run is enclosed where that is asked for, 1
+    if not or if the field was larger on the way than at the stated source, 2 for bad input, such as a stated source
+    that certainly is no maximum of the field.
     """
+    from ptproof.commands import enclosing as enclosures
     from ptproof.commands.terminal import progress
     from ptproof.problem import example, load
     from ptproof.problem.doubts import run_doubt, source_doubt
@@ -74,6 +81,9 @@ def simulate(
     target = load(problem) if _is_file(problem) else example(problem)
     how["seeker"] = seeker or target.default_seeker
     result: Trajectory | Ensemble
+    enclosure: Enclosure | None = None
+    if enclosing and ensemble is not None:
+        raise InputError("--enclose: is about one run; leave out --ensemble")
     with _naming(problem):
         if (certain := source_doubt(target)) is not None:
             raise InputError(certain)
@@ -87,14 +97,23 @@ def simulate(
             raise InputError("--vary, --cluster: need --ensemble N, the number of members")
         else:
             result = run.simulate(target, **how)
+            if enclosing:
+                enclosure = enclosures.enclosed(target, enclose_width, how)
     if plot is not None:
-        save(result.plot().figure if isinstance(result, Ensemble) else overview(target, result), plot)
+        figure = result.plot().figure if isinstance(result, Ensemble) else overview(target, result)
+        if enclosure is not None:
+            enclosures.draw(figure, enclosure)
+        save(figure, plot)
     doubt = run_doubt(target, field_function(target.field)(result.x[:2]).tolist())
     data = as_data(result, problem) | {"doubt": doubt}
+    if enclosure is not None:
+        data["enclosure"] = enclosure.to_json()
     if as_json:
         options.print_json(data)
     else:
-        click.echo(_text(data, result))
+        click.echo("\n".join([_text(data, result), *(enclosures.words(enclosure) if enclosure is not None else [])]))
+    if enclosure is not None and str(enclosure.verdict) != "proved":
+        return 1
     outcomes = result.outcomes if isinstance(result, Ensemble) else (result.outcome,)
     return 0 if doubt is None and all(outcome is Outcome.REACHED for outcome in outcomes) else 1
 

@@ -8,6 +8,7 @@ import numpy as np
 
 Array = Any
 _FAST, _APART = 8.0, 2.0
+_NEAR, _CHANGE = 5.0, 4.0  # in powers of 2
 
 
 def split(jacobian: Array, length: float) -> tuple[Array, int]:
@@ -40,6 +41,25 @@ def split(jacobian: Array, length: float) -> tuple[Array, int]:
     if not np.all(np.isfinite(planes)) or np.linalg.cond(planes) > 1e10:
         return everything
     return scale[:, None] * planes, slow
+
+
+def scales(jacobians: Array, before: Array | None) -> Array:
+    """Units of the states, powers of 2, for Jacobians (N × n × n) whose entries are of very different sizes.
+
+    Only what is far off is scaled, and those from ``before`` are kept as long as they do: frames of errors do not like a
+    change of units.
+    """
+    from scipy import linalg
+
+    largest = np.abs(jacobians).max(axis=0)
+    if not np.all(np.isfinite(largest)):
+        return np.ones(len(largest)) if before is None else before
+    _, (found, _) = linalg.matrix_balance(largest, permute=False, separate=True)
+    powers = np.log2(found) - np.mean(np.log2(found))
+    powers = np.round(np.sign(powers) * np.maximum(np.abs(powers) - _NEAR, 0.0))
+    if before is not None and np.all(np.abs(powers - np.log2(before)) <= _CHANGE):
+        return before
+    return np.exp2(powers)
 
 
 def slow_part(jacobian: Array, length: float, slow: int) -> Array | None:

@@ -180,7 +180,8 @@ def _rates(tape: Tape, times: Sequence[arb], stages: arb_mat) -> arb_mat:
 
 
 def proposal(
-    trial: Trial, rates: arb_mat, centre: Sequence[arb], length: float, begin: Array, basis: Array
+    trial: Trial, rates: arb_mat, centre: Sequence[arb], length: float, begin: Array, basis: Array,
+    scale: Array,
 ) -> Proposal:
     """The polynomials of a solved step. ``rates`` (N × n) are those of :func:`refined`; ``begin`` (n × n) is the spread at
     the start: the identity, or less."""
@@ -200,7 +201,7 @@ def proposal(
     higher_terms = [part / (k + 1) for k, part in enumerate(terms)]
     first = begin - sum(part * (-1) ** (k + 1) for k, part in enumerate(higher_terms))
     spread = tuple(matrix(part) for part in (first, *higher_terms))
-    return Proposal(arb_mat(n, degree + 1, rows), spread, matrix(basis))
+    return Proposal(arb_mat(n, degree + 1, rows), spread, matrix(basis), matrix(np.diag(scale)))
 
 
 def extended(trial: Trial, begin: Array, before: float, length: float) -> Array:

@@ -18,7 +18,7 @@ from ptproof.balls.kinks import across, certainly_positive, lowest
 from ptproof.balls.region import Region
 from ptproof.balls.tape import Undefined
 from ptproof.certify.trajectory import collocation
-from ptproof.certify.trajectory.basis import slow_part, split
+from ptproof.certify.trajectory.basis import scales, slow_part, split
 from ptproof.certify.trajectory.collocation import DEGREE, Trial
 from ptproof.certify.trajectory.modes import Choices, Mode
 
@@ -78,7 +78,9 @@ class _Walk:
         self.length = march.length or self.whole / 1000
         self.last: tuple[Trial, Any, float] | None = None
         self.mode: Mode | None = None
-        self.retreat, self.event = 1e-11 * self.whole, None
+        self.scale: Any = None
+        self.retreat = 1e-11 * self.whole
+        self.event: float | None = None
         self.done, self.tries = False, 0
         self.bridge: tuple[arb, tuple[int, ...]] | None = None
         self.bridging = 1e-12 * self.whole
@@ -205,6 +207,7 @@ class _Walk:
     def proposal(self, mode: Mode, trial: Trial, exact: arb, begin: Any) -> Proposal:
         centre, length = self.march.region.centre, float(exact)
         rates = collocation.refined(trial, mode.plain, centre, self.now, exact)
+        self.scale = scales(trial.jacobians, self.scale)
         basis, slow = split(trial.jacobians[DEGREE // 2], length)
         kept = None
         if slow < len(basis):
@@ -212,7 +215,7 @@ class _Walk:
             kept = slow_part(first[0], length, slow)
         if kept is None:
             kept = np.eye(len(basis))
-        return collocation.proposal(trial, rates, centre, length, kept, basis)
+        return collocation.proposal(trial, rates, centre, length, kept, basis, self.scale)
 
     def crossing(self, mode: Mode, trial: Trial, length: float) -> tuple[float, float] | None:
         """How far away a guard vanishes first in the step, in floats, and how long its doubt lasts there; or None."""

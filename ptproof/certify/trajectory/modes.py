@@ -71,7 +71,8 @@ def _best(node: sp.Expr) -> Any:
 
 @lru_cache(maxsize=256)
 def _mode(choices: Choices, choice: tuple[int, ...]) -> Mode:
-    system, made, guards = choices.system, {}, []
+    system, guards = choices.system, []
+    made: dict[sp.Expr, sp.Expr] = {}
     for node, index in zip(choices.nodes, choice, strict=True):
         arguments = [argument.xreplace(made) for argument in node.args]
         if isinstance(node, sp.Abs):
