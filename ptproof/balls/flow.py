@@ -14,13 +14,18 @@ from flint import arb, arb_mat, arb_series
 from ptproof.balls.ball import interval
 from ptproof.balls.jet import JETS, Jet, variables
 from ptproof.balls.matrices import (
-    Growth, Vector, column, grown, identity, inverse, magnitudes, times,
+    Growth,
+    Vector,
+    grown,
+    identity,
+    inverse,
+    magnitudes,
+    times,
 )  # fmt: skip
 from ptproof.balls.polynomials import around, highest, largest, not_below, spectra
 from ptproof.balls.region import Region
 from ptproof.balls.series import SERIES, series_length
 from ptproof.balls.tape import Tape, Undefined, compile_tape, switching_part
-
 
 _JACOBIAN = 15  # so many coefficients of a Jacobian are told apart
 
@@ -62,12 +67,12 @@ class Proposal:
     path
         Coefficients of powers of s (n rows) of a polynomial near the solution from the centre of the region.
     spread
-        Coefficients (n × n each) of a matrix of polynomials near the derivative of the solution by its start. Directions
-        that die out within the step are better left out of it.
+        Coefficients (n × n each) of a matrix of polynomials near the derivative of the solution by its start.
+        Directions that die out within the step are better left out of it.
     basis
         The coordinates (columns, n × n) in which what is left is compared; they should tell fast from slow.
     metric
-        The coordinates in which the frame of the next region is orthogonal; they should change little from step to step.
+        The coordinates in which the frame of the next region is orthogonal; they should change little between steps.
     """
 
     path: arb_mat
@@ -106,17 +111,17 @@ class Piece:
 def flow(field: VectorField, region: Region, start: arb, length: arb, proposal: Proposal) -> tuple[Piece, Region]:
     """Enclose all solutions that start in ``region`` at ``start``, over a step of ``length``.
 
-    **Theorem.** Let x' = f(t, x), and p, P polynomials in s, t = start + (length/2)(1 + s). Write a solution that starts
-    in c + e₀ as x = p + P e₀ + S g. Then in s, with h = length/2 and J = ∂f/∂x(t, p),
+    **Theorem.** Let x' = f(t, x), and p, P polynomials in s, t = start + (length/2)(1 + s). Write a solution that
+    starts in c + e₀ as x = p + P e₀ + S g. Then in s, with h = length/2 and J = ∂f/∂x(t, p),
 
         g' = S⁻¹(h f(t, p) − p') + S⁻¹(h J P − P') e₀ + h S⁻¹ J S g + h S⁻¹ q,   |qᵢ| <= ½ Σ |∂ⱼ∂ₖfᵢ| |eⱼ| |eₖ|,
 
     with e = x − p and the second derivatives on the box around p and x (Taylor's theorem). The first two terms are
     bounded by the Taylor polynomials of f and J along p with Lagrange's remainder, whose coefficient is enclosed over
     the whole step; the third by the largest diagonal entries, and the largest magnitudes off the diagonal, of
-    h S⁻¹ J S along p; the fourth from a tube |g| <= ρ that is assumed. Hence D⁺|g| <= M|g| + δ as long as x stays in the
-    tube, and :func:`grown` bounds |g|. If that bound is below ρ, then:
-    each solution from ``region`` exists over the whole step, is unique and lies in the tube.
+    h S⁻¹ J S along p; the fourth from a tube |g| <= ρ that is assumed. Hence D⁺|g| <= M|g| + δ as long as x stays in
+    the tube, and :func:`grown` bounds |g|. If that bound is below ρ, then each solution from ``region`` exists over
+    the whole step, is unique and lies in the tube.
 
     *Proof.* f has continuous derivatives on the tube, where they are enclosed, so that there is one solution, which can
     be continued until it leaves the tube. Until then the inequality holds, so |g| stays below ρ: it does not leave. ∎

@@ -18,12 +18,12 @@ from ptproof.balls.tape import Tape, Undefined
 def across(tape: Tape, region: Region, start: arb, length: arb) -> tuple[Piece, Region]:
     """Enclose all solutions that start in ``region`` at ``start``, over a short step of ``length``.
 
-    **Theorem.** Let x' = f(t, x) with f continuous and piecewise smooth in x (sums, products, smooth functions, Max, Min
-    and Abs of such), so that f is Lipschitz where the enclosure J of its slopes, over both sides of every kink, is finite.
-    With p = c + v(t − start) and x = p + e₀ + g, |g|' <= length·(|f(t, p) − v| + |J| (|e₀| + |g|)) in the step's own time,
-    the diagonal of J with its sign, by the mean value theorem of Lebourg. The rest is as for
-    :func:`ptproof.balls.flow.flow`: where the bound of |g| is below the radii of the tube on which J was enclosed, each
-    solution exists over the step, is unique and lies in the tube.
+    **Theorem.** Let x' = f(t, x) with f continuous and piecewise smooth in x (sums, products, smooth functions, Max,
+    Min and Abs of such), so that f is Lipschitz where the enclosure J of its slopes, over both sides of every kink, is
+    finite. With p = c + v(t − start) and x = p + e₀ + g, D⁺|g| <= length·(|f(t, p) − v| + |J| (|e₀| + |g|)) in the
+    step's own time, with signs on the diagonal of J where it meets |g|, by the mean value theorem of Lebourg. The rest
+    is as for :func:`ptproof.balls.flow.flow`: where the bound of |g| is below the radii of the tube on which J was
+    enclosed, each solution exists over the step, is unique and lies in the tube.
 
     ``tape`` takes the time and n states and gives n rates. Raises :class:`Undefined` where this is not shown.
     """

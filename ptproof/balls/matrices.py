@@ -66,8 +66,9 @@ def grown(rates: arb_mat, source: Sequence[arb], start: Sequence[arb], duration:
     """Bounds of every continuous u >= 0 with u(0) <= start and D⁺u <= rates·u + source, entry by entry.
 
     ``rates`` (n × n, exact) has no negative entry off its diagonal, so that u stays below the solution of the linear
-    system with equality (Müller's comparison theorem): its value at the end comes from the exponential of a matrix. With
-    the negative entries of the diagonal replaced by zero that solution increases, so that its end bounds u on the way.
+    system with equality (Müller's comparison theorem): its value at the end comes from the exponential of a matrix.
+    With the negative entries of the diagonal replaced by zero that solution increases, so that its end bounds u on the
+    way.
 
     Raises :class:`Undefined` where a bound is not finite.
     """

@@ -9,7 +9,14 @@ import numpy as np
 from flint import arb, arb_mat
 
 from ptproof.balls.matrices import (
-    Vector, column, floats, identity, inverse, magnitudes, matrix, times,
+    Vector,
+    column,
+    floats,
+    identity,
+    inverse,
+    magnitudes,
+    matrix,
+    times,
 )  # fmt: skip
 from ptproof.balls.tape import Undefined
 
@@ -45,8 +52,8 @@ class Region:
         """A region with all ``ends`` + ``carried``·(B·r) + Σ matrix·[−radii, radii] over the ``rest``.
 
         In the coordinates whose axes are the columns of ``metric`` the new frame is orthogonal (Lohner): the longest
-        direction is kept as it is, so that errors along it do not spill over into the others. Without a metric the frame
-        is kept. Any frame would be right; only its inverse has to be enclosed.
+        direction is kept as it is, so that errors along it do not spill over into the others. Without a metric the
+        frame is kept. Any frame would be right; only its inverse has to be enclosed.
         """
         centre = tuple(ball.mid() for ball in ends)
         image, frame = carried * self.frame, self.frame

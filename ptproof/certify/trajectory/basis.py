@@ -46,8 +46,8 @@ def split(jacobian: Array, length: float) -> tuple[Array, int]:
 def scales(jacobians: Array, before: Array | None) -> Array:
     """Units of the states, powers of 2, for Jacobians (N × n × n) whose entries are of very different sizes.
 
-    Only what is far off is scaled, and those from ``before`` are kept as long as they do: frames of errors do not like a
-    change of units.
+    Only what is far off is scaled, and those from ``before`` are kept as long as they do: frames of errors do not like
+    a change of units.
     """
     from scipy import linalg
 

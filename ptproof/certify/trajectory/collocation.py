@@ -16,8 +16,8 @@ import sympy as sp
 from flint import arb, arb_mat, fmpq
 from numpy.polynomial import legendre
 
-from ptproof.balls.flow import Proposal
 from ptproof.balls.ball import BALLS
+from ptproof.balls.flow import Proposal
 from ptproof.balls.matrices import floats, matrix
 from ptproof.balls.tape import Tape, Undefined
 
@@ -31,9 +31,9 @@ _SPREAD = 13  # the degree of the spread, which is wanted to a few digits only
 class Scheme:
     """Nodes (N) on [−1, 1], the integrals from −1 to each node, and what turns values into coefficients.
 
-    ``integrals`` (N × N) maps the values at the nodes of a polynomial of degree N − 1 to its integrals; ``powers`` (N × N)
-    to its integrals;
-    ``exact`` and ``fine`` are
+    ``integrals`` (N × N) maps the values at the nodes of a polynomial of degree N − 1 to its integrals, ``spectrum``
+    to its coefficients of Legendre polynomials, and ``low`` (fewer rows) to the powers of the first of these; in balls
+    ``exact`` maps to its coefficients of powers, and ``fine`` to the integrals.
     """
 
     nodes: Array
@@ -121,7 +121,7 @@ def attempt(
     stages = np.array(guess, dtype=float)
     before, eye = np.inf, np.eye(degree * n)
     for turn in range(12):
-        f, jacobian, guards = rates.of(times, stages)
+        f, jacobian, _ = rates.of(times, stages)
         if not (np.all(np.isfinite(f)) and np.all(np.isfinite(jacobian))):
             return None
         solver = eye - half * np.einsum("ij,jab->iajb", plan.integrals, jacobian).reshape(degree * n, degree * n)
@@ -180,11 +180,18 @@ def _rates(tape: Tape, times: Sequence[arb], stages: arb_mat) -> arb_mat:
 
 
 def proposal(
-    trial: Trial, rates: arb_mat, centre: Sequence[arb], length: float, begin: Array, basis: Array,
+    trial: Trial,
+    rates: arb_mat,
+    centre: Sequence[arb],
+    length: float,
+    begin: Array,
+    basis: Array,
     scale: Array,
 ) -> Proposal:
-    """The polynomials of a solved step. ``rates`` (N × n) are those of :func:`refined`; ``begin`` (n × n) is the spread at
-    the start: the identity, or less."""
+    """The polynomials of a solved step.
+
+    ``rates`` (N × n) are those of :func:`refined`; ``begin`` (n × n) is the spread at the start: the identity, or less.
+    """
     degree, n = trial.stages.shape
     plan, half = scheme(degree), length / 2
     slopes = plan.exact * (rates * arb(half))  # the coefficients of p' as rows, one per power

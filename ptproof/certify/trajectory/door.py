@@ -134,7 +134,7 @@ def _enclosure(
     return Enclosure(
         Verdict.UNDECIDED if reason else Verdict.PROVED, reason or "enclosed to its end",
         tuple(symbol.name for symbol in system.state), system.time.name, tuple(times),
-        tuple(tuple(down(ball) for ball in row) for row in rows), tuple(tuple(up(ball) for ball in row) for row in rows),
+        tuple(tuple(map(down, row)) for row in rows), tuple(tuple(map(up, row)) for row in rows),
         tuple(march.pieces), tuple(march.switches), _BITS, seconds,
     )  # fmt: skip
 

@@ -46,8 +46,9 @@ class Switch:
 class March:
     """What has been enclosed so far, and how to go on.
 
-    ``ends`` has a ball for each state at the end of each piece. ``tolerance`` is the relative size at which the last terms of a step's polynomial are left out; ``deadline`` an
-    instant of the wall clock; ``progress`` is told the time that has been reached.
+    ``ends`` has a ball for each state at the end of each piece. ``tolerance`` is the relative size at which the last
+    terms of a step's polynomial are left out; ``deadline`` an instant of the wall clock; ``progress`` is told the time
+    that has been reached.
     """
 
     region: Region

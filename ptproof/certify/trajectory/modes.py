@@ -86,7 +86,8 @@ def _mode(choices: Choices, choice: tuple[int, ...]) -> Mode:
     symbols = (system.time, *system.state)
     return Mode(
         choice, VectorField.of(system.time, system.state, rates, guards),
-        Rates.compiled(system.time, system.state, rates, guards), compile_tape(guards, symbols), compile_tape(rates, symbols),
+        Rates.compiled(system.time, system.state, rates, guards), compile_tape(guards, symbols),
+        compile_tape(rates, symbols),
     )  # fmt: skip
 
 
