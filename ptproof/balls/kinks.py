@@ -8,9 +8,9 @@ import flint
 from flint import arb, arb_mat
 
 from ptproof.balls.ball import BALLS, interval
-from ptproof.balls.flow import Piece
 from ptproof.balls.jet import JETS, Jet, variables
 from ptproof.balls.matrices import Vector, grown, identity, magnitudes, times
+from ptproof.balls.pieces import Piece
 from ptproof.balls.region import Region
 from ptproof.balls.tape import Tape, Undefined
 

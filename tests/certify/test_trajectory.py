@@ -11,9 +11,10 @@ from flint import arb
 import ptproof
 from ptproof.balls import flow as flows
 from ptproof.balls.ball import ball_from
-from ptproof.balls.flow import Proposal, VectorField, flow
+from ptproof.balls.flow import flow
 from ptproof.balls.kinks import across
 from ptproof.balls.matrices import grown, identity, matrix
+from ptproof.balls.pieces import Proposal, VectorField
 from ptproof.balls.polynomials import not_below
 from ptproof.balls.region import Region
 from ptproof.balls.tape import compile_tape

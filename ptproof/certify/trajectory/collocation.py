@@ -17,8 +17,8 @@ from flint import arb, arb_mat, fmpq
 from numpy.polynomial import legendre
 
 from ptproof.balls.ball import BALLS
-from ptproof.balls.flow import Proposal
 from ptproof.balls.matrices import floats, matrix
+from ptproof.balls.pieces import Proposal
 from ptproof.balls.tape import Tape, Undefined
 
 Array = Any

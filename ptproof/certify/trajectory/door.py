@@ -11,6 +11,7 @@ import sympy as sp
 from flint import arb
 
 from ptproof.balls.ball import ball_from, interval
+from ptproof.balls.pieces import Piece
 from ptproof.balls.region import Region
 from ptproof.balls.rounding import down, up
 from ptproof.balls.tape import Undefined
@@ -75,7 +76,7 @@ def enclose(
     Raises
     ------
     InputError
-        For bad input, and for a right-hand side that may jump or has no enclosure.
+        For bad input, and for a right-hand side that may jump.
 
     Examples
     --------
@@ -91,6 +92,15 @@ def enclose(
     aim = _width(width)
     system, values, first, last = _asked(target, seeker, frame, initial, span, until, model)
     _plain(system)
+    return _closely(system, values, (first, last), aim, begin, seconds, progress)
+
+
+def _closely(
+    system: System, values: Mapping[str, Any], ends: tuple[sp.Expr, sp.Expr], aim: arb, begin: float, seconds: float,
+    progress: Callable[[float], None] | None,
+) -> Enclosure:  # fmt: skip
+    """Once more with smaller tolerances, as long as there is time, where the enclosure is not as close as asked for."""
+    first, last = ends
     with flint.ctx.workprec(_BITS):
         tolerance = min(max(float(aim) * 1e-5, _FINEST), _COARSEST)
         while True:
@@ -99,8 +109,7 @@ def enclose(
                 march.progress = _share(progress, float(ball_from(first)), float(ball_from(last)))
             reason = _through(march, system, first, last)
             found = _enclosure(march, system, values, first, reason, aim, clock.monotonic() - begin)
-            late = clock.monotonic() - begin > seconds / 3
-            if found.verdict is Verdict.PROVED or tolerance <= _FINEST or late:
+            if found.verdict is Verdict.PROVED or tolerance <= _FINEST or clock.monotonic() - begin > seconds / 3:
                 return found
             tolerance = max(tolerance / 30, _FINEST)
 
@@ -121,12 +130,11 @@ def _through(march: March, system: System, first: sp.Expr, last: sp.Expr) -> str
 def _enclosure(
     march: March, system: System, values: Mapping[str, Any], first: sp.Expr, reason: str, aim: arb, seconds: float
 ) -> Enclosure:
-    rows = [_balls(values)] + [piece.at(piece.start + piece.length) for piece in march.pieces]
-    # The region at a step's end is tighter than the tube of the step.
-    rows[1:] = march.ends
-    times = [float(ball_from(first))] + [float(piece.start + piece.length) for piece in march.pieces]
+    nodes = [_node(ball_from(first), _balls(values), march.pieces[:1], up)]
+    nodes += [_node(p.start + p.length, end, [p], down) for p, end in zip(march.pieces, march.ends, strict=True)]
+    times, rows = [time for time, _ in nodes], [row for _, row in nodes]
     wide = [
-        float(time) for time, row in zip(times, rows, strict=True)
+        time for time, row in zip(times, rows, strict=True)
         if not all(2 * ball.rad() <= aim * abs(ball).upper().max(arb(1)) for ball in row)
     ]  # fmt: skip
     if not reason and wide:
@@ -137,6 +145,18 @@ def _enclosure(
         tuple(tuple(map(down, row)) for row in rows), tuple(tuple(map(up, row)) for row in rows),
         tuple(march.pieces), tuple(march.switches), _BITS, seconds,
     )  # fmt: skip
+
+
+def _node(
+    instant: arb, box: list[arb], pieces: Sequence[Piece], inside: Callable[[arb], float]
+) -> tuple[float, list[arb]]:
+    """An instant as a float with the states then; where it is none, a float in the step beside it, and both states."""
+    time = float(instant.mid())
+    if instant == arb(time) or not pieces:
+        return time, box
+    time = inside(instant)
+    tube = pieces[0].at(interval(arb(time), instant))
+    return time, [a.union(b) for a, b in zip(box, tube, strict=True)]
 
 
 def _plain(system: System) -> None:

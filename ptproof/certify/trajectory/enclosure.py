@@ -11,7 +11,7 @@ import flint
 from flint import arb
 
 from ptproof.balls.ball import ball_from, interval
-from ptproof.balls.flow import Piece
+from ptproof.balls.pieces import Piece
 from ptproof.balls.rounding import down, up
 from ptproof.certify.trajectory.march import Switch
 from ptproof.errors import InputError
@@ -45,6 +45,14 @@ class Enclosure:
         The spans of time in which a Max, Min or Abs of the right-hand side changes its branch.
     bits, seconds
         The precision, and the wall time.
+
+    Examples
+    --------
+    >>> import ptproof
+    >>> run = ptproof.enclose("vanishing", "asymptotic", until="0.01")
+    >>> low, high = run.at("0.005")["x1"]
+    >>> str(run.verdict), low < high < low + 1e-6
+    ('proved', True)
     """
 
     verdict: Verdict

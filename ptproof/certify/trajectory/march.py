@@ -13,8 +13,9 @@ from flint import arb
 from numpy.polynomial import legendre
 
 from ptproof.balls.ball import ball_from
-from ptproof.balls.flow import GuardCrossed, Piece, Proposal, flow
+from ptproof.balls.flow import GuardCrossed, flow
 from ptproof.balls.kinks import across, certainly_positive, lowest
+from ptproof.balls.pieces import Piece, Proposal
 from ptproof.balls.region import Region
 from ptproof.balls.tape import Undefined
 from ptproof.certify.trajectory import collocation

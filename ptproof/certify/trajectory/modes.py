@@ -15,7 +15,7 @@ from flint import arb
 from sympy.core.relational import Relational
 
 from ptproof.balls.ball import BALLS, ball_from
-from ptproof.balls.flow import VectorField
+from ptproof.balls.pieces import VectorField
 from ptproof.balls.tape import METHODS, Tape, Undefined, compile_tape
 from ptproof.certify.trajectory.collocation import Rates
 from ptproof.errors import InputError
