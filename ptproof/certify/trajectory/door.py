@@ -31,18 +31,11 @@ _FINEST, _COARSEST = 2e-15, 1e-10
 
 
 def enclose(
-    target: Problem | System | str,
-    seeker: str | None = None,
-    frame: str = "t",
-    *,
-    initial: Mapping[str, Any] | Sequence[Any] | None = None,
-    span: tuple[Any, Any] | None = None,
-    until: Any = None,
-    model: str = "closed loop",
-    width: Any = "1e-6",
-    seconds: float = 60.0,
+    target: Problem | System | str, seeker: str | None = None, frame: str = "t", *,
+    initial: Mapping[str, Any] | Sequence[Any] | None = None, span: tuple[Any, Any] | None = None,
+    until: Any = None, model: str = "closed loop", width: Any = "1e-6", seconds: float = 60.0,
     progress: Callable[[float], None] | None = None,
-) -> Enclosure:
+) -> Enclosure:  # fmt: skip
     """Enclose a run rigorously: a theorem about the trajectory with these exact initial data.
 
     What is enclosed is the right-hand side that :func:`ptproof.simulate` integrates. Each step's theorem, with its
