@@ -2,11 +2,29 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
+
+from ptproof.errors import InputError
 
 if TYPE_CHECKING:
     from ptproof.certify.trajectory import Enclosure
     from ptproof.problem import Problem
+
+
+_NOT_SMOOTH = ("sample_time", "noise", "motion")
+
+
+def check(ensemble: int | None, how: Mapping[str, Any]) -> None:
+    """Refuse what is no single run of the closed loop itself."""
+    if ensemble is not None:
+        raise InputError("--enclose: is about one run; leave out --ensemble")
+    for name in _NOT_SMOOTH:
+        if how.get(name) is not None:
+            option = name.replace("_", "-")
+            raise InputError(
+                f"--enclose: is about the closed loop itself, as the problem states it; leave out --{option}"
+            )
 
 
 def enclosed(problem: Problem, width: str, how: dict[str, Any]) -> Enclosure:

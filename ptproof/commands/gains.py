@@ -82,9 +82,9 @@ def gains(problem: str | None, clock: str | None, plot: str | None, as_json: boo
     if as_json:
         options.print_json(content | {"residual": None if asked is None else asked.to_json()})
     else:
-        show()
         if asked is not None:
-            click.echo("\n" + "\n".join(asked.sentences))
+            click.echo("\n".join(asked.sentences) + "\n")
+        show()
     return 0 if answered and (asked is None or asked.is_met) else 1
 
 
@@ -195,11 +195,12 @@ def _problem_json(result: Study, simulated: Simulated) -> dict[str, Any]:
 
 
 def _table(answer: Gains) -> None:
+    """Every entry, with whose property it is in the first column."""
     import shutil
 
     from ptproof.gains.entries import ENTRIES, TITLES
 
-    room = max(24, shutil.get_terminal_size((110, 24)).columns - 56)
+    room = max(24, shutil.get_terminal_size((120, 24)).columns - 66)
     for section, entries in answer.values.items():
         click.secho(TITLES[section], bold=True)
         reasons = {answer.why.get(f"{section}.{key}") for key in entries}
@@ -211,19 +212,18 @@ def _table(answer: Gains) -> None:
             if quantity is not None:
                 shown, exact = quantity.text, str(quantity.exact)
                 beside = exact if len(exact) <= room else "" if shown else "a formula in tau; see --json"
-            row = f"  {ENTRIES[section][key].label:<38}{shown:>13}"
+            entry = ENTRIES[section][key]
+            row = f"  {entry.about:<9}{entry.label:<38}{shown:>13}"
             click.echo(f"{row}  {click.style(beside, dim=True)}" if beside else row)
 
 
 def _summary(result: Study, simulated: Simulated) -> None:
+    """The answer first: how far the average is at the end; then the constants, and everything else."""
     certificate, curve, worst = result.certificate, result.curve, simulated.worst
-    if result.answer is not None:
-        _table(result.answer)
-    status = "declared" if certificate is None else str(certificate.verdict)
-    click.echo(f"\nField constants: {status}, valid {result.condition}.")
-    if result.answer is None and certificate is not None:
-        click.echo(f"  {certificate.summary}")
-    click.echo(f"Distance of the averaged system at t₀ + T, from {float(curve.initial):.6g}, with drift and clip:")
+    click.secho(
+        f"The average at t₀ + T, from {float(curve.initial):.6g} away, with drift and clip (no bound of the vehicle):",
+        bold=True,
+    )
     names = {
         "printed": ("the paper's chain", "clip.residual_bound_printed"),
         "closed_form": ("closed form, sharper", "clip.residual_bound"),
@@ -240,7 +240,16 @@ def _summary(result: Study, simulated: Simulated) -> None:
         click.echo(f"  no worst simulated distance: {simulated.why}")
     else:
         click.echo(f"  {'worst simulated':<26} {worst:.6g}        (observed, not a bound)")
-    hover = float(result.problem.tuning.omega) ** -0.5
-    click.echo(f"  {'the vehicle circles at':<26} {hover:.6g}        (1/√ω, to leading order, around its average)")
     if str(curve.evidence.verdict) != "proved":
         click.echo(f"  the certified bound was {curve.evidence.detail}")
+    hover = float(result.problem.tuning.omega) ** -0.5
+    click.echo(
+        f"The vehicle circles around its average at about {hover:.6g} (1/√ω, to leading order; no theorem about its\n"
+        f"distance: that is what ptproof certify decides)."
+    )
+    status = "declared" if certificate is None else str(certificate.verdict)
+    click.echo(f"Field constants: {status}, valid {result.condition}.\n")
+    if result.answer is not None:
+        _table(result.answer)
+    elif certificate is not None:
+        click.echo(f"  {certificate.summary}")

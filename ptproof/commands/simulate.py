@@ -15,6 +15,7 @@ from ptproof.simulation.engines import names
 
 if TYPE_CHECKING:
     from ptproof.certify.trajectory import Enclosure
+    from ptproof.problem import Problem
     from ptproof.simulation import Ensemble, Trajectory
 
 
@@ -23,6 +24,14 @@ def _seeker(context: click.Context, option: click.Parameter, name: str | None) -
     from ptproof.problem.seekers import seekers_of
 
     return name and click.Choice(seekers_of("simulate")).convert(name, option, context)
+
+
+def _table(context: click.Context, option: click.Parameter, name: str | None) -> str | None:
+    from ptproof.simulation.saving import check_name
+
+    if name is not None:
+        check_name(name)
+    return name
 
 
 @click.command()
@@ -49,6 +58,22 @@ def _seeker(context: click.Context, option: click.Parameter, name: str | None) -
     help="What differs in an ensemble instead of theta; may be repeated.",
 )  # fmt: skip
 @click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Of what differs in an ensemble.")
+@click.option(
+    "--sample-time", metavar="TIME",
+    help="Measure the field at instants this far apart, and hold the inputs between them. [time]",
+)  # fmt: skip
+@click.option(
+    "--noise", metavar="NUMBER",
+    help="The standard deviation of noise on each measurement. [field]; without --sample-time, 20 samples in the "
+    "filter's time constant at its shortest.",
+)  # fmt: skip
+@click.option("--noise-seed", type=click.IntRange(0), default=0, show_default=True, help="Of the noise that is drawn.")
+@click.option(
+    "--motion", nargs=2, metavar="D1 D2", default=None,
+    help="A source that moves: how far from its place it is, two expressions in t, such as t/5 'sin(t)'.",
+)  # fmt: skip
+@click.option("--save", "save_as", metavar="FILE", callback=_table, help="Write the samples to a .csv or .npz file.")
+@click.option("--c-code", metavar="FILE", help="Write the feedback law, with the problem's numbers, as C to a file.")
 @click.option("--workers", type=click.IntRange(1, 1024), default=1, show_default=True, help="Threads for an ensemble.")
 @options.cluster
 @click.option("--time-limit", type=float, default=60.0, show_default=True, help="Seconds for each run.")
@@ -60,9 +85,10 @@ def _seeker(context: click.Context, option: click.Parameter, name: str | None) -
 @options.as_json
 def simulate(
     problem: str, seeker: str | None, ensemble: int | None, vary: tuple[str, ...], seed: int, workers: int,
-    cluster: str | None, plot: str | None, as_json: bool, enclosing: bool, enclose_width: str, **how: Any,
+    cluster: str | None, plot: str | None, save_as: str | None, c_code: str | None, as_json: bool, enclosing: bool,
+    enclose_width: str, **how: Any,
 ) -> int:  # fmt: skip
-    """Integrate a seeker to its prescribed time.
+    """Integrate a seeker to its prescribed time: the vehicle, and its average beside it.
 
     NAME is vanishing, nonvanishing or saturated, the paper's examples; anything else is read as a problem file.
     The status is 0 if T was reached (by all members of an ensemble) and the run is enclosed where that is asked for, 1
@@ -73,17 +99,17 @@ def simulate(
     from ptproof.commands.terminal import progress
     from ptproof.problem import example, load
     from ptproof.problem.doubts import run_doubt, source_doubt
-    from ptproof.simulation import Ensemble, Outcome, run
+    from ptproof.simulation import Ensemble, run
+    from ptproof.simulation.ccode import feedback_code
     from ptproof.simulation.drawing import save
     from ptproof.simulation.figures import overview
-    from ptproof.simulation.quantities import field_function
 
     target = load(problem) if _is_file(problem) else example(problem)
     how["seeker"] = seeker or target.default_seeker
     result: Trajectory | Ensemble
     enclosure: Enclosure | None = None
-    if enclosing and ensemble is not None:
-        raise InputError("--enclose: is about one run; leave out --ensemble")
+    if enclosing:
+        enclosures.check(ensemble, how)
     with _naming(problem):
         if (certain := source_doubt(target)) is not None:
             raise InputError(certain)
@@ -99,13 +125,18 @@ def simulate(
             result = run.simulate(target, **how)
             if enclosing:
                 enclosure = enclosures.enclosed(target, enclose_width, how)
+        beside = None if isinstance(result, Ensemble) else run.average_beside(target, result, **how)
+        if c_code is not None:
+            _write_code(c_code, feedback_code(target, how["seeker"]))
+    if save_as is not None:
+        result.save(save_as)
     if plot is not None:
-        figure = result.plot().figure if isinstance(result, Ensemble) else overview(target, result)
+        figure = result.plot().figure if isinstance(result, Ensemble) else overview(target, result, beside)
         if enclosure is not None:
             enclosures.draw(figure, enclosure)
         save(figure, plot)
-    doubt = run_doubt(target, field_function(target.field)(result.x[:2]).tolist())
-    data = as_data(result, problem) | {"doubt": doubt}
+    doubt = run_doubt(target, _measured(target, result))
+    data = as_data(result, problem, beside) | {"doubt": doubt}
     if enclosure is not None:
         data["enclosure"] = enclosure.to_json()
     if as_json:
@@ -115,11 +146,28 @@ def simulate(
     if enclosure is not None and str(enclosure.verdict) != "proved":
         return 1
     outcomes = result.outcomes if isinstance(result, Ensemble) else (result.outcome,)
-    return 0 if doubt is None and all(outcome is Outcome.REACHED for outcome in outcomes) else 1
+    return 0 if doubt is None and all(outcome.complete for outcome in outcomes) else 1
 
 
-def as_data(result: Trajectory | Ensemble, name: str) -> dict[str, Any]:
-    """The JSON of a result; numbers that are not finite become null."""
+def _measured(target: Problem, result: Trajectory | Ensemble) -> list[float]:
+    """The field along a run, or where the members of an ensemble ended, if its source rests."""
+    from ptproof.simulation import Ensemble
+    from ptproof.simulation.quantities import field_function
+
+    if not isinstance(result, Ensemble):
+        return [] if result.field is None else result.field.tolist()
+    return [] if "motion" in result.settings else field_function(target.field)(result.x[:2]).tolist()
+
+
+def _write_code(name: str, code: str) -> None:
+    try:
+        Path(name).write_text(code, "utf-8")
+    except OSError as error:
+        raise InputError(f"--c-code: {name} can't be written: {error.strerror or error}") from None
+
+
+def as_data(result: Trajectory | Ensemble, name: str, average: Trajectory | None = None) -> dict[str, Any]:
+    """The JSON of a result, and of the ``average`` beside it; numbers that are not finite become null."""
     from ptproof.simulation import Ensemble
 
     settings = result.settings
@@ -135,7 +183,17 @@ def as_data(result: Trajectory | Ensemble, name: str) -> dict[str, Any]:
     position = [_finite(float(value)) for value in result.x[:2, -1]]
     return data | {
         "outcome": str(result.outcome), "limit": result.limit and str(result.limit), "message": result.message,
-        "final": {"t": final["t"], "x": position, **wanted}, "seconds": round(result.seconds, 6),
+        "final": {"t": final["t"], "x": position, **wanted},
+        "source": None if result.source is None else [_finite(float(value)) for value in result.source[:, -1]],
+        "average": None if average is None else _beside(average), "seconds": round(result.seconds, 6),
+    }  # fmt: skip
+
+
+def _beside(average: Trajectory) -> dict[str, Any]:
+    final = average.final
+    return {
+        "outcome": str(average.outcome), "t": _finite(final["t"]),
+        "x": [_finite(float(value)) for value in average.x[:2, -1]], "distance": _finite(final["distance"]),
     }  # fmt: skip
 
 
@@ -184,8 +242,20 @@ def _text(data: dict[str, Any], result: Any) -> str:
     ]
     if data["message"]:
         rows.append(data["message"])
+    vehicle = "vehicle" if result.settings.get("model") == "closed loop" else result.settings.get("model")
     rows.append(f"x = ({', '.join(map(_shown, final['x']))})")
-    rows.append(f"field {_shown(final['field'])}, distance from the source {_shown(final['distance'])}")
+    if "motion" in result.settings:
+        rows.append(f"the source has moved to ({', '.join(map(_shown, data['source']))})")
+    rows.append(f"{vehicle}: field {_shown(final['field'])}, distance from the source {_shown(final['distance'])}")
+    if (average := data["average"]) is not None:
+        at = (
+            ""
+            if average["outcome"] == str(result.outcome)
+            else f" ({average['outcome']} at t = {_shown(average['t'])})"
+        )
+        rows.append(f"its average (not the vehicle): distance from the source {_shown(average['distance'])}{at}")
+    elif vehicle == "vehicle":
+        rows.append(f"no average stands beside it: the {data['seeker']} seeker's heading has dynamics of its own")
     return "\n".join(rows)
 
 

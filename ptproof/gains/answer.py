@@ -36,12 +36,13 @@ class Gains:
         return self.values[section][name]
 
     def to_json(self) -> dict[str, Any]:
-        """Sections of ``{"exact", "value"}`` or null, and ``why``."""
+        """Sections of ``{"exact", "value"}`` or null, ``why``, and whose property each is (``about``)."""
         sections = {
             section: {key: None if value is None else value.to_json() for key, value in entries.items()}
             for section, entries in self.values.items()
         }
-        return {**sections, "why": dict(self.why)}
+        about = {f"{section}.{key}": entry.about for section, table in ENTRIES.items() for key, entry in table.items()}
+        return {**sections, "why": dict(self.why), "about": about}
 
 
 def gains(data: GainData) -> Gains:

@@ -29,12 +29,16 @@ class Entry:
         The data without which it does not apply.
     check
         Raises :class:`NotApplicable` for other data to which it does not apply.
+    about
+        Whose property it is: the ``average``'s, which is what the theorems speak of, the ``vehicle``'s itself, the
+        ``field``'s or the ``clock``'s.
     """
 
     label: str
     formula: Callable[..., sp.Expr]
     needs: tuple[str, ...] = ()
     check: Callable[[GainData], None] | None = None
+    about: str = "average"
 
     def compute(self, data: GainData) -> sp.Expr:
         """The expression; raises :class:`NotApplicable` with the reason where there is none."""
@@ -214,13 +218,13 @@ def _nu_min_for_residual(data: GainData, residual: sp.Expr) -> sp.Expr:
 TITLES: Mapping[str, str] = MappingProxyType({
     "constants": "Constants", "asymptotic": "Asymptotic seeker", "prescribed_time": "Prescribed time",
     "critical": "Critical start and time", "nonvanishing": "Drift that does not vanish", "clip": "Clipped gain",
-    "vehicle": "The vehicle beside its average, to leading order",
+    "vehicle": "The vehicle around its average",
 })  # fmt: skip
 _TABLE: Mapping[str, Entry] = {
-    "constants.q": Entry("exponent q", lambda data: data.bounds.q),
-    "constants.sigma": Entry("exponent σ = 2q − 1", lambda data: data.bounds.sigma),
-    "constants.c1": Entry("c₁ = b₁/a₁^q", lambda data: data.bounds.c1),
-    "constants.c2": Entry("c₂ = b₂/a₂^q", lambda data: data.bounds.c2),
+    "constants.q": Entry("exponent q", lambda data: data.bounds.q, about="field"),
+    "constants.sigma": Entry("exponent σ = 2q − 1", lambda data: data.bounds.sigma, about="field"),
+    "constants.c1": Entry("c₁ = b₁/a₁^q", lambda data: data.bounds.c1, about="field"),
+    "constants.c2": Entry("c₂ = b₂/a₂^q", lambda data: data.bounds.c2, about="field"),
     "asymptotic.k_min_printed": Entry(
         "least k, as printed",
         lambda data: vanishing.smallest_gain_printed(data.bounds, data.norm), check=_along_gradient),
@@ -251,22 +255,23 @@ _TABLE: Mapping[str, Entry] = {
         "exact bound in τ", lambda data: nonvanishing.exact_bound_clipped(data) / sp.sqrt(data.bounds.a2),
         check=_one_drift),
     "clip.tau_end": Entry(
-        "τ reached at t₀ + T", lambda data, *_: data.t0 + data.horizon.stretched_end, ("T", "nu_min")),
+        "τ reached at t₀ + T", lambda data, *_: data.t0 + data.horizon.stretched_end, ("T", "nu_min"), about="clock"),
     "clip.k_effective": Entry(
-        "gain after the clip, k·dτ/dt", lambda data, k, _: k * data.unit.cap, ("k", "nu_min")),
+        "gain after the clip, k·dτ/dt", lambda data, k, _: k * data.unit.cap, ("k", "nu_min"), about="clock"),
     "clip.k_min_after_clip": Entry(
         "least k for convergence after the clip",
         lambda data, _: vanishing.smallest_gain(data.push) / data.unit.cap, ("nu_min",), _along_gradient),
     "clip.u1_peak": Entry(
-        "peak of u₁", lambda data, omega, _: sp.sqrt(omega) * data.unit.cap, ("omega", "nu_min")),
-    "clip.u2_peak": Entry("peak of |u₂| while r ≤ r₀", _u2_peak, ("omega", "nu_min", "k", "x0_norm")),
-    "clip.residual_bound": Entry("average at t₀ + T within", partial(_residual, chain="split")),
-    "clip.residual_bound_printed": Entry("average at t₀ + T within, as printed", partial(_residual, chain="printed")),
+        "peak of u₁", lambda data, omega, _: sp.sqrt(omega) * data.unit.cap, ("omega", "nu_min"), about="vehicle"),
+    "clip.u2_peak": Entry("peak of |u₂| while r ≤ r₀", _u2_peak, ("omega", "nu_min", "k", "x0_norm"), about="vehicle"),
+    "clip.residual_bound": Entry("at t₀ + T within", partial(_residual, chain="split")),
+    "clip.residual_bound_printed": Entry("at t₀ + T within, as printed", partial(_residual, chain="printed")),
     "clip.nu_min_for_residual": Entry(
-        "largest ν_min for the average's residual", _nu_min_for_residual, ("residual",)),
-    "vehicle.hover_radius": Entry("the vehicle circles at 1/√ω", _hover, ("omega",)),
+        "largest ν_min for the residual", _nu_min_for_residual, ("residual",)),
+    "vehicle.hover_radius": Entry("circles at 1/√ω, to leading order", _hover, ("omega",), about="vehicle"),
     "vehicle.omega_for_residual": Entry(
-        "least ω with 1/√ω within the residual", lambda data, residual: 1 / residual**2, ("residual",)),
+        "least ω with 1/√ω within the residual", lambda data, residual: 1 / residual**2, ("residual",),
+        about="vehicle"),
 }  # fmt: skip
 ENTRIES: Mapping[str, Mapping[str, Entry]] = MappingProxyType({
     section: {key.split(".")[1]: entry for key, entry in _TABLE.items() if key.startswith(f"{section}.")}

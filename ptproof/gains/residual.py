@@ -89,9 +89,9 @@ class Residual:
         """The same for people."""
         name = f"Residual {self.wanted} at t₀ + T"
         if self.average_meets_it:
-            first = f"{name}: guaranteed for the averaged system."
+            first = f"{name}: proved of the average. Of the vehicle it is not."
         else:
-            first = f"{name}: not guaranteed by these bounds, not even for the averaged system."
+            first = f"{name}: not shown by these bounds, not even for the average."
         circle = "The vehicle itself circles around its average at about 1/√ω, which is no theorem about its distance"
         least = f"{float(self.omega_needed):.6g}"
         if self.omega is None:

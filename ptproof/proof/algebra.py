@@ -18,7 +18,8 @@ from typing import Any
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ptproof.proof.powers import exponent_terms, fraction, positive_multiples, split_masked, symbolic_power
+from ptproof.proof.content import digest
+from ptproof.proof.powers import exponent_terms, fraction, positive_multiples, split_powers, symbolic_power
 
 _COMPARISONS = (sp.LessThan, sp.StrictLessThan, sp.GreaterThan, sp.StrictGreaterThan)
 
@@ -52,13 +53,20 @@ def prepare(expression: sp.Expr) -> sp.Expr:
         for function, written in _WRITTEN.items():
             expression = expression.replace(function, written)
     # One function at two equal arguments has to become one generator.
-    expression = expression.replace(
-        lambda node: isinstance(node, AppliedUndef),
-        lambda node: node.func(*(sp.factor(sp.cancel(sp.together(argument))) for argument in node.args)),
-    )
+    if not all(argument.is_Symbol for node in expression.atoms(AppliedUndef) for argument in node.args):
+        expression = expression.replace(
+            lambda node: isinstance(node, AppliedUndef), lambda node: node.func(*map(_factored, node.args))
+        )
+    if not expression.has(sp.sin, sp.cos):
+        return expression
     return expression.replace(
         lambda node: isinstance(node, sp.sin | sp.cos), lambda node: _angle(node.func, node.args[0])
     )
+
+
+@lru_cache(maxsize=4096)
+def _factored(argument: sp.Expr) -> sp.Expr:
+    return argument if argument.is_Symbol else sp.factor(sp.cancel(sp.together(argument)))
 
 
 def _by_comparisons(expression: sp.Piecewise) -> bool:
@@ -86,6 +94,71 @@ def _angle(function: type, argument: sp.Expr) -> sp.Expr:
     return sp.expand_trig(function(sp.Add(*terms)))
 
 
+_letters: dict[Any, sp.Dummy] = {}
+
+
+def _letter(meaning: sp.Expr, **assumptions: bool) -> sp.Dummy:
+    """The symbol for this meaning, the same one in every problem: what is found out about it is found out once.
+
+    Its name says what it stands for, so that problems are written in the same order in every run.
+    """
+    key = (meaning, tuple(sorted(assumptions.items())))
+    if key not in _letters:
+        _letters[key] = sp.Dummy(f"g{digest(meaning)[:16]}", **assumptions)
+    return _letters[key]
+
+
+@dataclass(frozen=True)
+class _Read:
+    """An expression with letters for values and derivatives of undefined functions, and the powers in it."""
+
+    expression: sp.Expr
+    letters: tuple[tuple[sp.Expr, sp.Dummy], ...]
+    powers: tuple[tuple[sp.Expr, sp.Expr], ...]
+
+
+@lru_cache(maxsize=8192, typed=True)
+def _read(expression: sp.Expr) -> _Read:
+    """The expression, prepared and masked before anything can rewrite the insides of functions, its powers split."""
+    prepared = prepare(expression)
+    nodes = sorted(prepared.atoms(AppliedUndef, sp.Derivative, sp.Subs), key=sp.default_sort_key)
+    letters = {node: _letter(node, **_known_of(node)) for node in nodes}
+    split = split_powers(prepared.xreplace(letters))
+    pairs = map(symbolic_power, sp.preorder_traversal(split))
+    return _Read(split, tuple(letters.items()), tuple(pair for pair in pairs if pair is not None))
+
+
+@dataclass(frozen=True)
+class _Roots:
+    """Exponents of one base as integer combinations: their common denominator, and for each monomial a root."""
+
+    common: sp.Expr
+    roots: tuple[tuple[sp.Expr, sp.Expr, int, bool, str | None], ...]
+
+
+@lru_cache(maxsize=8192)
+def _roots_of(base: sp.Expr, exponents: tuple[sp.Expr, ...]) -> _Roots:
+    """Exponents e_j such that every exponent of this base is an integer combination of them."""
+    common: sp.Expr = sp.S.One
+    for _, denominator in map(fraction, exponents):
+        if denominator != 1:
+            common = sp.lcm(common, denominator)
+    if not base.is_positive and positive_multiples(exponents):
+        common = 1 / exponents[0]  # no quotient of roots, which says nothing where the base is 0
+    parts: dict[sp.Expr, list[sp.Rational]] = defaultdict(list)
+    for exponent in exponents:
+        for monomial, coefficient in exponent_terms(exponent, common):
+            parts[monomial].append(coefficient)
+    roots = []
+    for monomial, coefficients in parts.items():
+        lcm = int(sp.ilcm(1, *(coefficient.q for coefficient in coefficients)))
+        sign = "positive" if base.is_positive else "nonnegative" if base.is_nonnegative else None
+        # A quotient of real numbers is real wherever it is defined.
+        real = bool(monomial.is_real and (common.is_real or (1 / common).is_real))
+        roots.append((monomial, base ** (monomial / common / lcm), lcm, real, sign))
+    return _Roots(common, tuple(roots))
+
+
 @dataclass
 class Generators:
     """The generators met so far, the symbols that stand for them, and their relations.
@@ -100,7 +173,7 @@ class Generators:
     relations: list[tuple[sp.Symbol, sp.Expr]] = field(default_factory=list)
     meaning: dict[sp.Symbol, sp.Expr] = field(default_factory=dict)
     bases: dict[sp.Symbol, sp.Expr] = field(default_factory=dict)
-    _powers: dict[sp.Expr, list[sp.Expr]] = field(default_factory=lambda: defaultdict(list))
+    _powers: dict[sp.Expr, dict[sp.Expr, None]] = field(default_factory=lambda: defaultdict(dict))
     _roots: dict[sp.Expr, dict[sp.Expr, tuple[sp.Symbol, int]]] = field(default_factory=dict)
     _denominators: dict[sp.Expr, sp.Expr] = field(default_factory=dict)
     _branches: dict[sp.Expr, sp.Expr] = field(default_factory=dict)
@@ -108,53 +181,37 @@ class Generators:
     def symbol(self, meaning: sp.Expr, **assumptions: bool) -> sp.Symbol:
         """The symbol that stands for ``meaning``; the same one each time."""
         if meaning not in self.symbols:
-            generator = sp.Dummy(f"g{len(self.symbols)}", **assumptions)
-            self.symbols[meaning] = generator
-            self.meaning[generator] = meaning
+            self._take(meaning, _letter(meaning, **assumptions))
         return self.symbols[meaning]
+
+    def _take(self, meaning: sp.Expr, letter: sp.Dummy) -> None:
+        self.symbols[meaning] = letter
+        self.meaning[letter] = meaning
 
     def read(self, expressions: Iterable[sp.Expr]) -> list[sp.Expr]:
         """Prepare the expressions and note each base with all exponents that it carries."""
-        prepared = [split_masked(self._mask(prepare(expression)), self.meaning) for expression in expressions]
-        for expression in prepared:
-            for node in sp.preorder_traversal(expression):
-                pair = symbolic_power(node)
-                if pair is not None:
-                    self._powers[pair[0]].append(pair[1])
+        found = [_read(expression) for expression in expressions]
+        for item in found:
+            for meaning, letter in item.letters:
+                if meaning not in self.symbols:
+                    self._take(meaning, letter)
+            for base, exponent in item.powers:
+                self._powers[base][exponent] = None
         for base, exponents in self._powers.items():
             # A positive base is itself one of its powers, so that it is written by the same generators. A base that
             # may be 0 is not: it could come out as a quotient of generators that vanish.
             itself = [sp.S.One] if base.is_positive and base is not sp.E else []
-            self._choose_roots(base, [*exponents, *itself])
-        return prepared
+            self._choose_roots(base, tuple(dict.fromkeys([*exponents, *itself])))
+        return [item.expression for item in found]
 
-    def _mask(self, expression: sp.Expr) -> sp.Expr:
-        """Put symbols for values and derivatives of undefined functions, before anything can rewrite their insides."""
-        nodes = sorted(expression.atoms(AppliedUndef, sp.Derivative, sp.Subs), key=sp.default_sort_key)
-        return expression.xreplace({node: self.symbol(node, **_known_of(node)) for node in nodes})
-
-    def _choose_roots(self, base: sp.Expr, exponents: Sequence[sp.Expr]) -> None:
-        """Find exponents e_j such that every exponent of this base is an integer combination of them."""
-        fractions = [fraction(exponent) for exponent in exponents]
-        common = sp.Integer(1)
-        for _, denominator in fractions:
-            common = sp.lcm(common, denominator)
-        if not base.is_positive and positive_multiples(exponents):
-            common = 1 / exponents[0]  # no quotient of roots, which says nothing where the base is 0
-        parts: dict[sp.Expr, list[sp.Rational]] = defaultdict(list)
-        for exponent in exponents:
-            for monomial, coefficient in exponent_terms(exponent, common):
-                parts[monomial].append(coefficient)
-        self._denominators[base] = common
+    def _choose_roots(self, base: sp.Expr, exponents: tuple[sp.Expr, ...]) -> None:
+        """Symbols for roots of the base, by which every power of it is written."""
+        chosen = _roots_of(base, exponents)
+        self._denominators[base] = chosen.common
         self._roots[base] = {}
-        for monomial, coefficients in parts.items():
-            lcm = int(sp.ilcm(1, *(coefficient.q for coefficient in coefficients)))
-            root = base ** (monomial / common / lcm)
-            sign = "positive" if base.is_positive else "nonnegative" if base.is_nonnegative else None
-            # A quotient of real numbers is real wherever it is defined.
-            known = {sign: True} if sign and monomial.is_real and (common.is_real or (1 / common).is_real) else {}
-            generator = self.symbol(root, **known)
-            self._roots[base][monomial] = (generator, lcm)
+        for monomial, root, degree, real, sign in chosen.roots:
+            generator = self.symbol(root, **({sign: True} if sign and real else {}))
+            self._roots[base][monomial] = (generator, degree)
             if not base.is_nonnegative:
                 self.bases[generator] = base
 
@@ -286,6 +343,11 @@ def is_zero(expression: sp.Expr) -> bool:
     >>> is_zero(sp.cos(2 * x) - 1 + sp.sin(x) ** 2)
     False
     """
+    return _vanishes(sp.sympify(expression))
+
+
+@lru_cache(maxsize=4096, typed=True)
+def _vanishes(expression: sp.Expr) -> bool:
     generators = Generators()
     (prepared,) = generators.read([expression])
     numerator, denominator = sp.fraction(sp.together(generators.rational(prepared)))

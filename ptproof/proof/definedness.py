@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass, replace
+from functools import cached_property, lru_cache
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -60,7 +61,7 @@ class Obligation:
             return exponent.is_positive is not None
         return bool(exponent.is_integer and exponent.is_negative)
 
-    @property
+    @cached_property
     def settled(self) -> bool:
         """Whether what the symbols are declared to be is enough."""
         if self.relation is None:
@@ -129,12 +130,19 @@ def obligations(
                 yield need
 
 
-def domain_of(relation: Relation, shown: Collection[sp.Basic] = ()) -> Iterator[Obligation]:
+def domain_of(relation: Relation, shown: Collection[sp.Basic] = ()) -> tuple[Obligation, ...]:
     """What has to hold for both sides of a relation to be defined and real, and is not plain from declarations."""
-    for side in (relation.left, relation.right):
-        if isinstance(relation.left, sp.Limit | sp.Integral) and side in (sp.oo, -sp.oo):
-            continue  # the value of a limit or an integral may be infinite
-        yield from (need for need in obligations(side, shown) if not need.settled)
+    return _domain(relation, frozenset(shown))
+
+
+@lru_cache(maxsize=8192)
+def _domain(relation: Relation, shown: frozenset[sp.Basic]) -> tuple[Obligation, ...]:
+    sides = [
+        side for side in (relation.left, relation.right)
+        # The value of a limit or an integral may be infinite.
+        if not (isinstance(relation.left, sp.Limit | sp.Integral) and side in (sp.oo, -sp.oo))
+    ]  # fmt: skip
+    return tuple(need for side in sides for need in obligations(side, shown) if not need.settled)
 
 
 def _of(node: sp.Basic, place: _Place) -> Iterator[Obligation]:

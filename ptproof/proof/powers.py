@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from functools import lru_cache
-from typing import Any
 
 import sympy as sp
 
@@ -35,22 +34,6 @@ def fraction(exponent: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
 @lru_cache(maxsize=4096)
 def _factored(base: sp.Expr) -> sp.Expr:
     return sp.factor(sp.together(base))
-
-
-_standards: dict[Any, sp.Dummy] = {}
-
-
-def _standard(meaning: sp.Expr, symbol: sp.Symbol) -> sp.Dummy:
-    """One symbol of the same kind for this meaning, known nowhere outside of this module."""
-    kind = tuple(sorted(symbol._assumptions_orig.items()))
-    return _standards.setdefault((meaning, kind), sp.Dummy("s", **dict(kind)))
-
-
-def split_masked(expression: sp.Expr, meaning: Mapping[sp.Symbol, sp.Expr]) -> sp.Expr:
-    """:func:`split_powers`, done once for expressions that differ only in the names of symbols with one meaning."""
-    stands = {symbol: _standard(meaning[symbol], symbol) for symbol in expression.free_symbols & {*meaning}}
-    split = split_powers(expression.xreplace(stands))
-    return split.xreplace({standard: symbol for symbol, standard in stands.items()})
 
 
 @lru_cache(maxsize=4096)

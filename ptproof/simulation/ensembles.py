@@ -11,7 +11,8 @@ import numpy as np
 from ptproof.errors import InputError
 from ptproof.simulation.engines import engine_named
 from ptproof.simulation.numbers import as_float, as_floats
-from ptproof.simulation.plan import Array, Batch, Finals, Plan
+from ptproof.simulation.plan import Array, Batch, Engine, Finals, Plan
+from ptproof.simulation.sampled import SAMPLED
 
 # A task of a cluster: a multiple of every engine's own group size, so that the numbers stay the same.
 _TASK = 64
@@ -63,7 +64,12 @@ def headings(size: int) -> Array:
 
 def run_block(engine: str, plan: Plan, batch: Batch, workers: int) -> Finals:
     """One block on one machine; a top-level function, so that a cluster can call it."""
-    return engine_named(engine).finals(plan, batch, workers)
+    return engine_for(plan, engine).finals(plan, batch, workers)
+
+
+def engine_for(plan: Plan, name: str) -> Engine:
+    """What carries the plan out: the engine of that name, or what sampled loops are for."""
+    return SAMPLED if plan.sampling is not None else engine_named(name)
 
 
 def run_blocks(
@@ -74,7 +80,7 @@ def run_blocks(
     With ``client``, a ``distributed.Client``, each block is a task of that cluster; the scheduler repeats the
     blocks of a worker that is lost.
     """
-    size = engine_named(engine).block if client is None else _TASK
+    size = engine_for(plan, engine).block if client is None else _TASK
     blocks = [batch.slice(i, min(i + size, batch.size)) for i in range(0, batch.size, size)]
     done = progress or (lambda _: None)
     if client is None:

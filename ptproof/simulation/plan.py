@@ -5,11 +5,12 @@ from __future__ import annotations
 import itertools
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 import numpy.typing as npt
+import sympy as sp
 from sympy.core.relational import Relational
 
 from ptproof.errors import InputError
@@ -17,6 +18,25 @@ from ptproof.simulation.settings import Limit, Outcome, Settings, Stop
 from ptproof.system import System
 
 Array = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Sampling:
+    """How a loop is sampled.
+
+    Attributes
+    ----------
+    held
+        What is computed at each instant, in this order, from the states there and what stands before it.
+    inputs
+        Which of these the vehicle is given, by name.
+    rates
+        The states' rates between two instants (n).
+    """
+
+    held: tuple[tuple[sp.Symbol, sp.Expr], ...]
+    inputs: tuple[tuple[str, int], ...]
+    rates: tuple[sp.Expr, ...]
 
 
 @dataclass(frozen=True)
@@ -35,6 +55,8 @@ class Plan:
         A power of ten by which relative tolerances shrink, since an angle counts absolutely however far it has turned.
     conditions
         The conditions of choices in the right-hand side that change at the inner edges of a member, and only there.
+    sampling
+        How the loop is sampled, if it is; then it is a map from sample to sample and no engine takes it.
     """
 
     system: System
@@ -44,6 +66,7 @@ class Plan:
     radius: float
     tightening: float = 1.0
     conditions: tuple[Relational, ...] = ()
+    sampling: Sampling | None = None
 
     def distance(self, x: Array) -> Array:
         """The distance of the watched states from the center, for x (n × …)."""
@@ -123,11 +146,12 @@ class Batch:
 
 @dataclass(frozen=True)
 class Run:
-    """One member's answer: times (m), states (n × m), and why it stopped."""
+    """One member's answer: times (m), states (n × m), why it stopped, and the inputs (m) where they were held."""
 
     time: Array
     x: Array
     stop: Stop
+    inputs: Mapping[str, Array] | None = None
 
 
 @dataclass

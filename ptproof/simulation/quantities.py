@@ -34,6 +34,13 @@ def field_function(field: Field) -> Callable[[Array], Array]:
 
 
 @lru_cache(maxsize=64)
+def motion_function(motion: tuple[sp.Expr, ...]) -> Callable[[Array], Array]:
+    """How far a source that moves is from its place, (n × …) for times t."""
+    functions = [_vectorised(entry, (TIME,)) for entry in motion]
+    return lambda t: np.array([_spread(function, t, t) for function in functions])
+
+
+@lru_cache(maxsize=64)
 def input_function(
     field: Field, seeker: Seeker, clock: Clock | CappedClock, states: Letters, order: tuple[sp.Symbol, ...]
 ) -> Callable[[Array, Array, Mapping[str, float]], dict[str, Array]]:

@@ -11,7 +11,7 @@ from ptproof.errors import InputError
 from ptproof.problem import Problem, example
 from ptproof.simulation.numbers import as_float, by_name
 from ptproof.simulation.settings import Settings
-from ptproof.simulation.setup import Setup, from_problem, from_system
+from ptproof.simulation.setup import Setup, default_sample_time, from_problem, from_system
 from ptproof.system import System
 
 
@@ -36,6 +36,16 @@ class Question:
         For a problem: another end than t₀ + T, in t.
     nu_end
         For a gain that is never clipped: the ν at which the run stops, since no run reaches T.
+    motion
+        For a problem whose source moves: how far it is from its place, an expression in t for each coordinate
+        (:func:`ptproof.problem.moving.moving_source`). [length]
+    sample_time
+        For a closed loop that is sampled in t: the time between two measurements; the inputs are held between them.
+        Left out where there is ``noise``, it is a twentieth of the filter's time constant at its fastest. [time]
+    noise
+        The standard deviation of what is added to each measurement of the field, drawn anew at each sample.
+    noise_seed
+        Of what is drawn.
     """
 
     target: Problem | System | str
@@ -48,6 +58,10 @@ class Question:
     span: tuple[Any, Any] | None = None
     until: Any = None
     nu_end: float | None = None
+    motion: tuple[Any, ...] | None = None
+    sample_time: Any = None
+    noise: Any = None
+    noise_seed: int = 0
 
     @property
     def problem(self) -> Problem | None:
@@ -59,7 +73,7 @@ class Question:
     @property
     def plain(self) -> bool:
         """Whether it is a problem with its own numbers, so that it need be prepared once only."""
-        changes = (self.initial, self.parameters, self.span, self.until)
+        changes = (self.initial, self.parameters, self.span, self.until, self.motion, self.sample_time, self.noise)
         return self.problem is not None and all(change is None for change in changes)
 
     def setup(self) -> Setup:
@@ -68,6 +82,10 @@ class Question:
         Raises :class:`InputError` for what does not fit together.
         """
         if isinstance(self.target, System):
+            if self.motion is not None or self.sampled:
+                raise InputError(
+                    "motion, sample_time, noise: need a problem, whose field is measured; this is a system"
+                )
             return from_system(self.target, self.initial, self.span, self.parameters)
         problem = self.problem
         if problem is None:
@@ -76,9 +94,38 @@ class Question:
         if self.span is not None:
             raise InputError("span: a problem has its own; use until= for another end")
         until = None if self.until is None else as_float(self.until, "until")
-        return self._with_values(
-            _setup(problem, self.seeker, self.frame, self.coordinates, self.model, until, self.nu_end)
-        )
+        setup = _setup(
+            problem, self.seeker, self.frame, self.coordinates, self.model, until, self.nu_end,
+            None if self.motion is None else tuple(self.motion), self.sampled,
+        )  # fmt: skip
+        if self.sampled:
+            setup = replace(setup, defaults=dict(setup.defaults) | self._sampling(problem, setup))
+            setup = replace(setup, free=tuple(dict.fromkeys((*setup.free, *setup.defaults))))
+        return self._with_values(setup)
+
+    @property
+    def sampled(self) -> bool:
+        """Whether the loop is sampled."""
+        return self.sample_time is not None or self.noise is not None
+
+    def _sampling(self, problem: Problem, setup: Setup) -> dict[str, float]:
+        """The parameters of a sampled run, by name."""
+        noise = 0.0 if self.noise is None else as_float(self.noise, "noise")
+        if noise < 0:
+            raise InputError(f"noise: a standard deviation is not negative, got {noise:g}")
+        if (
+            isinstance(self.noise_seed, bool)
+            or not isinstance(self.noise_seed, int)
+            or not 0 <= self.noise_seed < 2**53
+        ):
+            raise InputError(f"noise_seed: expected an integer from 0 to 2^53, got {self.noise_seed!r}")
+        if self.sample_time is None:
+            length = default_sample_time(problem, self.seeker, setup)
+        else:
+            length = as_float(self.sample_time, "sample_time")
+        if length <= 0:
+            raise InputError(f"sample_time: must be positive, got {length:g}")
+        return {"sample_time": length, "noise": noise, "noise_seed": float(self.noise_seed)}
 
     def _with_values(self, setup: Setup) -> Setup:
         if self.initial is not None and not isinstance(self.initial, Mapping):
@@ -106,6 +153,10 @@ class Options(TypedDict, total=False):
     span: tuple[Any, Any] | None
     until: Any
     nu_end: float | None
+    motion: tuple[Any, ...] | None
+    sample_time: Any
+    noise: Any
+    noise_seed: int
     settings: Settings
     rtol: float | str
     atol: float | str | None

@@ -14,11 +14,12 @@ import numpy as np
 from ptproof.errors import InputError
 from ptproof.problem import Problem
 from ptproof.problem import parameters as loop_parameters
-from ptproof.simulation.engines import engine_named, fitting
-from ptproof.simulation.ensembles import Progress, members, run_blocks
+from ptproof.simulation.engines import fitting
+from ptproof.simulation.ensembles import Progress, engine_for, members, run_blocks
 from ptproof.simulation.plan import Array, Batch, Plan, Work
 from ptproof.simulation.question import Options, Question, asked
-from ptproof.simulation.settings import Limit, Outcome, Settings, Stop
+from ptproof.simulation.sampled import NOISE_SEED, noise_seeds
+from ptproof.simulation.settings import Outcome, Settings
 from ptproof.simulation.setup import Setup
 from ptproof.simulation.trajectory import Ensemble, Trajectory
 from ptproof.system import System
@@ -65,7 +66,7 @@ def simulate(
     question, settings = asked(target, {**options, "seeker": seeker, "frame": frame})
     job = (_once if question.plain else _job)(question, settings)
     begin = clock.perf_counter()
-    run = engine_named(job.engine).trajectory(job.plan, job.batch)
+    run = engine_for(job.plan, job.engine).trajectory(job.plan, job.batch)
     return _trajectory(job, run, clock.perf_counter() - begin)
 
 
@@ -112,21 +113,48 @@ def ensemble(
     """
     question, settings = asked(target, {**options, "seeker": seeker, "frame": frame})
     setup = question.setup()
+    varied = _varied(question, setup, size, seed, vary)
+    job = _job(question, settings, setup, size, varied)
+    begin = clock.perf_counter()
+    finals = run_blocks(job.engine, job.plan, job.batch, workers, client, progress)
+    seconds = clock.perf_counter() - begin
+    reached = setup.ended(job.table).outcome
+    outcomes = tuple(reached if outcome is Outcome.REACHED else outcome for outcome in finals.outcomes)
+    t = finals.time if setup.to_t is None else setup.to_t(finals.time, job.table)
+    x = finals.x if setup.shift is None else _shifted(setup, finals.x, t)
+    return Ensemble(
+        t, x, job.states, outcomes, job.plan.distance(finals.x), varied, job.about | {"seed": seed}, seconds
+    )
+
+
+def average_beside(
+    target: Problem, vehicle: Trajectory, seeker: str | None = None, **options: Unpack[Options]
+) -> Trajectory | None:
+    """The average of a problem's closed loop over the same time as a ``vehicle``'s run, which it is not.
+
+    None where the run is no closed loop's, or its seeker has no average. What is measured with noise, or sampled, is
+    averaged as if it were not.
+    """
+    about = vehicle.settings
+    if about.get("model") != "closed loop" or not target.seeker(about["seeker"]).averaged:
+        return None
+    ideal: Any = {name: value for name, value in options.items() if name not in _OF_THE_VEHICLE}
+    return simulate(target, about["seeker"], about["frame"], **(ideal | {"model": "average"}))
+
+
+_OF_THE_VEHICLE = {"model", "frame", "engine", "sample_time", "noise", "noise_seed", "coordinates"}
+
+
+def _varied(question: Question, setup: Setup, size: int, seed: int, vary: Mapping[str, Any] | None) -> dict[str, Array]:
+    """What differs, by name (N each): a problem's headings where nothing is named, and the noise."""
     if not vary:
         if question.problem is None or "theta" not in setup.free:
             raise InputError("vary: say what differs between the members, such as {'x': (-1, 1)}")
         vary = {"theta": _HEADINGS}
     varied = members(size, seed, vary, setup.free)
-    job = _job(question, settings, setup, size, varied)
-    begin = clock.perf_counter()
-    finals = run_blocks(job.engine, job.plan, job.batch, workers, client, progress)
-    seconds = clock.perf_counter() - begin
-    reached = Outcome.REACHED if setup.complete else Outcome.STEP_LIMIT
-    outcomes = tuple(reached if outcome is Outcome.REACHED else outcome for outcome in finals.outcomes)
-    t = finals.time if setup.to_t is None else setup.to_t(finals.time, job.table)
-    return Ensemble(
-        t, finals.x, job.states, outcomes, job.plan.distance(finals.x), varied, job.about | {"seed": seed}, seconds
-    )
+    if question.sampled and NOISE_SEED.name not in varied:
+        varied |= {NOISE_SEED.name: noise_seeds(size, seed, question.noise_seed)}
+    return varied
 
 
 @dataclass(frozen=True)
@@ -158,16 +186,28 @@ def _job(
     work = _work(setup, table, batch, bool(varied))
     plan = Plan(
         setup.system, settings, setup.position, setup.source, _escape_radius(setup, batch, settings),
-        _tightening(setup, table, work.radians or 0.0), setup.conditions,
+        _tightening(setup, table, work.radians or 0.0), setup.conditions, setup.sampling,
     )  # fmt: skip
-    engine = settings.engine or fitting(plan, batch, work)
+    engine = _engine(plan, batch, work)
     about: dict[str, Any] = {
         "example": setup.system.name if problem is None else problem.name, "engine": engine, "rtol": settings.rtol,
         "atol": settings.absolute, "values": dict(setup.defaults),
     }  # fmt: skip
     if problem is not None:
         about |= {name: getattr(question, name) for name in ("seeker", "frame", "coordinates", "model")}
+        about |= {} if question.motion is None else {"motion": tuple(map(str, question.motion))}
     return _Job(setup, table, batch, plan, engine, about)
+
+
+def _engine(plan: Plan, batch: Batch, work: Work) -> str:
+    asked_for = plan.settings.engine
+    if plan.sampling is None:
+        return asked_for or fitting(plan, batch, work)
+    if asked_for is not None:
+        raise InputError(
+            f"engine: {asked_for} integrates, but a sampled loop has a way of its own; leave the engine out"
+        )
+    return "sampled"
 
 
 _once = lru_cache(maxsize=64)(_job)
@@ -212,13 +252,28 @@ def _tightening(setup: Setup, table: Mapping[str, Array], radians: float) -> flo
 def _trajectory(job: _Job, run: Any, seconds: float) -> Trajectory:
     setup, stop = job.setup, run.stop
     values = dict(setup.defaults)
-    if not setup.complete and stop.outcome is Outcome.REACHED:
-        stop = Stop(Outcome.STEP_LIMIT, setup.note, Limit.GAIN)
+    if stop.outcome is Outcome.REACHED:
+        stop = setup.ended(job.table)
     t = run.time if setup.to_t is None else setup.to_t(run.time, values)
     tau = None if setup.to_tau is None else setup.to_tau(run.time, values)
-    position = run.x[list(setup.position)]
+    position, inputs = run.x[list(setup.position)], run.inputs
+    if inputs is None:
+        inputs = {} if setup.inputs_at is None else setup.inputs_at(t, run.x, values)
+    source, x = None, run.x
+    if setup.field_at is not None:
+        source = np.repeat(np.array(setup.source)[:, None], len(t), axis=1)
+        if setup.shift is not None:
+            source, x = source + setup.shift(t), _shifted(setup, run.x, t)
     return Trajectory(
-        t, run.x, job.states, stop.outcome, float(job.plan.distance(run.x[:, -1])), stop.message, tau,
-        None if setup.field_at is None else setup.field_at(position),
-        {} if setup.inputs_at is None else setup.inputs_at(t, run.x, values), dict(job.about), seconds, stop.limit,
+        t, x, job.states, stop.outcome, float(job.plan.distance(run.x[:, -1])), stop.message, tau,
+        None if setup.field_at is None else setup.field_at(position), inputs, dict(job.about), seconds, stop.limit,
+        source,
     )  # fmt: skip
+
+
+def _shifted(setup: Setup, x: Array, t: Array) -> Array:
+    """States relative to a source that moves, as they are for who stands still."""
+    assert setup.shift is not None
+    moved = x.copy()
+    moved[list(setup.position)] += setup.shift(t)
+    return moved

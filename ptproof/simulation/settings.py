@@ -13,14 +13,22 @@ from ptproof.simulation.numbers import as_float
 class Outcome(enum.StrEnum):
     """How a run ended. Outcomes are values; a run that goes wrong raises nothing.
 
+    ``UNTIL`` is a problem's run to the end that it was asked for, before the prescribed time.
+
     >>> Outcome("reached T") is Outcome.REACHED
     True
     """
 
     REACHED = "reached T"
+    UNTIL = "reached the time asked for"
     ESCAPED = "escaped"
     STEP_LIMIT = "step limit"
     FAILED = "failed"
+
+    @property
+    def complete(self) -> bool:
+        """Whether the run came as far as it was asked to."""
+        return self in (Outcome.REACHED, Outcome.UNTIL)
 
 
 class Limit(enum.StrEnum):

@@ -14,9 +14,12 @@ from sympy.core.relational import Relational
 from ptproof.errors import InputError
 from ptproof.problem import TAU, TIME, Problem, parameters
 from ptproof.problem.loops import check_word
+from ptproof.problem.moving import motion_of, moving_source
 from ptproof.simulation.numbers import as_float, by_name
-from ptproof.simulation.plan import Array, Batch
-from ptproof.simulation.quantities import field_function, input_function, time_map
+from ptproof.simulation.plan import Array, Batch, Sampling
+from ptproof.simulation.quantities import field_function, input_function, motion_function, time_map
+from ptproof.simulation.sampled import sampled as sampled_loop
+from ptproof.simulation.settings import Limit, Outcome, Stop
 from ptproof.system import System
 from ptproof.transforms import CappedClock, Clock
 
@@ -39,14 +42,20 @@ class Setup:
         Start, kinks and end (q × N) from a table of values by name (N each).
     position
         Indices of the states whose distance to ``source`` counts.
-    complete
-        Whether the end is T itself; False where the gain is infinite there.
+    ended
+        From a completed table how a run that came to its end has ended, and in what words: at T, before it where that
+        was asked for, or at the limit of a gain that is infinite there.
     conditions
         The conditions of the choices in ``system`` that change at the edges between start and end, and nowhere else.
     to_t, to_tau
         Maps between the run's own time and t, τ for arrays, given the parameters of one member.
+    sampling
+        How the loop is sampled, if it is.
+    shift
+        Where the source moves: how far from its place it is, (n × …) for times t. States are relative to it.
     completed
-        From a table with the defaults' names to one with those of all states and parameters.
+        From a table with the defaults' names, in which positions are the user's, to one with those of all states and
+        parameters.
     """
 
     system: System
@@ -54,14 +63,15 @@ class Setup:
     edges: Callable[[Mapping[str, Array]], Array]
     position: tuple[int, ...]
     source: tuple[float, ...]
-    complete: bool = True
-    note: str = ""
+    ended: Callable[[Mapping[str, Array]], Stop] = lambda table: Stop()
     to_t: Callable[[Array, Mapping[str, Any]], Array] | None = None
     to_tau: Callable[[Array, Mapping[str, Any]], Array] | None = None
     field_at: Callable[[Array], Array] | None = None
     inputs_at: Callable[[Array, Array, Mapping[str, float]], dict[str, Array]] | None = None
     free: tuple[str, ...] = ()
     conditions: tuple[Relational, ...] = ()
+    sampling: Sampling | None = None
+    shift: Callable[[Array], Array] | None = None
     completed: Callable[[Mapping[str, Array]], dict[str, Array]] = dict
 
     def batch(self, table: Mapping[str, Array]) -> Batch:
@@ -111,29 +121,45 @@ def from_system(system: System, initial: Any, span: tuple[Any, Any] | None, valu
 
 
 def from_problem(
-    problem: Problem, seeker: str, frame: str, coordinates: str, model: str, until: Any, nu_end: float | None
-) -> Setup:
-    """The setup of a problem's closed loop, reduced model or average."""
+    given: Problem, seeker: str, frame: str, coordinates: str, model: str, until: Any, nu_end: float | None,
+    motion: tuple[Any, ...] | None = None, sampled: bool = False,
+) -> Setup:  # fmt: skip
+    """The setup of a problem's closed loop, reduced model or average; its source may move, and the loop be sampled."""
     check_word("model", model, tuple(NU_END))
+    problem = given if motion is None else moving_source(given, motion)
+    shift = None if motion is None else motion_function(motion_of(given, motion))
     if model == "closed loop":
         system = problem.closed_loop(seeker, frame, coordinates=coordinates, symbolic=True)
     else:
         derive = problem.reduced_model if model == "reduced model" else problem.averaged
         system = derive(seeker, frame, symbolic=True)
-    states, clock, defaults = problem.states, problem.seeker_clock(seeker), dict(_defaults(problem))
+    states, clock, defaults = problem.states, problem.seeker_clock(seeker), dict(_defaults(given))
     last = as_float(until, "until") if until is not None else None
     ending = _Ending(clock, frame, last, nu_end, NU_END[model])
     full = model == "closed loop" and coordinates == "full"
+    sampling = None
+    if sampled:
+        if not full or frame != "t":
+            raise InputError("sample_time, noise: only the closed loop in t and in full coordinates can be sampled")
+        system, sampling = sampled_loop(problem, seeker, clock, system)
     return Setup(
         system, defaults, edges=ending, position=(0, 1), source=tuple(map(float, problem.source)),
-        complete=until is not None or clock.horizon is sp.oo, note=ending.note(defaults),
+        ended=ending.ended,
         to_t=time_map(TIME, TIME) if frame == "t" else time_map(clock.to_t, TAU),
         to_tau=time_map(TAU, TAU) if frame == "tau" else time_map(clock.to_tau, TIME),
         field_at=field_function(problem.field),
         inputs_at=input_function(problem.field, problem.seeker(seeker), clock, states, system.state) if full else None,
         free=tuple(dict.fromkeys((*defaults, states.filter.name))), conditions=clock.conditions,
-        completed=partial(_completed, problem),
+        sampling=sampling, shift=shift, completed=partial(_completed, given, shift),
     )  # fmt: skip
+
+
+def default_sample_time(problem: Problem, seeker: str, setup: Setup) -> float:
+    """A twentieth of the filter's time constant μ/K where the gain K is largest in a run with the defaults."""
+    table = {name: np.array([value]) for name, value in setup.defaults.items()}
+    edges = setup.edges(setup.completed(table))
+    gains = time_map(problem.seeker_clock(seeker).rate, TIME)(np.linspace(edges[0, 0], edges[-1, 0], 1000), table)
+    return float(setup.defaults[parameters.mu.name] / 20 / gains.max())
 
 
 @lru_cache(maxsize=64)
@@ -148,13 +174,18 @@ def _defaults(problem: Problem) -> tuple[tuple[str, float], ...]:
     return tuple(found.items())
 
 
-def _completed(problem: Problem, table: Mapping[str, Array]) -> dict[str, Array]:
-    """The table with the filter's start, which is the measured field at each member's position unless it is given, and
-    with p₀, which follows from heading and filter."""
+def _completed(
+    problem: Problem, shift: Callable[[Array], Array] | None, table: Mapping[str, Array]
+) -> dict[str, Array]:
+    """The table with positions relative to a source that moves, with the filter's start, which is the measured field
+    at each member's position unless it is given, and with p₀, which follows from heading and filter."""
     heading, z = problem.states.heading.name, problem.states.filter.name
     position = np.array([table[symbol.name] for symbol in problem.variables])
+    if shift is not None:
+        position = position - shift(table["t0"])
     measured = table[z] if z in table else field_function(problem.field)(position)
-    return {**table, z: measured, parameters.p0.name: table[heading] + table[parameters.k.name] * measured}
+    placed = dict(zip((symbol.name for symbol in problem.variables), position, strict=True))
+    return {**table, **placed, z: measured, parameters.p0.name: table[heading] + table[parameters.k.name] * measured}
 
 
 @dataclass(frozen=True)
@@ -167,15 +198,25 @@ class _Ending:
     nu_end: float | None
     smallest: float
 
-    def note(self, table: Mapping[str, float]) -> str:
-        """Where a run of an infinite gain was asked to stop, and why."""
-        if self.clock.horizon is sp.oo:
-            return ""
-        values = {name: np.array([value]) for name, value in table.items()}
-        return (
-            f"the gain is not clipped and infinite at T, so that no run gets there; this one was asked as far as "
-            f"nu = {self._last_nu(values):g}"
-        )
+    def ended(self, table: Mapping[str, Array]) -> Stop:
+        """How a run that came to its end has ended."""
+        prescribed = float(np.min(table["t0"] + table["T"]))
+        slack = 1e-9 * float(np.max(table["T"]))
+        if self.clock.horizon is not sp.oo:
+            smallest = self._last_nu(table)
+            last = float(np.min(table["t0"] + table["T"] * (1 - smallest)))
+            if self.until is None or self.until > last + slack:
+                why = (
+                    f"the gain is not clipped and infinite at T, so that no run gets there; this one was asked as far "
+                    f"as nu = {smallest:g}"
+                )
+                return Stop(Outcome.STEP_LIMIT, why, Limit.GAIN)
+        if self.until is None or abs(self.until - prescribed) <= slack:
+            return Stop()
+        if self.until < prescribed:
+            why = f"the run was asked as far as t = {self.until:g}, before the prescribed time t0 + T = {prescribed:g}"
+            return Stop(Outcome.UNTIL, why)
+        return Stop(message=f"the run was asked as far as t = {self.until:g}, past the prescribed time {prescribed:g}")
 
     def __call__(self, table: Mapping[str, Array]) -> Array:
         start, horizon = table["t0"], table["T"]

@@ -6,6 +6,7 @@ import dataclasses
 from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -13,6 +14,7 @@ import numpy as np
 from ptproof.errors import InputError
 from ptproof.simulation.drawing import BLUE, RED, new_figure, png
 from ptproof.simulation.plan import Array
+from ptproof.simulation.saving import save_columns
 from ptproof.simulation.settings import Limit, Outcome
 
 
@@ -48,6 +50,8 @@ class Trajectory:
         Everything that repeats the run: seeker, frame, engine, tolerances, parameters.
     seconds
         The wall time of the integration.
+    source
+        Where the source is along the run (2 × m), for a problem; it may move.
 
     Examples
     --------
@@ -69,19 +73,25 @@ class Trajectory:
     settings: Mapping[str, Any] = dataclasses.field(default_factory=dict)
     seconds: float = 0.0
     limit: Limit | None = None
+    source: Array | None = None
 
     def __post_init__(self) -> None:
         if self.x.shape != (len(self.states), len(self.t)):
             raise ValueError(f"x is {self.x.shape}, expected {(len(self.states), len(self.t))}")
 
     def __getitem__(self, name: str) -> Array:
-        """The samples (m) of the state, or input, ``name``; ``field``, ``t`` and ``tau`` work too."""
-        times = {"t": self.t, "tau": self.tau, "field": self.field}
+        """The samples (m) of the state, or input, ``name``; ``field``, ``distance``, ``t`` and ``tau`` work too."""
+        times = {"t": self.t, "tau": self.tau, "field": self.field, "distance": self.distance}
         found = (times | dict(self.inputs) | dict(zip(self.states, self.x, strict=True))).get(name)
         if found is None:
             known = ", ".join([*self.states, *self.inputs, "t"])
             raise InputError(f"{name!r} is not part of this trajectory (known: {known})")
         return found
+
+    @property
+    def distance(self) -> Array | None:
+        """‖x − x*‖ along the run (m), for a problem."""
+        return None if self.source is None else np.asarray(np.linalg.norm(self.x[:2] - self.source, axis=0))
 
     @property
     def final(self) -> Mapping[str, float]:
@@ -90,6 +100,16 @@ class Trajectory:
         if self.field is not None:
             last["field"] = float(self.field[-1])
         return last | {"distance": self.final_distance}
+
+    def save(self, path: str | Path) -> None:
+        """Write the samples to a .csv file, a column for each of t, tau, the states, field, distance, the source's
+        place and the inputs, or to an .npz file of these arrays; :class:`InputError` where that can't be done."""
+        columns: dict[str, Any] = {"t": self.t, "tau": self.tau} | dict(zip(self.states, self.x, strict=True))
+        columns |= {"field": self.field, "distance": self.distance}
+        if self.source is not None:
+            columns |= {f"source_{name}": row for name, row in zip(self.states, self.source, strict=False)}
+        known = {name: values for name, values in (columns | dict(self.inputs)).items() if values is not None}
+        save_columns(path, known, dict(self.settings) | {"outcome": self.outcome, "message": self.message})
 
     def plot(self, ax: Any = None) -> Any:
         """Draw the path in the plane (two positions), or the states against time; the Matplotlib ``Axes``."""
@@ -176,6 +196,14 @@ class Ensemble:
     def max(self) -> float:
         """The largest final distance."""
         return float(np.max(self.distances))
+
+    def save(self, path: str | Path) -> None:
+        """Write a row for each member to a .csv file (what differed, t, the states, distance, outcome), or the same as
+        arrays to an .npz file; :class:`InputError` where that can't be done."""
+        ends = {"t": self.t} | dict(zip(self.states, self.x, strict=True))
+        columns = {f"start_{name}": values for name, values in self.varied.items()} | ends
+        outcomes = np.array(list(map(str, self.outcomes)))
+        save_columns(path, columns | {"distance": self.distances, "outcome": outcomes}, self.settings)
 
     def plot(self, ax: Any = None) -> Any:
         """A histogram of the final distances; the Matplotlib ``Axes``."""

@@ -71,8 +71,28 @@ def test_the_table_reads_like_an_answer():
     assert "never: V0 is below the threshold" in text
 
 
+def test_every_line_says_whose_property_it_is():
+    text = run([*ONE, "--k", "1.8", "--T", "1", "--nu-min", "3/10", "--omega", "30", "--x0-norm", "1"]).stdout
+    rows = {line[11:49].strip(): line[2:11].strip() for line in text.splitlines() if line.startswith("  ")}
+    assert rows["at t₀ + T within"] == rows["least k, as printed"] == "average"
+    assert rows["peak of u₁"] == rows["circles at 1/√ω, to leading order"] == "vehicle"
+    assert (rows["exponent q"], rows["τ reached at t₀ + T"]) == ("field", "clock")
+    about = answer([*ONE, "--k", "1.8"])["about"]
+    assert about["clip.residual_bound"] == "average"
+    assert {key for key, word in about.items() if word == "vehicle"} == {
+        "clip.u1_peak", "clip.u2_peak", "vehicle.hover_radius", "vehicle.omega_for_residual",
+    }  # fmt: skip
+
+
+def test_the_answer_stands_first():
+    lines = run(["saturated", "--residual", "0.1"]).stdout.splitlines()
+    assert lines[0] == "Residual 1/10 at t₀ + T: proved of the average. Of the vehicle it is not."
+    assert lines[3].startswith("The average at t₀ + T, from 2.82843 away")
+    assert lines.index("Constants") > 10
+
+
 @pytest.mark.parametrize(
-    ("residual", "status", "word"), [("4", 0, "guaranteed"), ("1/1000", 1, "not guaranteed by these bounds")]
+    ("residual", "status", "word"), [("4", 0, "proved of the average"), ("1/1000", 1, "not shown by these bounds")]
 )
 def test_a_residual_that_is_not_guaranteed_is_status_one(residual, status, word):
     result = run([*QUADRATIC, "--residual", residual])

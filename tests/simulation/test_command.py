@@ -215,6 +215,63 @@ def test_the_help_does_without_sympy():
     assert shown.rstrip().endswith("False")
 
 
+def test_the_average_stands_beside_the_vehicle_and_is_not_taken_for_it(call):
+    text = call("vanishing").stdout
+    assert "vehicle: field 2.95007, distance from the source 0.17875" in text
+    assert "its average (not the vehicle): distance from the source 0.0331" in text
+    data = json.loads(call("vanishing", "--json").stdout)
+    assert data["average"]["distance"] == pytest.approx(simulate("vanishing", model="average").final_distance)
+    assert json.loads(call("saturated", "--json").stdout)["average"] is None
+    assert "no average stands beside it" in call("saturated").stdout
+
+
+@pytest.mark.parametrize(
+    ("until", "outcome", "sentence"),
+    [("0.5", "reached the time asked for", "before the prescribed time t0 + T = 1"), ("1", "reached T", ""),
+     ("1.5", "reached T", "past the prescribed time 1")],
+)  # fmt: skip
+def test_another_end_than_the_prescribed_time_is_told(call, until, outcome, sentence):
+    done = call("vanishing", "--until", until, "--json")
+    data = json.loads(done.stdout)
+    assert (done.exit_code, data["outcome"]) == (0, outcome)
+    assert sentence in data["message"]
+    assert bool(data["message"]) == bool(sentence)
+
+
+def test_a_gain_that_is_infinite_at_the_prescribed_time_is_not_followed_past_it(call, tmp_path):
+    (tmp_path / "p.toml").write_text(ESCAPES.replace("-10", "0"))
+    data = json.loads(call(str(tmp_path / "p.toml"), "--model", "average", "--until", "2", "--json").stdout)
+    assert (data["outcome"], data["limit"]) == ("step limit", "nu_end")
+
+
+def test_a_moving_source_noise_sampling_files_and_c(call, tmp_path):
+    files = [str(tmp_path / name) for name in ("run.csv", "law.c", "run.png")]
+    done = call(
+        "vanishing", "--motion", "t/2", "sin(3*t)", "--noise", "0.01", "--sample-time", "1e-4", "--until", "0.2",
+        "--save", files[0], "--c-code", files[1], "--plot", files[2], "--json",
+    )  # fmt: skip
+    data = json.loads(done.stdout)
+    assert (done.exit_code, data["engine"]) == (0, "sampled")
+    assert data["source"] == pytest.approx([0.1, 0.5646424734])
+    assert all((tmp_path / name).stat().st_size > 1000 for name in ("run.csv", "law.c", "run.png"))
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (("--motion", "t", "y"), "motion[1]"),
+        (("--noise", "-1"), "noise"),
+        (("--sample-time", "x"), "sample_time"),
+        (("--save", "run.txt"), ".csv or .npz"),
+        (("--c-code", "no/such/folder/law.c"), "--c-code"),
+    ],
+)
+def test_what_the_vehicle_meets_is_refused_by_a_sentence(call, arguments, message):
+    result = call("vanishing", "--until", "0.01", *arguments)
+    assert (result.exit_code, result.stdout) == (2, "")
+    assert message in result.stderr
+
+
 def test_an_enclosure_as_json(call):
     result = call("vanishing", "--enclose", "--until", "0.01", "--time-limit", "600", "--json")
     assert result.exit_code == 0
@@ -234,6 +291,7 @@ def test_an_enclosure_that_is_cut_short_is_undecided(call):
 @pytest.mark.parametrize(
     ("options", "sentence"),
     [
+        (("--noise", "0.1"), "leave out --noise"), (("--motion", "t", "0"), "leave out --motion"),
         (("--ensemble", "3"), "leave out --ensemble"), (("--enclose-width", "0"), "width: must be positive"),
         (("--enclose-width", "small"), "unknown name 'small'"),
     ],

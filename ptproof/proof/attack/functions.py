@@ -6,7 +6,7 @@ import itertools
 import random
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import Any
 
 import sympy as sp
@@ -21,6 +21,11 @@ class Concrete:
 
     arguments: tuple[sp.Symbol, ...]
     body: sp.Expr
+
+    @cached_property
+    def inside(self) -> frozenset[Any]:
+        """The undefined functions in it."""
+        return frozenset(node.func for node in self.body.atoms(AppliedUndef))
 
 
 @lru_cache(maxsize=64)

@@ -9,7 +9,6 @@ from fractions import Fraction
 from typing import Any
 
 import sympy as sp
-from sympy.core.function import AppliedUndef
 
 from ptproof.proof.attack.elementary import fits
 from ptproof.proof.attack.evaluator import Evaluator
@@ -187,13 +186,13 @@ def _without_circles(solutions: list[tuple[Any, Concrete]]) -> dict[Any, Concret
 
     def through(function: Any, seen: set[Any]) -> set[Any]:
         if function in found and function not in seen:
-            for node in found[function].body.atoms(AppliedUndef):
-                seen |= {function} | through(node.func, seen | {function}) | {node.func}
+            for other in found[function].inside:
+                seen |= {function} | through(other, seen | {function}) | {other}
         return seen
 
     for function, concrete in solutions:
         if function not in found:
-            inside = {node.func for node in concrete.body.atoms(AppliedUndef)}
+            inside = concrete.inside
             if function not in inside.union(*(through(other, set()) for other in inside)):
                 found[function] = concrete
     return found

@@ -184,10 +184,12 @@ class _Problem:
                 "simplify", "purify-arith", "propagate-values", "solve-eqs", "tseitin-cnf", tactic
             ).solver()
         solver.set("timeout", max(milliseconds, 1))
-        variables: dict[sp.Symbol, Any] = {}
+        used: dict[sp.Symbol, None] = {}
 
         def number(expression: sp.Expr) -> Any:
-            return _to_z3(expression, variables, z3)
+            term, symbols = _term(expression)
+            used.update(symbols)
+            return term
 
         def relation(item: Relation) -> Any:
             return MEANING[item.sign](number(item.left), number(item.right))
@@ -219,8 +221,8 @@ class _Problem:
             facts = [value == number(base)] if base.is_Rational else _known(base, value, None, z3)
             for fact in facts:
                 solver.add(fact)
-        for symbol, variable in list(variables.items()):
-            for fact in _known(symbol, variable, self.generators.meaning.get(symbol), z3):
+        for symbol in used:
+            for fact in _known(symbol, _variable(symbol), self.generators.meaning.get(symbol), z3):
                 solver.add(fact)
         return solver
 
@@ -246,23 +248,48 @@ def _relation(need: Obligation) -> Relation:
     return need.relation
 
 
-def _to_z3(expression: sp.Expr, variables: dict[sp.Symbol, Any], z3: Any) -> Any:
+_variables: dict[sp.Symbol, Any] = {}
+_named: dict[str, sp.Symbol] = {}
+
+
+def _variable(symbol: sp.Symbol) -> Any:
+    """The unknown for a symbol, another one for each symbol."""
+    import z3
+
+    if symbol not in _variables:
+        name = symbol.name
+        while name in _named:
+            name += "'"
+        _named[name] = symbol
+        _variables[symbol] = z3.Real(name)
+    return _variables[symbol]
+
+
+@lru_cache(maxsize=2**14)
+def _term(expression: sp.Expr) -> tuple[Any, dict[sp.Symbol, None]]:
+    """The expression for z3, and the symbols in it."""
+    symbols = dict.fromkeys(sorted(expression.free_symbols, key=sp.default_sort_key))
+    return _to_z3(expression), symbols
+
+
+@lru_cache(maxsize=2**14)
+def _to_z3(expression: sp.Expr) -> Any:
+    import z3
+
     match expression:
         case sp.Rational():
             return z3.RealVal(f"{expression.p}/{expression.q}")
         case sp.Symbol():
-            if expression not in variables:
-                variables[expression] = z3.Real(f"{expression.name}_{len(variables)}")
-            return variables[expression]
+            return _variable(expression)
         case sp.Add():
-            return z3.Sum([_to_z3(argument, variables, z3) for argument in expression.args])
+            return z3.Sum([_to_z3(argument) for argument in expression.args])
         case sp.Mul():
             numerator, denominator = sp.fraction(expression)
             if denominator != 1:
-                return _to_z3(numerator, variables, z3) / _to_z3(denominator, variables, z3)
-            return z3.Product([_to_z3(argument, variables, z3) for argument in expression.args])
+                return _to_z3(numerator) / _to_z3(denominator)
+            return z3.Product([_to_z3(argument) for argument in expression.args])
         case sp.Pow():
-            base, exponent = _to_z3(expression.base, variables, z3), int(expression.exp)
+            base, exponent = _to_z3(expression.base), int(expression.exp)
             power = z3.Product([base] * abs(exponent)) if exponent else z3.RealVal(1)
             return power if exponent >= 0 else 1 / power
     raise NotAlgebraic(f"no rule for {expression}")
