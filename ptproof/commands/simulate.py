@@ -101,8 +101,6 @@ def simulate(
     from ptproof.problem.doubts import run_doubt, source_doubt
     from ptproof.simulation import Ensemble, run
     from ptproof.simulation.ccode import feedback_code
-    from ptproof.simulation.drawing import save
-    from ptproof.simulation.figures import overview
 
     target = load(problem) if _is_file(problem) else example(problem)
     how["seeker"] = seeker or target.default_seeker
@@ -131,10 +129,7 @@ def simulate(
     if save_as is not None:
         result.save(save_as)
     if plot is not None:
-        figure = result.plot().figure if isinstance(result, Ensemble) else overview(target, result, beside)
-        if enclosure is not None:
-            enclosures.draw(figure, enclosure)
-        save(figure, plot)
+        _draw(target, result, beside, enclosure, plot)
     doubt = run_doubt(target, _measured(target, result))
     data = as_data(result, problem, beside) | {"doubt": doubt}
     if enclosure is not None:
@@ -147,6 +142,20 @@ def simulate(
         return 1
     outcomes = result.outcomes if isinstance(result, Ensemble) else (result.outcome,)
     return 0 if doubt is None and all(outcome.complete for outcome in outcomes) else 1
+
+
+def _draw(
+    target: Problem, result: Trajectory | Ensemble, beside: Trajectory | None, enclosure: Enclosure | None, file: str
+) -> None:
+    from ptproof.commands.enclosing import draw
+    from ptproof.simulation import Ensemble
+    from ptproof.simulation.drawing import save
+    from ptproof.simulation.figures import overview
+
+    figure = result.plot().figure if isinstance(result, Ensemble) else overview(target, result, beside)
+    if enclosure is not None:
+        draw(figure, enclosure)
+    save(figure, file)
 
 
 def _measured(target: Problem, result: Trajectory | Ensemble) -> list[float]:
