@@ -95,7 +95,7 @@ def _closely(
     """Once more with smaller tolerances, as long as there is time, where the enclosure is not as close as asked for."""
     first, last = ends
     with flint.ctx.workprec(_BITS):
-        tolerance = min(max(float(aim) * 1e-5, _FINEST), _COARSEST)
+        tolerance = min(max(float(aim) * 2e-6, _FINEST), _COARSEST)
         while True:
             march = March(Region.around(_balls(values)), tolerance, begin + seconds)
             if progress is not None:
