@@ -68,7 +68,7 @@ def test_another_value_is_not_enclosed(name):
     assert within(run, "x", exact[0]) is not moved
 
 
-def test_lorenz_at_the_published_value():
+def test_lorenz_at_the_value_of_an_independent_run():
     """Lorenz' classical system from (15, 15, 36) at t = 1, by Taylor's method of order 40 with 60 digits (mpmath)."""
     import mpmath
 
