@@ -34,8 +34,9 @@ from ptproof.balls.ball import ball_from, interval, precision
 from ptproof.balls.rounding import down, up
 from ptproof.certify.loop.boxes import Boxes
 from ptproof.certify.loop.certificate import LoopCertificate
-from ptproof.certify.loop.cover import Model, farthest, guide, rates
+from ptproof.certify.loop.cover import farthest, guide, rates
 from ptproof.certify.loop.levels import Levels, Slice, fallen
+from ptproof.certify.loop.model import Model
 from ptproof.certify.loop.setup import Phase, Unfit, models, phases, slices
 from ptproof.errors import InputError
 from ptproof.problem import Problem
@@ -43,9 +44,11 @@ from ptproof.problem.model import number
 from ptproof.proof.verdict import Verdict
 
 _ORDERS = 3, 1, 3
+_ROUNDS = 3
 _BANDS = 150  # of levels, per factor of ten
-_FILTER = np.concatenate([[0.0], 2.0 ** np.arange(-10, 1)])
+_FILTER = np.concatenate([[0.0], 2.0 ** np.arange(-12, 1)])
 _WEIGHT = 0.06
+SHAPE = os.environ.get('SHAPE','field')
 
 
 class NoCertificate(Exception):
@@ -133,10 +136,11 @@ def _curve(
     omega = ball_from(tuning.omega)
     reach = up(ball_from(radius) + 1 / omega.sqrt())
     filter_start = up(ball_from(gap) / (ball_from(tuning.mu) * omega.sqrt()))
-    tallest, steepest = _sizes(problem, reach)
-    prepared = models(problem, spans, _ORDERS, _WEIGHT * tallest / steepest)
+    shape = SHAPE
+    tallest, steepest = _sizes(problem, reach, shape)
     m = float(tuning.mu * tuning.omega)
     typical = float(tuning.k) / (2 * (1 + m**2)) * steepest / tallest  # of −(dW/dτ)/W
+    prepared = models(problem, spans, shape, _ORDERS, _WEIGHT * tallest / steepest, typical)
     stage = _stage(prepared, spans, reach, filter_start)
     work = [(model, part) for model, span in zip(prepared, spans, strict=True) for part in slices(problem, span)]
     bounds = _all_rates(stage, work, tolerance * typical, workers, client)
@@ -167,7 +171,7 @@ def _curve(
     return tuple(times), tuple(distance[item] for item in reached), hover_level and distance[hover_level], detail
 
 
-def _sizes(problem: Problem, reach: float) -> tuple[float, float]:
+def _sizes(problem: Problem, reach: float, shape: str) -> tuple[float, float]:
     """About how large V and ‖∇F‖² are at a distance from the source; any positive numbers would do."""
     angles = np.linspace(0, 2 * np.pi, 64, endpoint=False)
     field = sp.lambdify(problem.variables, [problem.peak - problem.field.expression, *problem.field.gradient], "numpy")
@@ -177,22 +181,15 @@ def _sizes(problem: Problem, reach: float) -> tuple[float, float]:
         tallest, steepest = float(np.max(np.abs(height))), float(np.max(first**2 + second**2))
     if not (0 < tallest < math.inf and 0 < steepest < math.inf):
         raise NoCertificate("the field has no slope or no value around the start")
-    return tallest, steepest
+    return (tallest, steepest) if shape == "field" else (reach**2 / 2, reach * math.sqrt(steepest))
 
 
 def _stage(prepared: Sequence[Model], spans: Sequence[Phase], reach: float, filter_start: float) -> Stage:
     half = reach * 1.25
     for _ in range(5):
         half = math.ceil(half * 1024) / 1024
-        boxes = Boxes.square(half, 128)
-        boxes = boxes.chosen(boxes.nearest() <= reach)
-        values = prepared[0].values(prepared[0].columns, boxes, spans[0].interval())
-        deviation = float(prepared[0].manifold.bounds(values)[0].size().max()) * (1 + 1e-9) + filter_start
+        start, deviation = _start(prepared[0], half, reach, filter_start, spans[0].interval())
         weight = prepared[0].weight
-        function = prepared[0].function_too.bounds(values)[0]
-        start = max(
-            float(function.within(*pair)[1].max()) for pair in pairwise(np.linspace(0, deviation, 9))
-        )
         if not 0 < start < math.inf:
             raise NoCertificate(f"W is {start:.4g} at the start: the field is not above its surroundings there")
         widest = math.sqrt(2 * max(start, 0) * 6 / weight) + 2 * deviation
@@ -208,6 +205,27 @@ def _stage(prepared: Sequence[Model], spans: Sequence[Phase], reach: float, filt
         f"the level sets of W around the start are not shown to be closed (W ≤ {start:.4g} at the start, ≥ {top:.4g} "
         "around it): a larger omega or a smaller start would help"
     )
+
+
+def _start(model: Model, half: float, reach: float, filter_start: float, time: Intervals) -> tuple[float, float]:
+    """What W and |q| are at most where |y| ≤ ``reach`` and |g| ≤ ``filter_start``."""
+    boxes, level, deviation = Boxes.square(half, 64), -math.inf, 0.0
+    for left in range(_ROUNDS, -1, -1):
+        boxes = boxes.chosen(boxes.nearest() <= reach)
+        values, alone = model.values(model.columns, boxes, time), model.values(model.function_columns, boxes, time)
+        off = model.manifold.bounds(values)[0].size() * (1 + 1e-9) + filter_start
+        function, there = model.function.bounds(alone)
+        parts = np.linspace(0, float(off.max()), 9)
+        high = np.max([function.within(*pair)[1] for pair in pairwise(parts)], axis=0)
+        inside = boxes.farthest() <= reach
+        best = float(there.high[0][inside].max()) if inside.any() else -math.inf
+        split = (high > best * 1.001) & (left > 0)
+        level = max(level, float(high[~split].max(initial=-math.inf)))
+        deviation = max(deviation, float(off[~split].max(initial=0.0)))
+        boxes = boxes.chosen(split).quarters()
+        if not len(boxes):
+            break
+    return level, deviation
 
 
 def _ceiling(model: Model, half: float, bands: Array, time: Intervals) -> float:

@@ -15,7 +15,7 @@ from ptproof.balls.tape import Tape, compile_tape
 from ptproof.certify.loop.polynomials import Letter, Polynomial, by_slow, product, scaled, term, total
 
 ONE = acb(1)
-FIELD, FIRST, SECOND, CLOCK, REST = "F", "d1", "d2", "h", "R"
+FIELD, FIRST, SECOND, CLOCK, REST, DISTANCE = "F", "d1", "d2", "h", "R", "V"
 """The field F(x* + y) − F(x*), the drift's two entries, the clock's factor h = dt/dτ, and rests of Taylor polynomials.
 
 The rest of F₁, say, of order K has the letter ``R F`` with one derivative in the first coordinate.
@@ -72,7 +72,7 @@ class Jets:
             raise Unresolved(f"{letter} has no derivative")
         name, i, j, late = letter
         new = (Letter(name, i + 1, j, late), Letter(name, i, j + 1, late), Letter(name, i, j, late + 1))[axis]
-        if name == CLOCK and axis < 2 or name == FIELD and axis == 2:
+        if name == CLOCK and axis < 2 or name in (FIELD, DISTANCE) and axis == 2:
             return None
         return None if self.expression(new) == 0 else new
 

@@ -35,6 +35,11 @@ class Levels:
         last = np.searchsorted(self.edges, high, side="right")
         return np.clip(first, 0, self.bands), np.clip(last, 0, self.bands)
 
+    def shift(self, slope: float) -> Array:
+        """The smallest value of ``slope`` · c on each band, from below."""
+        found = slope * (self.edges[:-1] if slope >= 0 else self.edges[1:])
+        return np.asarray(found - np.abs(found) * 2.0**-50)
+
 
 def largest_over(first: Indices, last: Indices, values: Array, size: int) -> Array:
     """For each of ``size`` places the largest value whose range first ≤ place < last contains it (−∞ without one)."""

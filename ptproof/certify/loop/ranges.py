@@ -121,6 +121,16 @@ class Form:
         found = self.matrix.times(values)
         return self._gathered(found.middle, found.radius), self._gathered(found.middle, np.zeros(found.middle.shape[1]))
 
+    def alone(self, values: Around) -> Around:
+        """A form without headings and filter, on boxes."""
+        if any(self.turns) or any(self.powers):
+            raise ValueError("the form depends on the heading or the filter")
+        if not self.turns:
+            nothing = np.zeros(values.middle.shape[1])
+            return Around(nothing, nothing)
+        found = self.matrix.times(values)
+        return Around(found.middle[0], found.radius[0])
+
     def _gathered(self, middle: Array, radius: Array) -> Bounds:
         half, boxes = len(self.turns), middle.shape[1]
         radius = np.broadcast_to(radius, middle.shape)
