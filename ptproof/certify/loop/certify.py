@@ -279,13 +279,18 @@ def _all_rates(
 ) -> list[Array]:
     """Bounds of the rates on all stretches, sharp about the levels at which W is expected there."""
     if len({id(model) for model, _ in work}) == 1 and all(part.steady for _, part in work):
-        return [_Task(*work[0], stage, slack=slack).bounds()] * len(work)
+        task = _Task(*work[0], stage, slack=slack)
+        seen = task.expected()
+        rest = _hover(stage.levels, seen + 2 * slack * stage.levels.edges[1:])
+        return [replace(task, seen=seen, window=(rest or 0.0, 1.05 * stage.start)).bounds()] * len(work)
     level, passed, tasks = stage.start, 0.0, []
     for model, part in work:
         task = _Task(model, part, stage, slack=slack)
         seen = task.expected()
         after = min(fallen(level, seen, stage.levels, part.shortest, part.longest), float(stage.levels.edges[-1]))
         passed += min(part.longest, 1e6)
+        if part.steady:
+            after = max(after, _hover(stage.levels, seen + 2 * slack * stage.levels.edges[1:]) or 0.0)
         worse = math.exp(min(slack * passed, 5.0))
         tasks.append(replace(task, seen=seen, window=(0.7 * min(level, after), 1.3 * worse * max(level, after))))
         level = after

@@ -130,7 +130,9 @@ class _Look:
         first, last, found = (np.stack(column) for column in zip(*rows, strict=True))
         at_rest = centred.start.middle + 0.5 * (there.low[0] + there.high[0])
         place = np.clip(np.searchsorted(levels.edges, at_rest) - 1, 0, levels.bands - 1)
-        return _Look(first, last, found, slopes, place, centred.main.middle + rate_there.high[0])
+        # The same level is met at other places for other headings.
+        elsewhere = np.abs(kappa) * 0.5 * (there.high[0] - there.low[0])
+        return _Look(first, last, found, slopes, place, centred.main.middle + rate_there.high[0] + elsewhere)
 
     def above(self, enough: Array, levels: Levels, unit: float) -> Mask:
         """The boxes that say more than ``enough`` on some band that they touch."""
