@@ -45,10 +45,12 @@ from ptproof.proof.verdict import Verdict
 
 _ORDERS = 3, 1, 3
 _ROUNDS = 3
+_ROUNDING = 1e-9  # covers that times are shown as floats
 _BANDS = 150  # of levels, per factor of ten
 _FILTER = np.concatenate([[0.0], 2.0 ** np.arange(-12, 1)])
 _WEIGHT = 0.06
-SHAPE = os.environ.get('SHAPE','field')
+SHAPES = "distance", "field"
+_NAMES = {"distance": "half the squared distance", "field": "the field below its peak"}
 
 
 class NoCertificate(Exception):
@@ -67,7 +69,7 @@ class Stage:
 
 def certify_loop(
     problem: Problem, radius: Any = None, *, filter_gap: Any = 0, tolerance: float = 0.12, workers: int | None = None,
-    client: Any = None,
+    client: Any = None, shapes: Sequence[str] = SHAPES,
 ) -> LoopCertificate:  # fmt: skip
     """Bound the distance of the prescribed-time seeker from the source over [t₀, t₀ + T], whatever its heading.
 
@@ -81,6 +83,8 @@ def certify_loop(
         |F(x(t₀)) − z(t₀)| is at most this.
     tolerance
         How much of a rate may be given away to save time.
+    shapes
+        What V is tried: half the squared distance from the source, F(x*) − F; the first that leads to a proof counts.
     workers, client
         Threads (left out: one per processor), or a ``distributed.Client``.
 
@@ -110,12 +114,16 @@ def certify_loop(
     times: tuple[float, ...] = ()
     distances: tuple[float, ...] = ()
     hover = None
-    try:
-        with precision(128):
-            times, distances, hover, detail = _curve(problem, size, gap, tolerance, workers, client)
-        verdict = Verdict.PROVED
-    except (NoCertificate, Unfit, Undefined) as error:
-        verdict, detail = Verdict.UNDECIDED, str(error)
+    verdict, reasons = Verdict.UNDECIDED, []
+    for shape in shapes:
+        try:
+            with precision(128):
+                times, distances, hover, detail = _curve(problem, size, gap, shape, tolerance, workers, client)
+            verdict = Verdict.PROVED
+            break
+        except (NoCertificate, Unfit, Undefined) as error:
+            reasons.append(f"with V {_NAMES[shape]}: {error}")
+            detail = "; ".join(reasons)
     tuning = problem.tuning
     return LoopCertificate(
         verdict, float(tuning.omega), float(tuning.mu), float(size), float(gap), times, distances, hover, detail,
@@ -129,14 +137,13 @@ def _distance(problem: Problem) -> sp.Expr:
 
 
 def _curve(
-    problem: Problem, radius: sp.Expr, gap: sp.Expr, tolerance: float, workers: int | None, client: Any
+    problem: Problem, radius: sp.Expr, gap: sp.Expr, shape: str, tolerance: float, workers: int | None, client: Any
 ) -> tuple[tuple[float, ...], tuple[float, ...], float | None, str]:
     spans = phases(problem)
     tuning = problem.tuning
     omega = ball_from(tuning.omega)
     reach = up(ball_from(radius) + 1 / omega.sqrt())
     filter_start = up(ball_from(gap) / (ball_from(tuning.mu) * omega.sqrt()))
-    shape = SHAPE
     tallest, steepest = _sizes(problem, reach, shape)
     m = float(tuning.mu * tuning.omega)
     typical = float(tuning.k) / (2 * (1 + m**2)) * steepest / tallest  # of −(dW/dτ)/W
@@ -147,7 +154,7 @@ def _curve(
     level = stage.start
     times, reached = [work[0][1].start], [level]
     for (_, part), found in zip(work, bounds, strict=True):
-        for piece in part.pieces():
+        for piece in part.parts or (part,):
             level = fallen(level, found, stage.levels, piece.shortest, piece.longest)
             if not level < stage.levels.edges[-1]:
                 raise NoCertificate(
@@ -156,18 +163,21 @@ def _curve(
                 )
             times.append(piece.end)
             reached.append(level)
-    if not (bounds[-1] < 0).any():
-        raise NoCertificate("no level of W is shown to decrease at the end: a larger omega or a smaller start would help")
+    if not _held(stage.levels, bounds[-1], level):
+        raise NoCertificate(
+            "no level of W is shown to decrease at the end: a larger omega or a smaller start would help"
+        )
     steady = work[-1][1].steady
-    hover_level = _hover(stage.levels, bounds[-1]) if steady else None
+    hover_level = _hover(stage.levels, bounds[-1], level) if steady else None
     asked = np.array(sorted({*reached, *([] if hover_level is None else [hover_level])}))
     found = np.zeros(len(asked))
     for model, span in zip(prepared, spans, strict=True):
-        found = np.maximum(
-            found, farthest(model, asked, stage.filter_bands, stage.half, span.interval(), 0.005)
-        )
-    distance = dict(zip(asked.tolist(), (np.nextafter(found + prepared[0].reach, np.inf)).tolist(), strict=True))
-    detail = f"{len(work)} stretches of time"
+        found = np.maximum(found, farthest(model, asked, stage.filter_bands, stage.half, span.interval(), 0.005))
+    distance = dict(zip(asked.tolist(), ((found + prepared[0].reach) * (1 + _ROUNDING)).tolist(), strict=True))
+    detail = (
+        f"V is {_NAMES[shape]}, corrected to order {_ORDERS[0]} in 1/sqrt(omega); rates proved on {stage.levels.bands} "
+        f"bands of levels, all headings and filter states, over {len(work)} stretches of time"
+    )
     return tuple(times), tuple(distance[item] for item in reached), hover_level and distance[hover_level], detail
 
 
@@ -281,7 +291,7 @@ def _all_rates(
     if len({id(model) for model, _ in work}) == 1 and all(part.steady for _, part in work):
         task = _Task(*work[0], stage, slack=slack)
         seen = task.expected()
-        rest = _hover(stage.levels, seen + 2 * slack * stage.levels.edges[1:])
+        rest = _hover(stage.levels, seen + 2 * slack * stage.levels.edges[1:], stage.start)
         return [replace(task, seen=seen, window=(rest or 0.0, 1.05 * stage.start)).bounds()] * len(work)
     level, passed, tasks = stage.start, 0.0, []
     for model, part in work:
@@ -290,7 +300,7 @@ def _all_rates(
         after = min(fallen(level, seen, stage.levels, part.shortest, part.longest), float(stage.levels.edges[-1]))
         passed += min(part.longest, 1e6)
         if part.steady:
-            after = max(after, _hover(stage.levels, seen + 2 * slack * stage.levels.edges[1:]) or 0.0)
+            after = max(after, _hover(stage.levels, seen + 2 * slack * stage.levels.edges[1:], level) or 0.0)
         worse = math.exp(min(slack * passed, 5.0))
         tasks.append(replace(task, seen=seen, window=(0.7 * min(level, after), 1.3 * worse * max(level, after))))
         level = after
@@ -300,12 +310,18 @@ def _all_rates(
         return list(pool.map(_Task.bounds, tasks))
 
 
-def _hover(levels: Levels, found: Array) -> float | None:
-    """The level to which W falls in the end if the last stretch goes on."""
+def _held(levels: Levels, found: Array, level: float) -> bool:
+    """Whether W is kept from rising at a level: it falls in the band below or above."""
+    at = int(np.searchsorted(levels.edges, level, side="left"))
+    return bool((found[max(at - 1, 0) : at + 1] < 0).any())
+
+
+def _hover(levels: Levels, found: Array, level: float) -> float | None:
+    """The level to which W falls from ``level`` in the end if a stretch goes on; None where it does not fall."""
     falling = found < 0
-    if not falling.any():
+    band = min(int(np.searchsorted(levels.edges, level, side="left")) - 1, levels.bands - 1)
+    if band < 0 or not falling[band]:
         return None
-    band = int(np.flatnonzero(falling)[-1])
     while band > 0 and falling[band - 1]:
         band -= 1
     return float(levels.edges[band])

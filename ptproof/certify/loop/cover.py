@@ -70,9 +70,7 @@ def rates(
     return found
 
 
-def farthest(
-    model: Model, wanted: Array, filter_bands: Array, half: float, time: Intervals, tolerance: float
-) -> Array:
+def farthest(model: Model, wanted: Array, filter_bands: Array, half: float, time: Intervals, tolerance: float) -> Array:
     """For each of the increasing levels ``wanted`` a bound of |y| where W is not above it, for y in [−half, half]²."""
     found, seen = np.zeros((2, len(wanted)))
     boxes = Boxes.square(half)
@@ -126,7 +124,12 @@ class _Look:
             rest = np.maximum(kappa * low, kappa * high)
             found = centred.combined(kappa) + rest + rate.within(*pair)[1]
             size = np.abs(rest) + np.abs(found)
-            rows.append((*levels.touched(centred.low + low - _tiny(low), centred.high + high + _tiny(high)), found + size * _SLACK))
+            rows.append(
+                (
+                    *levels.touched(centred.low + low - _tiny(low), centred.high + high + _tiny(high)),
+                    found + size * _SLACK,
+                )
+            )
         first, last, found = (np.stack(column) for column in zip(*rows, strict=True))
         at_rest = centred.start.middle + 0.5 * (there.low[0] + there.high[0])
         place = np.clip(np.searchsorted(levels.edges, at_rest) - 1, 0, levels.bands - 1)

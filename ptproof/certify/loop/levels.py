@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from itertools import pairwise
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -87,8 +86,8 @@ class Slice:
         Bounds of its length in τ; infinite where the gain is.
     steady
         Whether nothing in it depends on time.
-    count
-        The number of pieces for a curve.
+    parts
+        Shorter ones that it consists of, where a curve is to have more points; empty where it is one itself.
     """
 
     start: float
@@ -97,14 +96,7 @@ class Slice:
     shortest: float
     longest: float
     steady: bool
-    count: int
-
-    def pieces(self) -> list[Slice]:
-        """Equal parts, in τ."""
-        n = self.count
-        marks = [self.start + (self.end - self.start) * i / n for i in range(n)] + [self.end]
-        short, long = self.shortest / n * (1 - 1e-15), self.longest / n * (1 + 1e-15)
-        return [replace(self, start=a, end=b, shortest=short, longest=long, count=1) for a, b in pairwise(marks)]
+    parts: tuple[Slice, ...] = ()
 
 
 def fallen(level: float, rates: Array, levels: Levels, shortest: float, longest: float) -> float:

@@ -89,9 +89,7 @@ def selected(part: Polynomial, keep: Callable[[Key], bool]) -> Polynomial:
 def real(part: Polynomial) -> Polynomial:
     """The nearest real polynomial: the coefficients of opposite turns are conjugate to each other exactly."""
     return collected(
-        item
-        for (g, n, p, letters), value in part.items()
-        for item in _pair(g, n, p, letters, complex(value))
+        item for (g, n, p, letters), value in part.items() for item in _pair(g, n, p, letters, complex(value))
     )
 
 

@@ -157,21 +157,22 @@ def models(
 
 
 def slices(problem: Problem, span: Phase) -> list[Slice]:
-    """A phase in stretches of time: one where nothing depends on time, else pieces that are equal in t."""
+    """A phase in stretches of time that are equal in t; where nothing depends on time they are parts of one."""
     drift = problem.drift
     moving = any(rate.has(TIME) for rate in drift.rate)
     steady = not any(rate != 0 for rate in drift.rate) or (span.constant and not moving)
-    pieces = 1 if steady else _PIECES
+    pieces = _SHOWN if steady else _PIECES
     ends = [span.start + (span.end - span.start) * sp.Rational(i, pieces) for i in range(pieces + 1)]
-    places = [span.dilated(end) for end in ends]
-    found = []
-    for (a, b), (low, high) in zip(pairwise(ends), pairwise(places), strict=True):
-        length = None if low is None or high is None else high - low
-        found.append(
-            Slice(
-                float(a), float(b), Intervals.around(interval(ball_from(a), ball_from(b))),
-                math.inf if length is None else max(down(length), 0.0), math.inf if length is None else up(length),
-                steady, _SHOWN if steady else 1,
-            )
-        )  # fmt: skip
-    return found
+    found = [_slice(span, a, b, steady) for a, b in pairwise(ends)]
+    if not steady:
+        return found
+    return [replace(_slice(span, span.start, span.end, steady), parts=tuple(found))]
+
+
+def _slice(span: Phase, start: sp.Expr, end: sp.Expr, steady: bool) -> Slice:
+    ends = span.dilated(start), span.dilated(end)
+    length = None if ends[0] is None or ends[1] is None else ends[1] - ends[0]
+    shortest = math.inf if length is None else max(down(length), 0.0)
+    longest = math.inf if length is None else up(length)
+    time = Intervals.around(interval(ball_from(start), ball_from(end)))
+    return Slice(float(start), float(end), time, shortest, longest, steady)
