@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from ptproof.balls.arithmetic import Undefined
 from ptproof.balls.arrays import Array, Intervals
 
 _ONCE = 2.0**-50  # more than the rounding of a product, a sum and a conversion together
@@ -51,7 +52,7 @@ class Matrix:
     def of(middle: Array, radius: Array) -> Matrix:
         """From middles and radii (rows × columns)."""
         if middle.shape[1] > _MOST:
-            raise ValueError(f"more than {_MOST} columns: the rounding is not bounded")
+            raise Undefined(f"a matrix of more than {_MOST} columns, whose rounding is not bounded here")
         from scipy.sparse import csr_array
 
         size = (np.abs(middle) + radius / _SUMS) * (1 + 8 * _ONCE)

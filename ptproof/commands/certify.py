@@ -53,8 +53,8 @@ def certify(
     target = example(problem) if problem in EXAMPLES else load(problem)
     if (seeker or target.default_seeker) != "pt":
         raise InputError(
-            f"certify: a certificate is for the seeker pt, and {problem} is meant for {seeker or target.default_seeker}; "
-            "with --seeker pt its loop without that is certified"
+            f"certify: a certificate is for the seeker pt, and {problem} is meant for "
+            f"{seeker or target.default_seeker}; with --seeker pt its loop without that is certified"
         )
     target = retuned(target, numbers)
     with options.connected(cluster) as client:

@@ -1,17 +1,17 @@
 """Guarantees for the vehicle in closed loop: a bound of its distance for every start, heading and filter state.
 
 Theorem. Let F and the drift be smooth where they are enclosed, and let the seeker be the prescribed-time one with the
-gain K(t) (clipped or not). Let W(y, s, q, τ) be any polynomial in the letters of :mod:`ptproof.certify.loop.flow`, c₀ < … <
-c_n levels and B = [−h, h]², Q > 0 such that W > c_n on the boundary of B × {|q| ≤ Q}. On a stretch of time let
-dW/dτ ≤ R_j wherever y ∈ B, |q| ≤ Q and W ∈ [c_j, c_(j+1)]. If a vehicle starts with y ∈ B, |q| ≤ Q and W ≤ w₀ ≤ c_n, and
-the solution w of the comparison (:func:`ptproof.certify.loop.levels.fallen`) stays below c_n, then it exists on the whole
-stretch and W ≤ w. Its distance from the source is then at most δ + max{|y| : y ∈ B, W(y, ·) ≤ w}.
+gain K(t), clipped or not. Let W(y, s, q, τ) be any polynomial in the letters of :mod:`ptproof.certify.loop.flow`,
+c₀ < … < c_n levels, and B = [−h, h]², Q > 0 such that W > c_n on the boundary of B × {|q| ≤ Q}. On a stretch of time
+let dW/dτ ≤ R_j wherever y ∈ B, |q| ≤ Q and W ∈ [c_j, c_(j+1)]. If a vehicle starts with y ∈ B, |q| ≤ Q and
+W ≤ w₀ ≤ c_n, and the solution w of the comparison (:func:`ptproof.certify.loop.levels.fallen`) stays below c_n, then it
+exists on the whole stretch and W ≤ w. Its distance from the source is at most δ + max{|y| : y ∈ B, W(y, ·) ≤ w}.
 
-Proof. As long as (y, q) stays inside, W ≤ w by comparison; W < c_n keeps it from the boundary; F and the drift are smooth on
-a neighbourhood of B, so a solution that stays in a compact set exists. And x − x* = y + δn with |n| = 1. ∎
+Proof. As long as (y, q) stays inside, W ≤ w by comparison; W < c_n keeps it from the boundary; F and the drift are
+smooth on a neighbourhood of B, so a solution that stays in a compact set exists. And x − x* = y + δn, |n| = 1. ∎
 
-W is a corrected V = F(x*) − F (:mod:`ptproof.certify.loop.lyapunov`), but its truth as a certificate does not rest on where
-it came from. The hypotheses are checked in ball arithmetic on covers of B for all headings and all |q| ≤ Q.
+W is a corrected V (:mod:`ptproof.certify.loop.lyapunov`), but nothing rests on where it came from. The hypotheses are
+checked in ball arithmetic on covers of B, for all headings and all |q| ≤ Q.
 """
 
 from __future__ import annotations
@@ -30,8 +30,8 @@ import sympy as sp
 
 from ptproof.balls.arithmetic import Undefined
 from ptproof.balls.arrays import Array, Intervals
-from ptproof.balls.ball import ball_from, interval, precision
-from ptproof.balls.rounding import down, up
+from ptproof.balls.ball import ball_from, precision
+from ptproof.balls.rounding import up
 from ptproof.certify.loop.boxes import Boxes
 from ptproof.certify.loop.certificate import LoopCertificate
 from ptproof.certify.loop.cover import farthest, guide, rates
@@ -163,7 +163,7 @@ def _curve(
                 )
             times.append(piece.end)
             reached.append(level)
-    if not _held(stage.levels, bounds[-1], level):
+    if level > stage.start and not _held(stage.levels, bounds[-1], level):
         raise NoCertificate(
             "no level of W is shown to decrease at the end: a larger omega or a smaller start would help"
         )
@@ -302,7 +302,12 @@ def _all_rates(
         if part.steady:
             after = max(after, _hover(stage.levels, seen + 2 * slack * stage.levels.edges[1:], level) or 0.0)
         worse = math.exp(min(slack * passed, 5.0))
-        tasks.append(replace(task, seen=seen, window=(0.7 * min(level, after), 1.3 * worse * max(level, after))))
+        tasks.append(replace(task, seen=seen, window=(0.7 * min(level, after), 1.5 * worse * max(level, after))))
+        if not after < stage.levels.edges[-1]:
+            raise NoCertificate(
+                f"nothing keeps W from leaving its largest level at t = {part.end:.4g}: a larger omega, a smaller "
+                "start or a weaker drift would help"
+            )
         level = after
     if client is not None:
         return list(client.gather(client.map(_Task.bounds, tasks, pure=False)))

@@ -19,6 +19,7 @@ from ptproof.certify.loop.model import Model
 
 _CHUNK = 2048
 _CLASS = 1 / 16  # the slopes κ are multiples of this part of the typical one
+_MOST = 150_000  # boxes, after which nothing is refined any more
 _SLACK = 2.0**-44
 _RADII, _ANGLES = 64, 24
 _FINEST = 1 / 32  # of δ: half the side of boxes that are not quartered any more
@@ -54,13 +55,14 @@ def rates(
     """
     found = np.full(levels.bands, -np.inf)
     wanted = (levels.edges[1:] >= window[0]) & (levels.edges[:-1] <= window[1])
-    seen, boxes, unit = seen.copy(), Boxes.square(half), model.typical * _CLASS
+    count, seen, boxes, unit = 0, seen.copy(), Boxes.square(half), model.typical * _CLASS
     while len(boxes):
         looks = [(part, _Look.at(model, part, levels, filter_bands, time)) for part in boxes.parts(_CHUNK)]
         for _, look in looks:
             np.maximum.at(seen, look.place, look.value)
         enough = np.where(wanted, seen + slack * levels.edges[1:], np.inf)
-        fine = boxes.half < model.reach * _FINEST
+        count += len(boxes)
+        fine = boxes.half < model.reach * _FINEST or count > _MOST
         rest = []
         for part, look in looks:
             split = np.zeros(len(part), bool) if fine else look.above(enough, levels, unit)
@@ -73,7 +75,7 @@ def rates(
 def farthest(model: Model, wanted: Array, filter_bands: Array, half: float, time: Intervals, tolerance: float) -> Array:
     """For each of the increasing levels ``wanted`` a bound of |y| where W is not above it, for y in [−half, half]²."""
     found, seen = np.zeros((2, len(wanted)))
-    boxes = Boxes.square(half)
+    count, boxes = 0, Boxes.square(half)
     while len(boxes):
         looks = []
         for part in boxes.parts(_CHUNK):
@@ -82,7 +84,8 @@ def farthest(model: Model, wanted: Array, filter_bands: Array, half: float, time
             looks.append((part, np.searchsorted(wanted, low, side="left"), part.farthest()))
             _raise(seen, np.searchsorted(wanted, there.low[0], side="left"), np.hypot(part.first, part.second))
         enough = np.append(np.maximum.accumulate(seen) * (1 + tolerance), np.inf)
-        fine = boxes.half < model.reach * _FINEST / 4
+        count += len(boxes)
+        fine = boxes.half < model.reach * _FINEST / 4 or count > _MOST
         rest = []
         for part, edge, reach in looks:
             split = np.zeros(len(part), bool) if fine else reach > enough[edge]
@@ -99,7 +102,7 @@ def _raise(found: Array, at: Indices, values: Array) -> None:
 
 @dataclass(frozen=True, eq=False)
 class _Look:
-    """What boxes say: per band of |q| and box the bands of levels touched, with ``rates`` r and ``slopes`` κ (class by box).
+    """What boxes say: per band of |q| and box the bands of levels touched and ``rates`` r, and per box ``slopes`` κ.
 
     On level c the rate is at most r − κc: both depend on where a box is cut by the level, and the difference hardly.
     """
@@ -122,14 +125,10 @@ class _Look:
         for pair in pairwise(filter_bands):
             low, high = function.within(*pair)
             rest = np.maximum(kappa * low, kappa * high)
-            found = centred.combined(kappa) + rest + rate.within(*pair)[1]
-            size = np.abs(rest) + np.abs(found)
-            rows.append(
-                (
-                    *levels.touched(centred.low + low - _tiny(low), centred.high + high + _tiny(high)),
-                    found + size * _SLACK,
-                )
-            )
+            main, other = centred.combined(kappa), rate.within(*pair)[1]
+            found = main + rest + other + (np.abs(main) + np.abs(rest) + np.abs(other)) * _SLACK
+            size = (np.abs(centred.low) + np.abs(centred.high) + np.abs(low) + np.abs(high)) * _SLACK
+            rows.append((*levels.touched(centred.low + low - size, centred.high + high + size), found))
         first, last, found = (np.stack(column) for column in zip(*rows, strict=True))
         at_rest = centred.start.middle + 0.5 * (there.low[0] + there.high[0])
         place = np.clip(np.searchsorted(levels.edges, at_rest) - 1, 0, levels.bands - 1)
@@ -157,7 +156,3 @@ class _Look:
             value = most[some] - shift + (np.abs(most[some]) + np.abs(shift)) * _SLACK
             found[some] = np.maximum(found[some], value)
         return found
-
-
-def _tiny(value: Array) -> Array:
-    return np.asarray(np.abs(value) * _SLACK)

@@ -100,7 +100,7 @@ class Slice:
 
 
 def fallen(level: float, rates: Array, levels: Levels, shortest: float, longest: float) -> float:
-    """A level that W is not above at the end of a slice, if it was not above ``level`` at its start; ∞ if there is none.
+    """A level that W is not above at the end of a slice if it was not above ``level`` at its start; ∞ if none is.
 
     While W is in band j, dW/dτ ≤ ``rates[j]``. Where the rate is negative W falls through the band in the time that
     this takes at most; where it is not, W does not rise faster than that, and not beyond the bottom of a band in which

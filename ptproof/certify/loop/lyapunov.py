@@ -20,7 +20,7 @@ _NOISE = 1e-13
 
 @dataclass(frozen=True)
 class Lyapunov:
-    """W = V + rest, and dW/dτ = main + rest, where main is the part that depends on y and τ alone at the lowest order."""
+    """W = V + rest, and dW/dτ = main + rest, where main depends on y and τ alone and has the lowest order."""
 
     flow: Flow
     start: Polynomial
@@ -69,7 +69,7 @@ def lyapunov(flow: Flow, start: Polynomial, order: int, manifold_order: int, wei
 
 
 def _plain(grade: int, keep: Callable[[Key], bool]) -> Callable[[Key], bool]:
-    """Of this grade, kept, and with letters that W may have: no rests, and nothing that jumps where the gain is clipped."""
+    """Of this grade, kept, with letters that W may have: no rests, and nothing that jumps where the gain is clipped."""
     return lambda key: (
         key[0] == grade and keep(key) and not any(letter.late or letter.name.startswith(REST) for letter in key[3])
     )

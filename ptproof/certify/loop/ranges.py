@@ -1,7 +1,7 @@
 """What a polynomial in the vehicle's variables is on boxes of slow variables: for all headings, for bands of |q|.
 
-On a box each coefficient of exp(ins) q^p is an interval. Over the headings, the sum of the moduli bounds what oscillates;
-over a band of |q|, each power by itself.
+On a box each coefficient of exp(ins) q^p is an interval. Over the headings, the sum of the moduli bounds what
+oscillates; over a band of |q|, each power by itself.
 """
 
 from __future__ import annotations

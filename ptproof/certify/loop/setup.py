@@ -1,4 +1,4 @@
-"""From a seeking problem to the vehicle's flow and its function W, with the closed loop checked to be what is bounded."""
+"""From a seeking problem to the vehicle's flow and its function W; the closed loop is checked to be what is bounded."""
 
 from __future__ import annotations
 
