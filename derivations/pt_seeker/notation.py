@@ -48,6 +48,7 @@ y_tilde = letter("y_tilde", r"\tilde y", "[F]", "deviation of z from the quasi-s
 k = letter("k", "k", "1/[F]", "gain of the feedback", positive=True)
 omega = letter("omega", r"\omega", "1/s", "dither frequency", positive=True)
 mu = letter("mu", r"\mu", "s", "time constant of the washout filter", positive=True)
+m = letter("m", "m", "1", "the product μω where it is held fixed", positive=True)
 epsilon = letter("epsilon", r"\epsilon", "s", "time constant of the angular acceleration", positive=True)
 S = letter("S", "S", "rad", "saturation level", positive=True)
 C = letter("C", "C", "1", "gain C(t) of the saturated seeker at one instant", positive=True)

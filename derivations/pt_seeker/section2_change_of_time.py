@@ -81,11 +81,24 @@ def nu_positive(goal: Goal) -> Evidence:
 
 
 @claim(
-    "2.2/time-map", "The time dilation is the clock's map", eq(t0 + (t - t0) / nu(t - t0), clock.to_tau),
-    given=IN_TIME, labels=["eq:tau_to_t"],
+    "2.2/time-map", "The clock undoes the printed time dilation",
+    eq(sp.Subs(clock.to_t, tau, t0 + (t - t0) / nu(t - t0)), t), given=IN_TIME, labels=["eq:tau_to_t"],
 )  # fmt: skip
 def time_map(goal: Goal) -> Evidence:
-    """The printed map, beside the clock that every later step uses."""
+    """The printed map, and the clock's way back, which every later step uses."""
+    return exact(goal)
+
+
+@claim(
+    "2.2/time-map-from-gain", "It starts at t₀ and runs at the rate of the clock, which is the seeker's gain",
+    every(
+        eq(sp.Subs(t0 + (t - t0) / nu(t - t0), t, t0), t0),
+        eq(sp.Derivative(t0 + (t - t0) / nu(t - t0), t), clock.rate),
+    ),
+    given=IN_TIME, labels=["eq:tau_to_t"],
+)  # fmt: skip
+def time_map_from_gain(goal: Goal) -> Evidence:
+    """Dilating time and applying the gain are one thing."""
     return exact(goal)
 
 
@@ -166,14 +179,14 @@ def example_limit(goal: Goal) -> Evidence:
 @claim(
     "2.2/inverse-map", "The time contraction undoes the time dilation",
     every(
-        eq(t0 + (tau - t0) / (1 + (tau - t0) / T), clock.to_t),
+        eq(sp.Subs(clock.to_tau, t, t0 + (tau - t0) / (1 + (tau - t0) / T)), tau),
         eq((t0 + (tau - t0) / (1 + (tau - t0) / T)).subs(tau, t0 + (t - t0) / nu(t - t0)), t),
         eq((t0 + (t - t0) / nu(t - t0)).subs(t, t0 + (tau - t0) / (1 + (tau - t0) / T)), tau),
     ),
     given=[*IN_TIME, *IN_TAU], labels=["eq:t_to_tau"],
 )  # fmt: skip
 def inverse_map(goal: Goal) -> Evidence:
-    """The two printed maps are composed both ways."""
+    """The two printed maps are composed both ways, and the printed contraction with the clock's dilation."""
     return exact(goal)
 
 

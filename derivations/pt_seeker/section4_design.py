@@ -84,21 +84,19 @@ def closed_loop_in_tau(goal: Goal) -> Evidence:
     return exact(goal)
 
 
+# The printed law at the τ that belongs to t, applied to the unicycle; its filter runs at the rate dτ/dt.
+u1_law, u2_law, z_law = (entry.subs(tau, clock.to_tau) for entry in (forward, angular, filter_rate * clock.rate))
+under_law = System(t, (x1, x2, theta, z), (*plant.with_values({u1: u1_law, u2: u2_law}).rhs, z_law), name="unicycle")
+
+
 @claim(
     "4/closed-loop-tau-substituted", "The law put into the dilated unicycle gives the closed loop",
-    eq(
-        closed_tau_printed,
-        sp.Matrix([
-            f_tau[0] / stretch**2 + forward / stretch**2 * sp.cos(theta),
-            f_tau[1] / stretch**2 + forward / stretch**2 * sp.sin(theta),
-            angular / stretch**2,
-            filter_rate,
-        ]),
-    ),
+    eq(closed_tau_printed, dilate(under_law, clock).vector),
     given=IN_TAU, labels=["eq:closed_loop_system_tau", "eq:seeker_tau"], uses=[dilated_unicycle],
 )  # fmt: skip
 def closed_loop_substituted(goal: Goal) -> Evidence:
-    """The second route, as the paper takes it: the printed law in the printed dilated unicycle."""
+    """The second route, as the paper takes it: the printed law is applied to the unicycle at the instants that belong
+    to it, and the loop that this closes is dilated."""
     return exact(goal)
 
 

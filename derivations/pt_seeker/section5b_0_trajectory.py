@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import sympy as sp
 
 from ptproof.proof import (
@@ -56,6 +58,7 @@ F_s = F.func(*source)  # the field at the source
 F_1, F_2 = sp.diff(F, x1), sp.diff(F, x2)
 
 
+@cache
 def at(expression: sp.Expr, time: sp.Expr) -> sp.Expr:
     """An expression in τ and the position, at an instant of the trajectory."""
     values = {x1: X1(time), x2: X2(time), tau: time}

@@ -29,7 +29,7 @@ from .section5b_0_trajectory import X1, X2, V_along, assumption_2, at, s, solves
 from .section5b_0_trajectory import distance as distance_of_x
 from .section5b_0_trajectory import start as since
 from .section5b_0_trajectory import v_nonnegative as nonnegative
-from .section5b_1_lyapunov import EXAMPLE_AT_REST, W, along_X, at_order
+from .section5b_1_lyapunov import EXAMPLE_QUARTIC, W, along_X, at_order
 from .section5c_1_proposition import PUSHED, assumption_3b, bounded_drift, constants_ordered, d_of, largest, u_bounds
 from .section5d_1_interval import (
     Z,
@@ -69,19 +69,14 @@ Along = Callable[[Goal, sp.Expr], list[Fact]]
 
 
 def example(order: sp.Expr) -> dict[sp.Basic, object]:
-    """A trajectory on which the assumptions are seen to hold: decaying for κ = 1, at rest at the source for κ = 2."""
-    return (PUSHED if order == 1 else EXAMPLE_AT_REST | {d_of(t): 0, m: 1}) | {start: 0, t: sp.Rational(1, 2)}
+    """A trajectory on which the assumptions are seen to hold: F = −‖x‖² for κ = 1, F = −‖x‖⁴ for κ = 2."""
+    return (PUSHED if order == 1 else EXAMPLE_QUARTIC | {d_of(t): 0, m: 1}) | {start: 0, t: sp.Rational(1, 2)}
 
 
 def example_middle(order: sp.Expr, value: sp.Expr) -> sp.Expr:
     """The value of X on that trajectory."""
     known = {key: entry for key, entry in example(order).items() if key.is_Symbol}
-    return sp.sympify(value.subs(distance_at(t0), example_distance(order))).subs(known)
-
-
-def example_distance(order: sp.Expr) -> sp.Expr:
-    """The initial distance on that trajectory."""
-    return sp.Integer(1 if order == 1 else 0)
+    return sp.sympify(value.subs(distance_at(t0), 1)).subs(known)
 
 
 def distance_at(time: sp.Expr) -> sp.Expr:

@@ -25,7 +25,7 @@ from .notation import IN_TAU, F, f, kappa, position, q, tau, x1, x2
 from .section5b_0_trajectory import EXAMPLE, X1, X2, V_along, assumption_2, later, solves
 from .section5b_0_trajectory import start as since
 from .section5b_0_trajectory import v_nonnegative as nonnegative
-from .section5b_1_lyapunov import EXAMPLE_AT_REST, at_order, driftless, no_drift
+from .section5b_1_lyapunov import EXAMPLE_QUARTIC, at_order, driftless, no_drift
 from .section5b_2_gradient_drift import distance_bound_tau
 from .section5c_1_proposition import constants_ordered, u_bounds
 from .section5d_1_interval import Z, beta, m, start
@@ -47,7 +47,7 @@ def stable_without_drift(order: sp.Expr, tag: str, words: str, scalar: tuple[Cla
         le(distance_at(tau), beta(distance_at(since), tau - since, order)),
         given=[*solves(tau), *later, *at_order(assumption_2, order), *no_drift], place="Step 4, case i",
         uses=[upper_bound, class_kl, driftless, nonnegative, u_bounds, constants_ordered],
-        example=EXAMPLE if order == 1 else EXAMPLE_AT_REST | {m: 1},
+        example=EXAMPLE if order == 1 else EXAMPLE_QUARTIC | {m: 1},
     )  # fmt: skip
     def stable(goal: Goal) -> Evidence:
         """The estimate of the Proposition's proof without input. The initial time τ₀ stands in the bound by τ − τ₀

@@ -8,7 +8,9 @@ from __future__ import annotations
 import sympy as sp
 
 from ptproof.proof import (
+    Assumption,
     Evidence,
+    Fact,
     ForAll,
     Goal,
     claim,
@@ -18,17 +20,36 @@ from ptproof.proof import (
     exact,
     ge,
     gt,
+    instances,
     le,
     limits,
-    power_monotone,
-    power_positive,
+    power_nonnegative,
     reals,
     specialise,
 )
 
-from .notation import IN_TAU, V0, E_norm, G, T, V, c, f_norm, k, kappa, q, t0, tau
-from .section5a_1_reduction import stretch
-from .section5b_1_lyapunov import V_away, gradient_bounds, n, sigma, sigma_form, v_differential_inequality, v_inequality
+from .notation import IN_TAU, V0, E, E_norm, T, c, f, k, kappa, q, t0, tau, x1, x2
+from .section5b_0_trajectory import (
+    EXAMPLE,
+    X1,
+    X2,
+    V_along,
+    V_rate,
+    assumption_2,
+    at,
+    drift_norm,
+    gradient_bounds,
+    here,
+    later,
+    s,
+    solves,
+    start,
+    v_differential_inequality,
+    v_nonnegative,
+)
+from .section5b_0_with_drift import drift_norm_below, gradient_drift_given, norm_of_E
+from .section5b_1_lyapunov import EXAMPLE_QUARTIC, along_X, at_order, n, sigma, sigma_form
+from .section5b_1_lyapunov import W as value
 
 SECTION = "6.2 Discussion: vanishing drift and κ ≥ 2"
 
@@ -36,31 +57,30 @@ order = n + 1
 q_printed = q(order)
 # The constants c₁ and c₂ of κ as letters, as the paper prints them here: the claims hold for all positive values.
 C1, C2 = sp.symbols("c_kappa1 c_kappa2", positive=True)
+constants = [eq(C1, c(1, order)), eq(C2, c(2, order))]  # what they stand for under Assumption 2
 drift, feed = C2**2 * E_norm, k * C1**2 / 2
-V_dot = sp.Symbol("V_dot", real=True)
-s = sp.Symbol("s", real=True)
 after = ge(tau, t0)
 
+# A solution that moves, for κ = 2: F = −‖x‖⁴ and E = −I, so that X' = (4/(1 + s)² − 4)X³ on the ray through (1, 0).
+MOVING = EXAMPLE_QUARTIC | {
+    n: 1, k: 2, C1: 4, C2: 4, E_norm: 1, V0: 1, **dict.fromkeys(E, 0), E[0, 0]: -1, E[1, 1]: -1,
+    X1(s): (1 + 8 * s**2 / (1 + s)) ** sp.Rational(-1, 2),
+    f[0]: 4 * (x1**2 + x2**2) * x1, f[1]: 4 * (x1**2 + x2**2) * x2,
+}  # fmt: skip
+
 
 @claim(
-    "6.2/drift-by-v", "The drift is bounded by a power of V", le(f_norm, c(2) * E_norm * V ** q()),
-    given=[le(f_norm, E_norm * G), le(c(1) * V ** q(), G), le(G, c(2) * V ** q())],
-    place="Section 6.2", uses=[gradient_bounds],
+    "6.2/drift-by-v", "The drift along a solution is bounded by a power of V",
+    le(at(drift_norm, tau), c(2) * E_norm * V_along ** q()),
+    given=[after, *assumption_2, *gradient_drift_given, norm_of_E],
+    place="Section 6.2", uses=[drift_norm_below, gradient_bounds, v_nonnegative], example=EXAMPLE,
 )  # fmt: skip
 def drift_by_v(goal: Goal) -> Evidence:
-    """‖E∇F‖ ≤ ‖E‖‖∇F‖, and the gradient's upper bound."""
-    return reals(goal)
-
-
-@claim(
-    "6.2/v-inequality", "The inequality for V under gradient drift, any κ",
-    le(V_dot, (c(2) ** 2 * E_norm / stretch**2 - k * c(1) ** 2 / 2) * V ** (2 * q())),
-    given=[after, le(V_dot, v_inequality(kappa)), le(f_norm, c(2) * E_norm * V ** q())],
-    place="Section 6.2", uses=[drift_by_v, v_differential_inequality],
-)  # fmt: skip
-def v_drift_inequality(goal: Goal) -> Evidence:
-    """Both terms carry the same power V^(2q). For κ ≥ 2 it is more than 1, so the drift may win if V is large."""
-    return reals(goal, power_positive(V, q()))
+    """‖E∇F‖ ≤ ‖E‖‖∇F‖, and the gradient's upper bound at the position of the instant."""
+    return reals(
+        goal, *specialise(goal, drift_norm_below, {start: tau}), *specialise(goal, gradient_bounds, here),
+        *specialise(goal, v_nonnegative, here), power_nonnegative(V_along, q()),
+    )  # fmt: skip
 
 
 # --- The comparison principle -----------------------------------------------------------------------------------------
@@ -71,34 +91,25 @@ def rate_at(time: sp.Expr) -> sp.Expr:
     return drift / (1 + (time - t0) / T) ** 2 - feed
 
 
-Y = sp.Function("Y", real=True)
 elapsed = tau - t0
 work = drift * T * elapsed / (T + elapsed) - feed * elapsed  # the integral of the factor
-bernoulli = ForAll((s,), le(sp.Derivative(V_away(s), s), rate_at(s) * V_away(s) ** (2 * q_printed)),
-                   (ge(s, t0), le(s, tau)))  # fmt: skip
 
 
 @claim(
-    "6.2/bernoulli", "−V^(−σ) satisfies an inequality without V",
-    le(sp.Derivative(-(V_away(s) ** -sigma), s), sigma * rate_at(s)),
-    given=[le(sp.Derivative(V_away(s), s), rate_at(s) * V_away(s) ** (2 * q_printed)), ge(s, t0)],
-    place="Section 6.2", uses=[v_drift_inequality, sigma_form],
+    "6.2/v-inequality", "The inequality for V along a solution with gradient drift, for κ = n + 1 ≥ 2",
+    le(V_rate, rate_at(tau) * V_along ** (1 + sigma)),
+    given=[*solves(tau), *later, *at_order(assumption_2, order), *gradient_drift_given, norm_of_E, *constants],
+    place="Section 6.2", uses=[drift_by_v, v_differential_inequality, v_nonnegative, sigma_form],
+    example=MOVING,
 )  # fmt: skip
-def bernoulli_substitution(goal: Goal) -> Evidence:
-    """Bernoulli's substitution: the derivative brings the factor σV^(−σ−1), and σ + 1 = 2q."""
-    return reals(goal)
-
-
-@claim(
-    "6.2/bernoulli-integrated", "The inequality without V, integrated",
-    le(Y(tau), Y(t0) + sigma * work),
-    given=[after, ForAll((s,), le(sp.Derivative(Y(s), s), sigma * rate_at(s)), (ge(s, t0), le(s, tau)))],
-    place="Section 6.2", uses=[bernoulli_substitution],
-)  # fmt: skip
-def bernoulli_integrated(goal: Goal) -> Evidence:
-    """The comparison principle, with a rate that depends on time only."""
-    solution = Y(t0) + sigma * work.subs(tau, s)
-    return comparison(goal, solution, denominators=[1 + (s - t0) / T, T + s - t0])
+def v_drift_inequality(goal: Goal) -> Evidence:
+    """Both terms carry the same power V^(2q) = V^(1 + σ). For κ ≥ 2 it is more than 1, so the drift may win if V is
+    large."""
+    said = [*specialise(goal, v_nonnegative, {kappa: order, **here}), power_nonnegative(V_along, q(order))]
+    return reals(
+        goal, *said, *specialise(goal, v_differential_inequality, {kappa: order}),
+        *specialise(goal, drift_by_v, {kappa: order}),
+    )  # fmt: skip
 
 
 def gammas(start: sp.Expr) -> tuple[sp.Expr, sp.Expr, sp.Expr]:
@@ -134,21 +145,104 @@ def denominator_form(goal: Goal) -> Evidence:
     return exact(goal)
 
 
+# Along a solution: what the comparison assumes of V, and the solution itself.
+
+
+on = (ge(s, t0), le(s, tau))
+
+
+def positive(found: sp.Expr) -> ForAll:
+    """The printed denominator, as a function of s, is positive on [t₀, τ]."""
+    return ForAll((s,), gt(found, 0), on)
+
+
+def denominator_from(value: sp.Expr) -> sp.Expr:
+    """The printed denominator at s, where V starts at ``value``."""
+    return denominator(value ** (2 * q_printed - 1), s)
+
+
+falls_or_grows = ForAll((s,), le(sp.Derivative(value(s), s), rate_at(s) * value(s) ** (1 + sigma)), on)
+not_negative = ForAll((s,), ge(value(s), 0), on)
+starts = le(V_along.subs(tau, t0), V0)  # V may also start at 0, at the source
+trajectory: list[Assumption] = [
+    *solves(tau, t0),
+    after,
+    *at_order(assumption_2, order),
+    *gradient_drift_given,
+    norm_of_E,
+    *constants,
+    starts,
+]
+
+
+def v_falls(there: Goal, point: sp.Expr) -> list[Fact]:
+    """What shows, at an arbitrary instant, that V along X satisfies the inequality, and is not negative."""
+    position_then = {kappa: order, x1: X1(point), x2: X2(point)}
+    return [
+        *specialise(there, v_nonnegative, position_then),
+        *specialise(there, v_drift_inequality, {start: t0, tau: point}),
+    ]  # fmt: skip
+
+
+def left(time: sp.Expr) -> sp.Expr:
+    """1 − σW₀^σ times the work up to an instant, of what starts at V(x₀): the printed denominator over T + τ − t₀."""
+    return 1 - sigma * V0**sigma * work.subs(tau, time)
+
+
 @claim(
-    "6.2/remark-inequality", "The bound for κ ≥ 2, as long as its denominator is positive",
-    le(V_away(tau), remark(V_away(t0))),
-    given=[after, bernoulli, gt(denominator(V_away(t0) ** (2 * q_printed - 1)), 0)],
-    labels=["eq:remark_inequality"], uses=[bernoulli_integrated, denominator_form],
+    "6.2/bernoulli-comparison", "What grows or falls as V does stays below the solution of the comparison equation",
+    le(value(tau), V0 * left(tau) ** (-1 / sigma)),
+    given=[after, le(value(t0), V0), falls_or_grows, not_negative, positive(left(s))],
+    place="Section 6.2", uses=[sigma_form],
+)  # fmt: skip
+def bernoulli_comparison(goal: Goal) -> Evidence:
+    """The comparison principle. The equation is of Bernoulli's type, and W may be 0."""
+    return comparison(goal, V0 * left(s) ** (-1 / sigma), denominators=[left(s)])
+
+
+base, top, below = sp.symbols("B numerator denominator", positive=True)
+
+
+@claim(
+    "6.2/remark-power", "The power of the comparison equation's solution, as it is printed",
+    eq(base ** (-1 / sigma), (top / below) ** (1 / (2 * q_printed - 1))), given=[eq(base, below / top)],
+    place="Section 6.2", uses=[sigma_form],
+)  # fmt: skip
+def remark_power(goal: Goal) -> Evidence:
+    """1/σ and the printed 1/(2q − 1) are one exponent."""
+    return exact(goal)
+
+
+@claim(
+    "6.2/remark-by-letters", "The printed bound, by letters",
+    le(value(tau), remark(V0)),
+    given=[after, le(value(t0), V0), falls_or_grows, not_negative, positive(denominator_from(V0))],
+    place="Section 6.2", uses=[bernoulli_comparison, denominator_form, remark_power],
+)  # fmt: skip
+def remark_by_letters(goal: Goal) -> Evidence:
+    """The solution as it is printed: its base is the quotient of T + τ − t₀ and the printed denominator."""
+
+    def along(there: Goal, point: sp.Expr) -> list[Fact]:
+        return instances(there, point)
+
+    facts = instances(goal, tau)
+    values = {base: left(tau), top: elapsed + T, below: denominator_from(V0).subs(s, tau)}
+    return reals(
+        goal, *facts, *specialise(goal, bernoulli_comparison, {}, facts, along=along),
+        *specialise(goal, remark_power, values, facts),
+    )  # fmt: skip
+
+
+@claim(
+    "6.2/remark-inequality", "The bound for κ ≥ 2 along every solution, as long as its denominator is positive",
+    le(V_along, remark(V0)),
+    given=[*trajectory, positive(denominator_from(V0))],
+    labels=["eq:remark_inequality"], uses=[remark_by_letters, v_drift_inequality, v_nonnegative], example=MOVING,
 )  # fmt: skip
 def remark_inequality(goal: Goal) -> Evidence:
-    """The printed bound, with the domain that it needs: V exists up to τ and the denominator is positive at τ. Where
-    it is zero or negative the right-hand side says nothing."""
-    first, last = V_away(t0) ** sigma, V_away(tau) ** sigma
-    bound = first * (elapsed + T) / denominator(V_away(t0) ** (2 * q_printed - 1))
-    return reals(
-        goal, *specialise(goal, bernoulli_integrated, {Y(s): -(V_away(s) ** -sigma)}),
-        power_monotone(last, bound, 1 / sigma),
-    )  # fmt: skip
+    """The printed bound, with the domain that it needs: the denominator is positive up to τ. Where it has been zero or
+    negative the right-hand side says nothing."""
+    return reals(goal, *instances(goal, tau), *specialise(goal, remark_by_letters, {value(s): along_X}, along=v_falls))
 
 
 @claim(

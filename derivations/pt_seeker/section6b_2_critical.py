@@ -7,6 +7,7 @@ import sympy as sp
 from ptproof.proof import (
     Evidence,
     Exists,
+    Fact,
     Goal,
     Relation,
     claim,
@@ -24,20 +25,23 @@ from ptproof.proof import (
     specialise,
 )
 
-from .notation import V0, E_norm, T, k, t0, tau
-from .section5b_1_lyapunov import V_away, n, sigma_form
+from .notation import V0, E, E_norm, T, f, k, t0, tau, x1, x2
+from .section5b_0_trajectory import X1, V_along, s
+from .section5b_1_lyapunov import sigma_form
 from .section6b_1_comparison import (
     C1,
     C2,
+    MOVING,
     W,
     after,
-    bernoulli,
     denominator,
+    denominator_from,
     gammas,
+    positive,
     q_printed,
     remark,
     remark_inequality,
-    s,
+    trajectory,
 )
 
 SECTION = "6.2 Discussion: vanishing drift and κ ≥ 2"
@@ -167,40 +171,49 @@ def before_both(goal: Goal) -> Evidence:
 
 
 # V(x₀)^σ is the critical value of eq. (critical-V₀), solved for the drift.
-drift_of_start = ratio / (sigma_printed * (tau_star - t0) * V_away(t0) ** sigma_printed) + k * C1**2 / 2 * ratio
+drift_of_start = ratio / (sigma_printed * (tau_star - t0) * V0**sigma_printed) + k * C1**2 / 2 * ratio
 critical_start = eq(E_norm, drift_of_start / C2**2)
+# A drift across the ray on which the vehicle moves: F = −‖x‖⁴ and E = diag(0, −‖E‖), so that X' = −2kX³ on the ray.
+across = MOVING | {
+    k: 1, E[0, 0]: 0, E_norm: sp.Rational(5, 4), E[1, 1]: sp.Rational(-5, 4), tau_star: 1, tau: sp.Rational(1, 8),
+    X1(s): 1 / sp.sqrt(1 + 4 * s), f[0]: 0, f[1]: 5 * (x1**2 + x2**2) * x2,
+}  # fmt: skip
 
 
 @claim(
-    "6.2/bound-violated", "Before τ*, a critical start violates the bound",
-    gt(V_away(tau), remark(V_away(t0))),
-    given=[gt(tau, t0), lt(tau, tau_star), bernoulli, *admitted, critical_start,
-           gt(denominator(V_away(t0) ** sigma_printed), 0)],
+    "6.2/bound-violated", "Before τ*, a critical start violates the bound along every solution",
+    gt(V_along, remark(V0)),
+    given=[
+        gt(tau, t0), lt(tau, tau_star), *trajectory, eq(V0, V_along.subs(tau, t0)), *admitted, critical_start,
+        positive(denominator_from(V0)),
+    ],
     labels=["eq:remark_inequality"], expected="refuted", uses=[critical_value], grade="wording",
     wrong="An upper bound whose right-hand side becomes infinite is said to be violated; it holds until then, and says "
     "nothing afterwards.",
     survives="Yes: that no finite bound is left is what the remark needs, and for k < 2‖E‖ some averages do escape.",
 )  # fmt: skip
 def bound_violated(goal: Goal) -> Evidence:
-    """Where the right-hand side escapes, the inequality is not violated: it is void. The witness is a constant V = 1,
-    critical for τ* = 1, which satisfies the differential inequality and is below the bound."""
-    return refute(goal, {
-        V_away(s): 1, n: 1, C1: 1, C2: 1, k: 2, E_norm: 6, T: 1, t0: 0, tau: sp.Rational(1, 2), tau_star: 1,
-    })  # fmt: skip
+    """Where the right-hand side escapes, the inequality is not violated: it is void. The witness is a trajectory for
+    κ = 2 that moves across the drift, from a start that is critical for τ* = 1."""
+    return refute(goal, across)
 
 
 @claim(
-    "6.2/bound-holds-until-it-escapes", "For a critical start the bound holds until the first of the two roots",
-    le(V_away(tau), remark(V_away(t0))),
-    given=[after, lt(tau, tau_star), lt(tau, tau_other), bernoulli, *admitted, critical_start],
+    "6.2/bound-holds-until-it-escapes",
+    "From a critical start the bound holds along every solution until the first root",
+    le(V_along, remark(V0)),
+    given=[lt(tau, tau_star), lt(tau, tau_other), *trajectory, *admitted, critical_start],
     labels=["eq:remark_inequality"], corrects=bound_violated,
-    uses=[remark_inequality, before_both],
+    uses=[remark_inequality, before_both], example=across,
 )  # fmt: skip
 def bound_until_escape(goal: Goal) -> Evidence:
     """Between the start and the first root the denominator is positive. From the first root on nothing is said: the
     bound is infinite at the root, and what is printed is not a bound behind it."""
-    positive = specialise(goal, before_both, {W: V_away(t0) ** sigma_printed})
-    return reals(goal, *specialise(goal, remark_inequality, {}), *positive)
+
+    def along(there: Goal, point: sp.Expr) -> list[Fact]:
+        return specialise(there, before_both, {W: V0**sigma_printed, tau: point})
+
+    return reals(goal, *specialise(goal, remark_inequality, {}, along=along))
 
 
 @claim(

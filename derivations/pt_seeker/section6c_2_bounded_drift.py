@@ -1,6 +1,6 @@
-"""Section 6.3: the asymptotic seeker under a bounded drift, from the rate of V to an input-to-state estimate.
+"""Section 6.3: the asymptotic seeker under a bounded drift, from its averaged system to an input-to-state estimate.
 
-All of it is about the averaged vehicle. V(s) and ‖∇F‖ are taken along its trajectory, V = 0 included.
+All of it is about the averaged vehicle, from every start, and about every solution; V = 0 is included.
 """
 
 from __future__ import annotations
@@ -8,8 +8,10 @@ from __future__ import annotations
 import sympy as sp
 
 from ptproof.proof import (
+    Assumption,
     Evidence,
     Exists,
+    Fact,
     ForAll,
     Goal,
     claim,
@@ -17,25 +19,61 @@ from ptproof.proof import (
     defeats_every_choice,
     eq,
     ge,
+    instances,
     le,
+    power_nonnegative,
     power_of_root,
     reals,
     specialise,
     superadditive,
 )  # fmt: skip
 
-from . import chain
-from .notation import F, F_source, V, a1, a2, c, d, f, k, q, t, t0
-from .section5b_1_lyapunov import n, sigma
-from .section6a_asymptotic import asymptotic_average, asymptotic_derivative
+from .notation import V, a1, a2, c, d, f, k, kappa, position, q, t, t0, x1, x2
+from .section5b_0_trajectory import (
+    EXAMPLE,
+    F_1,
+    F_2,
+    X1,
+    X2,
+    V_of_x,
+    assumption_2,
+    distance,
+    gradient_bounds,
+    s,
+    v_bounds,
+    v_nonnegative,
+)
+from .section5b_1_lyapunov import EXAMPLE_QUARTIC, W, along_X, at_order, n, sigma
+from .section6a_asymptotic import asymptotic_average, averaged_asymptotic
 
 SECTION = "6.3 Discussion: the asymptotic seeker under a bounded drift"
 
 ONE = sp.S.One
-s = sp.Symbol("s", real=True)
-slope = sp.Matrix(chain.gradient_F)
-square = slope.dot(slope)
-drift_square = f[0] ** 2 + f[1] ** 2
+
+
+def at(expression: sp.Expr, time: sp.Expr) -> sp.Expr:
+    """An expression in t and the position, at an instant of the trajectory."""
+    return expression.subs({x1: X1(time), x2: X2(time), t: time}, simultaneous=True)
+
+
+# X is a solution of the averaged asymptotic system on [t₀, t], under a drift with ‖f(t, x)‖ ≤ d.
+after = ge(t, t0)
+bounded_drift = ForAll((t, *position), le(sp.sqrt(f[0] ** 2 + f[1] ** 2), d), (ge(t, t0),))
+moved: list[Assumption] = [
+    after,
+    *(
+        ForAll((s,), eq(sp.Derivative(X(s), s), at(rate, s)), (ge(s, t0), le(s, t)))
+        for X, rate in zip((X1, X2), asymptotic_average.rhs, strict=True)
+    ),
+    bounded_drift,
+]
+V_now, V_start = at(V_of_x, t), at(V_of_x, t0)
+V_rate = sp.Derivative(V_now, t)
+here = {x1: X1(t), x2: X2(t)}
+square = F_1**2 + F_2**2
+# F = −‖x‖² under a constant drift away from the source, and F = −‖x‖⁴ without one: solutions that move.
+PUSHED = EXAMPLE | {f[0]: sp.Rational(1, 2), d: sp.Rational(1, 2), X1(s): (1 + sp.exp(-s)) / 2, t: 1}
+FALLING = EXAMPLE_QUARTIC | {n: 1, d: 2, t: 1}
 
 
 @claim(
@@ -57,19 +95,24 @@ def only_local(goal: Goal) -> Evidence:
 
 
 @claim(
-    "6.3/asymptotic-rate", "dV/dt of the averaged asymptotic seeker under a bounded drift",
-    le(asymptotic_average.derivative_along(F_source - F), d**2 / k - k / 4 * square), given=[le(drift_square, d**2)],
-    place="Section 6.3", uses=[asymptotic_derivative],
+    "6.3/asymptotic-derivative", "dV/dt along a solution of the averaged asymptotic system",
+    eq(V_rate, at(-(F_1 * f[0] + F_2 * f[1]) - k / 2 * square, t)), given=moved, place="Section 6.3",
+    uses=[averaged_asymptotic], example=PUSHED,
+)  # fmt: skip
+def asymptotic_derivative(goal: Goal) -> Evidence:
+    """The chain rule, and the system at the instant t."""
+    return reals(goal, *instances(goal, t))
+
+
+@claim(
+    "6.3/asymptotic-rate", "dV/dt along a solution under a bounded drift",
+    le(V_rate, at(d**2 / k - k / 4 * square, t)), given=moved,
+    place="Section 6.3", uses=[asymptotic_derivative], example=PUSHED,
 )  # fmt: skip
 def asymptotic_rate(goal: Goal) -> Evidence:
     """Half of the decrease pays for the drift, by d‖∇F‖ ≤ k‖∇F‖²/4 + d²/k. What is left needs no root of V, so that
     the source is no exception."""
-    return reals(goal)
-
-
-V_t = sp.Function("V", nonnegative=True)
-G_t = sp.Function("G", nonnegative=True)
-R_t = sp.Function("R", nonnegative=True)
+    return reals(goal, *specialise(goal, asymptotic_derivative, {}), *instances(goal, (t, X1(t), X2(t))))
 
 
 def decay_rate(order: sp.Expr) -> sp.Expr:
@@ -77,53 +120,52 @@ def decay_rate(order: sp.Expr) -> sp.Expr:
     return k * c(1, order) ** 2 / 4
 
 
-def falls(order: sp.Expr, power: sp.Expr) -> ForAll:
-    """What the rate of V and the lower bound of the gradient give, for all times from t₀ to t."""
-    rate = d**2 / k - decay_rate(order) * V_t(s) ** power
-    return ForAll((s,), le(sp.Derivative(V_t(s), s), rate), (ge(s, t0), le(s, t)))
+@claim(
+    "6.3/asymptotic-v-inequality", "The differential inequality for V along a solution, for every κ",
+    le(V_rate, d**2 / k - decay_rate(kappa) * V_now ** (2 * q())), given=[*moved, *assumption_2],
+    place="Section 6.3", uses=[asymptotic_rate, gradient_bounds, v_nonnegative], example=PUSHED,
+)  # fmt: skip
+def v_inequality(goal: Goal) -> Evidence:
+    """The gradient's norm is at least c₁V^q."""
+    return reals(
+        goal, *specialise(goal, asymptotic_rate, {}), *specialise(goal, gradient_bounds, here),
+        *specialise(goal, v_nonnegative, here), power_nonnegative(V_now, q()),
+    )  # fmt: skip
 
 
-def along(order: sp.Expr, power: sp.Expr) -> list[ForAll]:
-    """The same in two steps: the rate of V, and Assumption 2 for the gradient."""
-    domain = (ge(s, t0), le(s, t))
+def v_at(there: Goal, order: sp.Expr, time: sp.Expr) -> list[Fact]:
+    """At an instant of the solution V ≥ 0, and V lies between its bounds by the distance."""
+    place = {kappa: order, x1: X1(time), x2: X2(time)}
+    return [*specialise(there, v_nonnegative, place), *specialise(there, v_bounds, place)]
+
+
+def falls(there: Goal, order: sp.Expr, time: sp.Expr) -> list[Fact]:
+    """At an instant up to t the inequality for V, and V ≥ 0."""
+    value = at(V_of_x, time)
     return [
-        ForAll((s,), le(sp.Derivative(V_t(s), s), d**2 / k - k / 4 * G_t(s) ** 2), domain),
-        ForAll((s,), le(c(1, order) ** 2 * V_t(s) ** power, G_t(s) ** 2), domain),
-    ]
+        *v_at(there, order, time), power_nonnegative(value, 2 * q(order)),
+        *specialise(there, v_inequality, {kappa: order, t: time}),
+    ]  # fmt: skip
 
 
-def level(order: sp.Expr, power: sp.Expr) -> sp.Expr:
-    """Where the decrease balances the drift: V^(2q) = (2d/(kc₁))²."""
-    return (4 * d**2 / (k * c(1, order)) ** 2) ** (1 / power)
+# --- What falls as V does ---------------------------------------------------------------------------------------------
 
-
-# --- κ = 1 ------------------------------------------------------------------------------------------------------------
-
+on = (ge(s, t0), le(s, t))
+not_negative = ForAll((s,), ge(W(s), 0), on)
 decayed_1 = sp.exp(-decay_rate(ONE) * (t - t0))
+level_1 = 4 * d**2 / (k * c(1, ONE)) ** 2  # V at which the decrease balances the drift
 
 
 @claim(
-    "6.3/v-kappa-1", "V under a bounded drift, κ = 1", le(V_t(t), V_t(t0) * decayed_1 + level(ONE, ONE)),
-    given=[ge(t, t0), falls(ONE, ONE)], place="Section 6.3", uses=[asymptotic_rate],
+    "6.3/v-kappa-1", "What falls as V does under a bounded drift, κ = 1",
+    le(W(t), W(t0) * decayed_1 + level_1),
+    given=[after, ForAll((s,), le(sp.Derivative(W(s), s), d**2 / k - decay_rate(ONE) * W(s)), on), not_negative],
+    place="Section 6.3",
 )  # fmt: skip
 def v_kappa_1(goal: Goal) -> Evidence:
     """A linear comparison equation."""
-    return comparison(goal, V_t(t0) * sp.exp(-decay_rate(ONE) * (s - t0)) + level(ONE, ONE))
+    return comparison(goal, W(t0) * sp.exp(-decay_rate(ONE) * (s - t0)) + level_1)
 
-
-@claim(
-    "6.3/asymptotic-iss-kappa-1", "The averaged asymptotic seeker is globally input-to-state stable (κ = 1)",
-    le(a2 * R_t(t) ** 2, a1 * R_t(t0) ** 2 * decayed_1 + level(ONE, ONE)),
-    given=[ge(t, t0), *along(ONE, ONE), le(a2 * R_t(t) ** 2, V_t(t)), le(V_t(t0), a1 * R_t(t0) ** 2)],
-    place="Section 6.3", corrects=only_local, uses=[v_kappa_1],
-)  # fmt: skip
-def iss_kappa_1(goal: Goal) -> Evidence:
-    """From every start and for every bound d of the drift: the square of the distance is bounded by what decays
-    exponentially and a multiple of d². The distance ends below a residual that is proportional to d/k, not at zero."""
-    return reals(goal, *specialise(goal, v_kappa_1, {}))
-
-
-# --- κ = n + 1 ≥ 2 ----------------------------------------------------------------------------------------------------
 
 order, power = n + 1, 1 + sigma
 excess = sp.Symbol("varsigma", positive=True)  # 2q − 1
@@ -131,28 +173,51 @@ pace = sp.Symbol("A", positive=True)
 balance = sp.Symbol("V_b", nonnegative=True)  # the V at which the decrease balances the drift
 
 
-def decayed(value: sp.Expr, after: sp.Expr) -> sp.Expr:
+def decayed(value: sp.Expr, passed: sp.Expr) -> sp.Expr:
     """The solution of w' = −A w^(1+ς) from ``value``, after a time."""
-    return value * (1 + excess * value**excess * pace * after) ** (-1 / excess)
+    return value * (1 + excess * value**excess * pace * passed) ** (-1 / excess)
 
 
 @claim(
     "6.3/decay-plus-level", "What falls like a power less a constant stays below the decay plus the level of balance",
-    le(V_t(t), decayed(V_t(t0), t - t0) + balance),
+    le(W(t), decayed(W(t0), t - t0) + balance),
     given=[
-        ge(t, t0),
-        ForAll((s,), le(sp.Derivative(V_t(s), s), pace * balance ** (1 + excess) - pace * V_t(s) ** (1 + excess)),
-               (ge(s, t0), le(s, t))),
+        after, not_negative,
+        ForAll((s,), le(sp.Derivative(W(s), s), pace * balance ** (1 + excess) - pace * W(s) ** (1 + excess)), on),
     ],
-    place="Section 6.3", uses=[asymptotic_rate],
+    place="Section 6.3",
 )  # fmt: skip
 def decay_plus_level(goal: Goal) -> Evidence:
     """Powers of at least 1 are superadditive, so that the sum falls no faster than the inequality asks."""
-    base = 1 + excess * V_t(t0) ** excess * pace * (s - t0)
-    falling = decayed(V_t(t0), s - t0)
+    base = 1 + excess * W(t0) ** excess * pace * (s - t0)
+    falling = decayed(W(t0), s - t0)
     return comparison(
-        goal, falling + balance, denominators=[base], lemmas=[superadditive(falling, balance, 1 + excess)]
-    )
+        goal, falling + balance, denominators=[base],
+        lemmas=[superadditive(falling, balance, 1 + excess), power_nonnegative(W(t0), excess)],
+    )  # fmt: skip
+
+
+# --- The estimates ----------------------------------------------------------------------------------------------------
+
+
+def squared(time: sp.Expr) -> sp.Expr:
+    """‖X − x*‖² at an instant."""
+    return at(distance, time) ** 2
+
+
+@claim(
+    "6.3/asymptotic-iss-kappa-1", "The averaged asymptotic seeker is globally input-to-state stable (κ = 1)",
+    le(a2 * squared(t), a1 * squared(t0) * decayed_1 + level_1),
+    given=[*moved, *at_order(assumption_2, ONE)], place="Section 6.3", corrects=only_local,
+    uses=[v_kappa_1, v_inequality, v_nonnegative, v_bounds], example=PUSHED,
+)  # fmt: skip
+def iss_kappa_1(goal: Goal) -> Evidence:
+    """Along every solution and for every bound d of the drift: the square of the distance is bounded by what decays
+    exponentially and a multiple of d². The distance ends below a residual that is proportional to d/k, not at zero."""
+    return reals(
+        goal, *v_at(goal, ONE, t), *v_at(goal, ONE, t0),
+        *specialise(goal, v_kappa_1, {W(s): along_X}, along=lambda there, time: falls(there, ONE, time)),
+    )  # fmt: skip
 
 
 letters = {excess: sigma, pace: decay_rate(order)}
@@ -160,14 +225,17 @@ letters = {excess: sigma, pace: decay_rate(order)}
 
 @claim(
     "6.3/asymptotic-iss-kappa-2", "The averaged asymptotic seeker is globally input-to-state stable (κ ≥ 2)",
-    le(a2 * R_t(t) ** (2 * order), decayed(V_t(t0), t - t0).subs(letters) + balance),
-    given=[
-        ge(t, t0), *along(order, power), eq(decay_rate(order) * balance**power, d**2 / k),
-        le(a2 * R_t(t) ** (2 * order), V_t(t)),
-    ],
-    place="Section 6.3", corrects=only_local, uses=[decay_plus_level],
+    le(a2 * at(distance, t) ** (2 * order), decayed(V_start, t - t0).subs(letters) + balance),
+    given=[*moved, *at_order(assumption_2, order), eq(decay_rate(order) * balance**power, d**2 / k)],
+    place="Section 6.3", corrects=only_local,
+    uses=[decay_plus_level, v_inequality, v_nonnegative, v_bounds], example=FALLING | {balance: 1},
 )  # fmt: skip
 def iss_kappa_2(goal: Goal) -> Evidence:
-    """From every start and for every bound d of the drift: what is left in the end grows like d^(2/(2q)), and the
+    """Along every solution and for every bound d of the drift: what is left in the end grows like d^(2/(2q)), and the
     distance like d^(1/(2κ−1))."""
-    return reals(goal, *specialise(goal, decay_plus_level, letters))
+    begun = [*v_at(goal, order, t0), power_nonnegative(V_start, sigma)]
+    values = {**letters, W(s): along_X}
+    return reals(
+        goal, *begun, *v_at(goal, order, t),
+        *specialise(goal, decay_plus_level, values, along=lambda there, time: falls(there, order, time)),
+    )  # fmt: skip

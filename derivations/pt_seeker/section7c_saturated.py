@@ -11,6 +11,7 @@ from ptproof.proof import (
     Goal,
     Smooth,
     claim,
+    definition,
     eq,
     every,
     exact,
@@ -36,11 +37,13 @@ from .notation import (
     b1,
     b2,
     epsilon,
+    f,
     k,
     mu,
     nu,
     omega,
     position,
+    rate_of,
     t,
     t0,
     theta,
@@ -49,6 +52,7 @@ from .notation import (
     x2,
     z,
 )
+from .section4_design import closed_t_printed
 
 SECTION = "7.3 Simulation: saturated angular acceleration"
 
@@ -66,23 +70,37 @@ def sat(value: sp.Expr) -> sp.Expr:
 seeker = saturated_seeker(F, k=k, omega=omega, mu=mu, epsilon=epsilon, level=S, gain=C, time=t, states=letters)
 
 
-@claim(
-    "7.3/saturated-seeker", "The saturated seeker",
-    eq(
-        seeker.vector,
-        [
-            C * sp.sqrt(omega) * sp.cos(theta),
-            C * sp.sqrt(omega) * sp.sin(theta),
-            u2,
-            sat(-u2 + C * (omega - k / mu * (F - z))) / epsilon,
-            C * (F - z) / mu,
-        ],
-    ),
+argument = -u2 + C * (omega - k / mu * (F - z))
+printed_rates = sp.Matrix([
+    C * sp.sqrt(omega) * sp.cos(theta),
+    C * sp.sqrt(omega) * sp.sin(theta),
+    u2,
+    sat(argument) / epsilon,
+    C * (F - z) / mu,
+])  # fmt: skip
+
+definition(
+    "7.3/saturated-seeker-printed", "The saturated seeker as printed",
+    every(*(eq(rate_of(name, t), rate)
+            for name, rate in zip(("x1", "x2", "theta", "u2", "z"), printed_rates, strict=True))),
     labels=["eq:sat_seeker", "eq:sat_acc"],
+    prose="The angular velocity is a state of its own, and sat(x) = min(S, max(−S, x)).",
+)  # fmt: skip
+
+
+@claim(
+    "7.3/saturated-seeker",
+    "With C = 1/ν², while u₂ is at its steady state, the saturated seeker moves as the PT Seeker without drift",
+    eq(
+        closed_t_printed.subs({f[0]: 0, f[1]: 0}),
+        sp.Matrix([seeker.rhs[i] for i in (0, 1, 2, 4)]).subs(C, prescribed_time_gain(clock)),
+    ),
+    given=[eq(argument.subs(C, 1 / nu(t - t0) ** 2), 0), ge(t, t0), lt(t, t0 + T)],
+    labels=["eq:sat_seeker", "eq:closed_loop_system_t"],
 )  # fmt: skip
 def printed_seeker(goal: Goal) -> Evidence:
-    """The unicycle under the feedback of the PT Seeker, with the angular velocity as a state of its own."""
-    return exact(goal)
+    """The seeker of the pipeline, whose heading turns at the rate u₂, against the printed closed loop."""
+    return reals(goal)
 
 
 @claim(

@@ -10,11 +10,14 @@ import sympy as sp
 
 from ptproof.proof import (
     Evidence,
+    Exists,
     ForAll,
     Goal,
     claim,
     eq,
+    every,
     exact,
+    exists_by,
     ge,
     gt,
     le,
@@ -27,7 +30,7 @@ from ptproof.proof import (
 from ptproof.system import gradient
 
 from . import chain
-from .notation import E_norm, F, T, f, k, position, t0, tau
+from .notation import E_norm, F, T, a1, a2, b1, b2, c, f, k, position, q, t0, tau
 from .section5b_0_trajectory import s
 from .section5b_1_lyapunov import n
 from .section9_1_gain import Z, alpha, beta, elapsed, integrated_rate
@@ -38,6 +41,52 @@ order = n + 1
 field = -((position[0] ** 2 + position[1] ** 2) ** order)
 slope = gradient(field, position)
 radial = chain.averaged_tau.with_values({F: field, f[0]: -E_norm * slope[0], f[1]: -E_norm * slope[1]})
+
+square = position[0] ** 2 + position[1] ** 2
+# The gradient as a polynomial in x and ‖x‖², which it is at the source, too.
+steep = sp.Matrix([-2 * order * entry * square**n for entry in position])
+steepness = sp.sqrt(steep.dot(steep))
+field_distance = sp.sqrt(square)
+constants = {a1: 1, a2: 1, b1: 2 * order, b2: 2 * order}
+
+
+@claim(
+    "beyond/escape-gradient", "The gradient of F = −‖x‖^(2κ) is −2κ‖x‖^(2κ − 2)x",
+    eq(sp.Matrix([sp.Derivative(field, entry) for entry in position]), steep), given=[gt(square, 0)],
+)  # fmt: skip
+def escape_gradient(goal: Goal) -> Evidence:
+    """The chain rule, away from the source, where both sides are 0."""
+    return reals(goal)
+
+
+@claim(
+    "beyond/escape-field", "The field of the escape satisfies Assumption 2 for κ = n + 1, its source at the origin",
+    Exists(
+        tuple(constants),
+        (
+            le(-a1 * field_distance ** (2 * order), field), le(field, -a2 * field_distance ** (2 * order)),
+            le(b1 * field_distance ** (2 * order - 1), steepness),
+            le(steepness, b2 * field_distance ** (2 * order - 1)),
+        ),
+        over=position,
+    ),
+    labels=["eq:assumption2", "eq:assumption3"], uses=[escape_gradient],
+)  # fmt: skip
+def escape_field(goal: Goal) -> Evidence:
+    """With a₁ = a₂ = 1 and b₁ = b₂ = 2κ, all four as equalities."""
+    return exists_by(goal, constants)
+
+
+@claim(
+    "beyond/escape-constants", "With these constants c₁ = c₂ = 2κ, and eq:ass4 holds with equality on both sides",
+    every(*(eq(c(index, order).subs(constants) * (-field) ** q(order), steepness) for index in (1, 2))),
+    labels=["eq:ass4"], uses=[escape_field],
+)  # fmt: skip
+def escape_constants(goal: Goal) -> Evidence:
+    """V^q = ‖x‖^(2κ − 1), of which the gradient is 2κ times the size. So what is lost elsewhere between c₁ and c₂ is
+    not lost here, and the printed threshold for the gain is k = 2‖E‖, too."""
+    return reals(goal)
+
 
 # The coordinates are turned so that the vehicle starts at the right of the source; the motion is along a ray.
 X = (sp.Function("X1", positive=True), sp.Function("X2", real=True))

@@ -37,7 +37,7 @@ def boundary_layer_stability(
     moving = {symbol for entry in matrix for symbol in entry.free_symbols if not symbol.is_positive or symbol in states}
     constant = not moving and not any(entry.has(sp.Function) for entry in matrix) and _is_affine(matrix, fast)
 
-    if constant and _hurwitz(matrix):
+    if constant and hurwitz(matrix):
         return Evidence(ENGINE, Verdict.PROVED, "linear with a constant matrix; the Routh-Hurwitz conditions hold")
     if (detail := _lyapunov(fast, steady, domain, states)) is not None:
         return Evidence(ENGINE, Verdict.PROVED, detail)
@@ -68,7 +68,8 @@ def routh_column(matrix: sp.Matrix) -> list[sp.Expr]:
     return [sp.factor(hurwitz[:k, :k].det()) for k in range(1, size + 1)]
 
 
-def _hurwitz(matrix: sp.Matrix) -> bool:
+def hurwitz(matrix: sp.Matrix) -> bool:
+    """Whether all eigenvalues are shown to have negative real parts, for all values of the parameters."""
     return all(
         bool(minor.is_positive) or follows(Relation(sp.S.Zero, "<", minor), (), seconds=_SECONDS).shown
         for minor in routh_column(matrix)

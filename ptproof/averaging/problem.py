@@ -63,6 +63,8 @@ class DitherProblem:
         Undefined functions of the slow time that are assumed bounded in it, with their derivatives.
     expected
         The average that the author claims, n expressions, or None.
+    mu_omega
+        m = μω, a positive constant, where the fast states are as fast as the dithers; None where they are faster.
     """
 
     system: DitherSystem
@@ -72,6 +74,7 @@ class DitherProblem:
     start: sp.Expr | None = sp.S.Zero
     bounded: tuple[AppliedUndef, ...] = ()
     expected: tuple[sp.Expr, ...] | None = None
+    mu_omega: sp.Expr | None = None
 
     def __post_init__(self) -> None:
         known = {*self.system.state, *(self.fast.state if self.fast else ())}
@@ -84,6 +87,13 @@ class DitherProblem:
             rates = set().union(*(rate.free_symbols for rate in self.fast.rate))
             system = (self.system.time, self.system.phase, self.system.omega, *self.system.state, *self.fast.state)
             check_names((*system, *sorted(rates, key=lambda symbol: symbol.name)), self.system.name)
+        if self.mu_omega is not None:
+            if self.fast is None:
+                raise InputError(f"{self.system.name}: mu_omega is given, but there are no fast states")
+            if self.mu_omega.free_symbols & {*known, self.system.time, self.system.phase, self.system.omega}:
+                raise InputError(f"{self.system.name}: mu_omega = {self.mu_omega} is not a constant")
+            if self.mu_omega.is_positive is not True:
+                raise InputError(f"{self.system.name}: mu_omega = {self.mu_omega} is not known to be positive")
         for symbol, (low, high) in self.region.items():
             if symbol not in known:
                 raise InputError(f"{self.system.name}: the region speaks of {symbol}, which is not a state")

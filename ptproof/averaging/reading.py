@@ -36,6 +36,7 @@ class _System:
     fast: FastStates | None = None
     start: Any = None
     name: Any = None
+    mu_omega: Any = None
 
 
 @dataclass(frozen=True)
@@ -57,8 +58,9 @@ def load_dither_system(path: str | Path) -> DitherProblem:
     ``signal``) per dither, and may have ``parameters`` (positive), ``functions`` (unknown smooth functions with
     their arguments), ``bounded`` (those functions of ``tau`` that are assumed bounded in it, with their
     derivatives), ``start`` (the earliest τ asked about, 0 if left out), ``name`` and ``[system.fast]``
-    (``state``, ``rate``, and ``quasi_steady_state`` where the author knows it). ``[region]`` gives the interval
-    of a state (``x1 = ["-1", "1"]``), ``[expected]`` the ``average`` that the author claims. In expressions
+    (``state``, ``rate``, and ``quasi_steady_state`` where the author knows it). With fast states there may be
+    ``mu_omega``, the product μω where it is held fixed: a positive number, or a name for one. ``[region]`` gives the
+    interval of a state (``x1 = ["-1", "1"]``), ``[expected]`` the ``average`` that the author claims. In expressions
     ``tau`` is the slow time, ``theta`` the phase ωτ and ``omega`` the frequency. An example stands at
     :func:`read_dither_system`, which reads the same from text.
 
@@ -92,6 +94,7 @@ def _problem(data: Mapping[str, Any], name: str) -> DitherProblem:
     functions = _functions(system.get("functions", {}), taken)
     if fast and MU.name in {*taken, *functions}:
         raise InputError(f"system: {MU.name!r} is the small parameter of the fast states here; choose another name")
+    finite_rate = _mu_omega(system, taken, functions)
     everything = {**taken, **{key: _of_arity(*entry) for key, entry in functions.items()}}
 
     def vector(table: Mapping[str, Any], key: str, where: str, length: int = len(state)) -> tuple[sp.Expr, ...]:
@@ -117,6 +120,7 @@ def _problem(data: Mapping[str, Any], name: str) -> DitherProblem:
         region=_region(data.get("region", {}), {symbol.name: symbol for symbol in (*state, *fast_state)}),
         start=finite(system.get("start", 0), "system.start"),
         expected=vector(data["expected"], "average", "expected") if "expected" in data else None,
+        mu_omega=finite_rate,
     )
 
 
@@ -151,6 +155,26 @@ def _functions(value: Mapping[str, Any], taken: Mapping[str, Any]) -> dict[str, 
             raise InputError(f"{where}: a function needs at least one argument; a constant is a parameter")
         result[name] = (sp.Function(name, real=True), tuple(taken[argument] for argument in arguments))
     return result
+
+
+def _mu_omega(system: Mapping[str, Any], taken: dict[str, Any], functions: Mapping[str, Any]) -> sp.Expr | None:
+    """The value of μω: a positive expression in the parameters, or a name, which is declared here if it is new."""
+    if "mu_omega" not in system:
+        return None
+    where, value = "system.mu_omega", system["mu_omega"]
+    if "fast" not in system:
+        raise InputError(f"{where}: there are no fast states; add [system.fast] or leave it out")
+    parameters = {name: symbol for name, symbol in taken.items() if symbol.is_positive and symbol != OMEGA}
+    known = {*taken, *functions, "inf", "nan", "infinity"}
+    if isinstance(value, str) and value.isidentifier() and value not in known:
+        taken |= {
+            name: sp.Symbol(name, positive=True) for name in declared([value], where, _RESERVED | {MU.name}, taken)
+        }
+        return taken[value]
+    found = finite(value, where, parameters)
+    if found.is_positive is not True:
+        raise InputError(f"{where}: {found} is not shown to be positive; give a positive number or a name")
+    return found
 
 
 def _bounded(value: Any, functions: Mapping[str, Any]) -> tuple[Any, ...]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import sympy as sp
@@ -14,8 +14,10 @@ from ptproof.averaging.average import Pair, derive
 from ptproof.averaging.brackets import Vector
 from ptproof.averaging.coefficients import Coefficients, v_matrix
 from ptproof.averaging.ledger import Ledger, examine
+from ptproof.averaging.orders import Orders, average_to_order
 from ptproof.averaging.problem import DitherProblem
 from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided
+from ptproof.averaging.scaled import linear
 from ptproof.proof.claim import Goal
 from ptproof.proof.engines.exact import exact
 from ptproof.proof.settling import settle
@@ -43,6 +45,9 @@ class Average:
         The hypotheses, each with its verdict.
     expected
         Whether the average that the author claims is right; None if nothing was claimed.
+    orders
+        The average to the order that was asked for, checked; None where none was asked for or ``unexpanded`` says why
+        there is none.
     """
 
     problem: DitherProblem
@@ -51,6 +56,8 @@ class Average:
     brackets: Mapping[Pair, Vector]
     ledger: Ledger
     expected: Evidence | None = None
+    orders: Orders | None = None
+    unexpanded: str = ""
 
     @property
     def refusals(self) -> tuple[str, ...]:
@@ -60,7 +67,10 @@ class Average:
     @property
     def caveats(self) -> tuple[str, ...]:
         """What the average rests on beyond what was shown: one sentence for each undecided hypothesis."""
-        return self.ledger.details(Verdict.UNDECIDED)
+        found = self.ledger.details(Verdict.UNDECIDED)
+        if self.orders is not None and self.orders.smooth.verdict is not Verdict.PROVED:
+            found += (f"order {self.orders.order}: {self.orders.smooth.detail}",)
+        return found
 
     @property
     def gradient(self) -> tuple[sp.Expr, AppliedUndef] | None:
@@ -82,8 +92,12 @@ class Average:
 
     @property
     def as_expected(self) -> bool:
-        """Covered by the theorem, and the author's claim, if any, proved."""
-        return self.system is not None and (self.expected is None or self.expected.verdict is Verdict.PROVED)
+        """Covered by the theorem, the author's claim, if any, proved, and orders, if asked for, found and checked."""
+        claimed = self.expected is None or self.expected.verdict is Verdict.PROVED
+        checked = self.orders is None or (
+            self.orders.evidence.verdict is Verdict.PROVED and self.orders.smooth.verdict is not Verdict.REFUTED
+        )
+        return self.system is not None and claimed and checked and not self.unexpanded
 
     def latex(self) -> str:
         """The averaged system, as an ``aligned`` block, or a sentence where there is none."""
@@ -100,21 +114,27 @@ class Average:
         if self.expected is not None:
             witness = self.expected.witness
             expected = {"verdict": str(self.expected.verdict), "witness": witness and witness.to_json()}
-        return {
+        found = {
             "average": None if self.system is None else [str(entry) for entry in self.system.rhs],
             "v": {f"{j},{i}": str(value) for (j, i), value in self.v.items()},
             "assumptions": self.ledger.to_json(),
             "expected": expected,
         }
+        if self.orders is not None:
+            return found | self.orders.to_json()
+        return found | {"orders": None, "remainder": None} if self.unexpanded else found
 
 
-def study(problem: DitherProblem | DitherSystem) -> Average:
+def study(problem: DitherProblem | DitherSystem, order: int | None = None) -> Average:
     """Average a dither system and say which hypotheses of the theorem hold (thm:SPLBave, ass:singular_ass).
 
     Parameters
     ----------
     problem
-        With fast states, a region and a claimed average, or a dither system alone.
+        With fast states, a region and a claimed average, or a dither system alone. With ``mu_omega`` the average is the
+        one at this fixed product of μ and ω, not its limit at 0.
+    order
+        The order in 1/√ω up to which averages are asked for; None for the average alone.
 
     Returns
     -------
@@ -133,12 +153,14 @@ def study(problem: DitherProblem | DitherSystem) -> Average:
     """
     if isinstance(problem, DitherSystem):
         problem = DitherProblem(problem)
-    asked, ledger = problem.expected, examine(problem)
+    asked, ledger = problem.expected, _filter_of(problem) or examine(problem)
 
     def without(v: Coefficients, reason: str) -> Average:
         expected = None if asked is None else Evidence("average", Verdict.UNDECIDED, reason)
         return Average(problem, None, v, {}, ledger, expected)
 
+    if "mu_omega" in ledger.entries:
+        return without({}, "there is no average to compare with")
     known = all(ledger.entries[letter].verdict is Verdict.PROVED for letter in ("form", "D"))
     solved = problem.fast is None or ledger.steady is not None
     if ledger.verdict is Verdict.REFUTED or not (known and solved):
@@ -147,8 +169,37 @@ def study(problem: DitherProblem | DitherSystem) -> Average:
         derived = unshaken(derive(problem.reduced(ledger.steady or ())), points=2, coefficients=0)
     except (AveragingRefused, AveragingUndecided) as error:
         return without({}, str(error))
-    expected = None if asked is None else compare(derived.system, asked, problem.domain)
-    return Average(problem, derived.system, derived.v, derived.brackets, ledger, expected)
+    orders, reason = _orders(problem, order)
+    system = derived.system
+    if problem.mu_omega is not None:
+        if orders is None:
+            return replace(without(derived.v, reason), unexpanded=reason)
+        system = replace(system, rhs=orders.averages[0], parameters=None)
+    expected = None if asked is None else compare(system, asked, problem.domain)
+    return Average(problem, system, derived.v, derived.brackets, ledger, expected, orders, reason)
+
+
+def _filter_of(problem: DitherProblem) -> Ledger | None:
+    """Why fast states cannot keep their own dynamics, where they should: nothing else has to be asked then."""
+    if problem.mu_omega is None or problem.fast is None:
+        return None
+    try:
+        linear(problem.fast)
+    except AveragingRefused as error:
+        return Ledger({"mu_omega": Evidence("linear", Verdict.REFUTED, str(error))}, None)
+    except AveragingUndecided as error:
+        return Ledger({"mu_omega": Evidence("linear", Verdict.UNDECIDED, str(error))}, None)
+    return None
+
+
+def _orders(problem: DitherProblem, order: int | None) -> tuple[Orders | None, str]:
+    """The average to the order that is asked for, or why there is none."""
+    if order is None and problem.mu_omega is None:
+        return None, ""
+    try:
+        return average_to_order(problem, 1 if order is None else order), ""
+    except (AveragingRefused, AveragingUndecided) as error:
+        return None, str(error)
 
 
 def compare(system: System, expected: Vector, domain: Sequence[Relation] = ()) -> Evidence:

@@ -1,7 +1,7 @@
 """Intervals in arrays: one tape run on many boxes at once, every end rounded outward.
 
-Sums and products are NumPy's, moved outward by one place. Everything else is a ball's own function, called once for each
-pair of ends that differs: no accuracy of NumPy's elementary functions is relied on.
+Sums and products are NumPy's, moved outward by one place. Everything else is a ball's own function, called once for
+each pair of ends that differs: no accuracy of NumPy's elementary functions is relied on.
 """
 
 from __future__ import annotations

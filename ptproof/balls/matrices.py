@@ -1,66 +1,92 @@
-"""Midpoints and radii in arrays: products of intervals, and a sparse matrix times columns of intervals.
-
-A sum of n products of floats, in whatever order and with or without fused operations, is off by at most
-n u/(1 − n u) Σ|a||b| with u = 2⁻⁵³ (Higham, Accuracy and Stability, section 3.1), whatever the library does.
-"""
+"""Small matrices of balls: magnitudes, and what a linear differential inequality lets grow."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import flint
 import numpy as np
+from flint import arb, arb_mat
 
-from ptproof.balls.arrays import Array, Intervals
+from ptproof.balls.tape import Undefined
 
-_ONCE = 2.0**-50  # more than the rounding of a product, a sum and a conversion together
-_SUMS = 2.0**-40  # more than n u/(1 − n u) for the n below
-_MOST = 4000
-_TINY = 1e-290  # more than any underflow here
-
-
-@dataclass(frozen=True, eq=False)
-class Around:
-    """Intervals middle ± radius."""
-
-    middle: Array
-    radius: Array
-
-    @staticmethod
-    def of(value: Intervals) -> Around:
-        """The smallest that are easily found."""
-        middle = 0.5 * value.low + 0.5 * value.high
-        wide = np.maximum(value.high - middle, middle - value.low)
-        return Around(middle, wide * (1 + _ONCE) + np.abs(middle) * _ONCE + _TINY)
-
-    def times(self, other: Around) -> Around:
-        """Products, one by one."""
-        middle = self.middle * other.middle
-        radius = np.abs(self.middle) * other.radius + self.radius * (np.abs(other.middle) + other.radius)
-        return Around(middle, (radius + _ONCE * np.abs(middle)) * (1 + 8 * _ONCE) + _TINY)
+Vector = list[arb]
+_BITS = 64  # bounds need no more
 
 
-@dataclass(frozen=True, eq=False)
-class Matrix:
-    """A sparse matrix of intervals middle ± radius, to be multiplied by columns of intervals."""
+def matrix(rows: Any) -> arb_mat:
+    """A matrix of balls from an array of floats (n × m)."""
+    return arb_mat(len(rows), len(rows[0]), [arb(float(entry)) for row in rows for entry in row])
 
-    middle: Any
-    size: Any  # |middle| + radius/_SUMS
 
-    @staticmethod
-    def of(middle: Array, radius: Array) -> Matrix:
-        """From middles and radii (rows × columns)."""
-        if middle.shape[1] > _MOST:
-            raise ValueError(f"more than {_MOST} columns: the rounding is not bounded")
-        from scipy.sparse import csr_array
+def column(entries: Sequence[arb]) -> arb_mat:
+    """A column of balls."""
+    return arb_mat(len(entries), 1, list(entries))
 
-        size = (np.abs(middle) + radius / _SUMS) * (1 + 8 * _ONCE)
-        rows, columns = np.nonzero(size)  # the same places in both, also where a middle is zero
-        both = (csr_array((part[rows, columns], (rows, columns)), shape=part.shape) for part in (middle, size))
-        return Matrix(*both)
 
-    def times(self, columns: Around) -> Around:
-        """The product: |C − M||x| + |M||x − m| + rounding, all in one more product."""
-        middle = self.middle @ columns.middle
-        radius = self.size @ (columns.radius + _SUMS * np.abs(columns.middle))
-        return Around(middle, radius * (1 + 2 * _SUMS) + 4096 * _TINY)
+def identity(size: int) -> arb_mat:
+    """The identity (n × n)."""
+    return arb_mat(size, size, [arb(int(i == j)) for i in range(size) for j in range(size)])
+
+
+def magnitudes(balls: arb_mat) -> arb_mat:
+    """For each entry a number that no value of it exceeds in absolute value."""
+    return arb_mat(balls.nrows(), balls.ncols(), [entry.abs_upper() for entry in balls.entries()])
+
+
+def floats(balls: arb_mat) -> Any:
+    """The midpoints, rounded to floats (n × m); they prove nothing."""
+    return np.array([float(entry.mid()) for entry in balls.entries()]).reshape(balls.nrows(), balls.ncols())
+
+
+def times(balls: arb_mat, radii: Sequence[arb]) -> Vector:
+    """The product of a matrix of magnitudes with a column of them, from above."""
+    return [entry.upper() for entry in (balls * column(radii)).entries()]
+
+
+def inverse(balls: arb_mat) -> arb_mat:
+    """The inverse; raises :class:`Undefined` where the matrix may be singular."""
+    try:
+        return balls.inv()
+    except ZeroDivisionError:
+        raise Undefined("a matrix that may be singular") from None
+
+
+@dataclass(frozen=True)
+class Growth:
+    """What u does not exceed, entry by entry: at the end, and on the way (the end included)."""
+
+    end: Vector
+    over: Vector
+
+
+def grown(rates: arb_mat, source: Sequence[arb], start: Sequence[arb], duration: Any) -> Growth:
+    """Bounds of every continuous u >= 0 with u(0) <= start and D⁺u <= rates·u + source, entry by entry.
+
+    ``rates`` (n × n, exact) has no negative entry off its diagonal, so that u stays below the solution of the linear
+    system with equality (Müller's comparison theorem): its value at the end comes from the exponential of a matrix.
+    With the negative entries of the diagonal replaced by zero that solution increases, so that its end bounds u on the
+    way.
+
+    Raises :class:`Undefined` where a bound is not finite.
+    """
+    n = len(source)
+    entries = rates.entries()
+    if any(entries[i * n + j] < 0 for i in range(n) for j in range(n) if i != j):
+        raise ValueError("the rates off the diagonal must not be negative")
+    with flint.ctx.workprec(_BITS):
+        end = _solved(entries, source, start, duration)
+        over = _solved([entry.max(arb(0)) for entry in entries], source, start, duration)
+    if not all(entry.is_finite() for entry in (*end, *over)):
+        raise Undefined("growth beyond all bounds")
+    return Growth(end, [a.max(b).upper() for a, b in zip(end, over, strict=True)])
+
+
+def _solved(entries: Sequence[arb], source: Sequence[arb], start: Sequence[arb], duration: Any) -> Vector:
+    """The solution of u' = rates·u + source from ``start`` (a constant 1 carries the source), from above."""
+    n = len(source)
+    rows = [entry for i in range(n) for entry in (*entries[i * n : (i + 1) * n], source[i])]
+    whole = (arb_mat(n + 1, n + 1, [*rows, *[arb(0)] * (n + 1)]) * duration).exp()
+    return [entry.upper() for entry in (whole * column([*start, arb(1)])).entries()[:n]]

@@ -152,10 +152,11 @@ class RadialEnvelope:
 
         def look(box: Box, best: float) -> Look[Box, Box]:
             nonlocal scale
-            middle, bound = _middle(box), self._at_most(box, near, M)
+            there = self._there(_middle(box))
+            bound = self._at_most(box, near, M, there)
             if search.looks < len(parts) and math.isfinite(bound):
                 scale = max(scale, abs(bound))
-            return Look(bound, False, lambda: box.split(box.widest()), self._at_least(middle, M), middle)
+            return Look(bound, False, lambda: box.split(box.widest()), self._at_least(there, M), there.box)
 
         def enough() -> bool:
             return search.upper <= search.best + _TOLERANCE * finer * max(abs(search.best), _SMALL * scale)
@@ -164,16 +165,21 @@ class RadialEnvelope:
         search.run(enough, most=_PIECES * finer**2)
         return search.upper
 
-    def _at_least(self, middle: Box, M: _Matrix) -> float:
-        """What a point certainly reaches, −inf where the field has no value."""
+    def _there(self, middle: Box) -> _Middle:
+        """The gradient at a point."""
         r, u = middle.sides[0][0], middle.direction()
+        x = [r * ui for ui in u]
         try:
-            values = self._both.run([c + r * ui for c, ui in zip(self._source, u, strict=True)], BALLS)
+            values = self._both.run([c + xi for c, xi in zip(self._source, x, strict=True)], BALLS)
         except Undefined:
-            return -math.inf
-        return down(_pair(u, M, values[: self.dimension]) / r)
+            return _Middle(middle, r, u, x, None)
+        return _Middle(middle, r, u, x, values[: self.dimension])
 
-    def _at_most(self, box: Box, near: bool, M: _Matrix) -> float:
+    def _at_least(self, there: _Middle, M: _Matrix) -> float:
+        """What a point certainly reaches, −inf where the field has no value."""
+        return -math.inf if there.gradient is None else down(_pair(there.u, M, there.gradient) / there.r)
+
+    def _at_most(self, box: Box, near: bool, M: _Matrix, there: _Middle) -> float:
         """An upper bound of u·M∇F/r on the box: the least of three enclosures; inf where the field has no value."""
         n, u, (low, high) = self.dimension, box.direction(), box.sides[0]
         self.evaluations += 1
@@ -184,8 +190,11 @@ class RadialEnvelope:
             try:
                 values = self._both.run([c + xi for c, xi in zip(self._source, x, strict=True)], BALLS)
                 g, H = values[:n], _square(values[n:], n)
-                result = up(_pair(u, M, g) / r)
-                result = min(result, up(self._mean_value(box, M, u, x, g, H)))
+                turned = _apply(_transposed(M), u)
+                result = up(_dot(turned, g) / r)
+                if there.gradient is not None:
+                    centred = _pair(there.u, M, there.gradient) / there.r
+                    result = min(result, up(centred + self._mean_value(box, M, (u, x, g, H), turned, there)))
             except Undefined:
                 pass
         if near:
@@ -201,22 +210,35 @@ class RadialEnvelope:
             result = min(result, up(common + _pair(u, A, u)))
         return result
 
-    def _mean_value(self, box: Box, M: _Matrix, u: list[Any], x: list[Any], g: list[Any], H: _Matrix) -> Any:
-        """φ(m) + ∇φ·(x − m) for φ(x) = x·M∇F/‖x‖² and the middle m of the box; ``g``, ``H`` over all its ``x``."""
-        n, middle, (low, high) = self.dimension, _middle(box), box.sides[0]
-        rm, um = middle.sides[0][0], middle.direction()
-        m = [rm * ui for ui in um]
-        gm = self._both.run([c + mi for c, mi in zip(self._source, m, strict=True)], BALLS)[:n]
-        centred = _pair(um, M, gm) / rm
+    def _mean_value(
+        self, box: Box, M: _Matrix, over: tuple[list[Any], list[Any], list[Any], _Matrix], turned: list[Any],
+        there: _Middle,
+    ) -> Any:  # fmt: skip
+        """∇φ·(x − m) for φ(x) = x·M∇F/‖x‖² and the middle m of the box; u, x, ∇F and H are those ``over`` all of it.
+
+        ``turned`` is Mᵀu.
+        """
+        n, (u, x, g, H), (low, high) = self.dimension, over, box.sides[0]
         # A chord of the box keeps its directions, a convex cone, but comes closer to the source than its ends.
-        nearest = (low * _dot(u, um)).lower()
+        nearest = (low * _dot(u, there.u)).lower()
         if not nearest > 0:
             return arb(math.inf)
         r = interval(nearest, high)
-        radial = _pair(u, M, g) / r
-        forward, curved = _apply(M, g), _apply(H, _apply(_transposed(M), u))
-        slope = [(forward[j] / r + curved[j] - 2 * radial * u[j]) / r for j in range(n)]
-        return centred + _dot(slope, [x[j] - m[j] for j in range(n)])
+        radial = 2 * (_dot(turned, g) / r)
+        forward, curved = _apply(M, g), _apply(H, turned)
+        slope = [(forward[j] / r + curved[j] - radial * u[j]) / r for j in range(n)]
+        return _dot(slope, [x[j] - there.x[j] for j in range(n)])
+
+
+@dataclass(frozen=True)
+class _Middle:
+    """A point r·u = x of a shell, as a box, with the gradient there, None where the field has no value."""
+
+    box: Box
+    r: Any
+    u: list[Any]
+    x: list[Any]
+    gradient: list[Any] | None
 
 
 def _middle(box: Box) -> Box:
@@ -226,8 +248,10 @@ def _middle(box: Box) -> Box:
 
 
 def _dot(left: Sequence[Any], right: Sequence[Any]) -> Any:
-    first, *rest = (a * b for a, b in zip(left, right, strict=True))
-    return sum(rest, first)
+    total = left[0] * right[0]
+    for a, b in zip(left[1:], right[1:], strict=True):
+        total = total + a * b
+    return total
 
 
 def _apply(M: _Matrix, v: Sequence[Any]) -> list[Any]:

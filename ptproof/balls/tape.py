@@ -9,7 +9,7 @@ from __future__ import annotations
 import operator
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
-from functools import lru_cache, partial, reduce
+from functools import cached_property, lru_cache, partial, reduce
 from typing import Any
 
 import flint
@@ -111,19 +111,37 @@ class Tape:
     code: tuple[tuple[str, tuple[int, ...], Any], ...]
     outputs: tuple[int, ...]
 
+    @cached_property
+    def _constants(self) -> dict[int, tuple[flint.arb, ...]]:
+        """For each precision the constants in the order of the code."""
+        return {}
+
+    def __reduce__(self) -> tuple[type[Tape], tuple[Any, ...]]:
+        return Tape, (self.symbols, self.code, self.outputs)
+
     def run(self, values: Sequence[Any], arithmetic: Arithmetic) -> list[Any]:
         """Execute on ``values``, one number per symbol; raises :class:`Undefined`."""
         slots = list(values)
-        push = slots.append
+        push, bits = slots.append, flint.ctx.prec
+        if bits not in self._constants:
+            named = (extra for operation, _, extra in self.code if operation == "const")
+            self._constants[bits] = tuple(_constant(extra, bits) for extra in named)
+        constants = iter(self._constants[bits])
         for operation, args, extra in self.code:
-            if operation == "add":
-                push(reduce(operator.add, [slots[index] for index in args]))
-            elif operation == "mul":
-                push(reduce(operator.mul, [slots[index] for index in args]))
+            if operation == "mul":
+                total, *rest = [slots[index] for index in args]
+                for factor in rest:
+                    total = total * factor
+                push(total)
+            elif operation == "add":
+                total, *rest = [slots[index] for index in args]
+                for term in rest:
+                    total = total + term
+                push(total)
             elif operation == "pow":
                 push(arithmetic.integer_power(slots[args[0]], extra))
             elif operation == "const":
-                push(arithmetic.constant(_constant(extra, flint.ctx.prec)))
+                push(arithmetic.constant(next(constants)))
             elif operation == "call":
                 push(arithmetic.call(extra, slots[args[0]]))
             elif operation == "root":

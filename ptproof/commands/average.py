@@ -13,6 +13,9 @@ if TYPE_CHECKING:
     from ptproof.averaging import Average
 
 
+_LONGEST = 300
+
+
 @dataclass(frozen=True)
 class Outcome:
     """What people and programs are told about one dither system."""
@@ -29,14 +32,20 @@ class Outcome:
 @click.command()
 @click.argument("file", metavar="FILE.toml")
 @options.as_json
+@click.option(
+    "--order", type=int, default=None, metavar="N", help="Also the averages of the orders 1 to N in 1/sqrt(omega)."
+)
 @click.option("--timeout", type=float, default=60.0, show_default=True, help="Time limit, in seconds.")
-def average(file: str, as_json: bool, timeout: float) -> int:
+def average(file: str, as_json: bool, order: int | None, timeout: float) -> int:
     """Average the dither system in FILE.toml, and examine every assumption of the theorem.
+
+    With --order N: the averages of dX/dtau = A1(X) + A2(X)/sqrt(omega) + ..., the change of variables that leads to
+    them, and what is left, put back into the system and checked.
 
     Exit status 1 if the theorem does not cover the system, the average is not known, or the average that FILE
     claims is not proved.
     """
-    outcome = _studied(file, timeout)
+    outcome = _studied(file, timeout, order)
     if outcome.reason:
         click.echo(f"ptproof: {outcome.reason}", err=True)
     if as_json:
@@ -46,13 +55,16 @@ def average(file: str, as_json: bool, timeout: float) -> int:
     return 0 if outcome.as_expected else 1
 
 
-def _studied(path: str, seconds: float) -> Outcome:
+def _studied(path: str, seconds: float, order: int | None) -> Outcome:
     """The outcome for a TOML file from a process of its own; out of time it says so, and nothing in it is claimed."""
+    from ptproof.averaging.orders import check_order
     from ptproof.errors import InputError
     from ptproof.reading.limits import Answered, Unanswered, Why, apart, check_seconds
 
     check_seconds(seconds, "--timeout")
-    match apart(seconds, _study, path):
+    if order is not None:
+        check_order(order, "--order")
+    match apart(seconds, _study, path, order):
         case Answered(outcome):
             return outcome
         case Unanswered(error=InputError() as error):
@@ -62,14 +74,16 @@ def _studied(path: str, seconds: float) -> Outcome:
         case Unanswered(_, reason):
             reason = f"{path}: nothing is claimed: {reason}"
     data: dict[str, Any] = {"average": None, "v": {}, "assumptions": {}, "expected": None}
+    if order is not None:
+        data |= {"orders": None, "remainder": None}
     return Outcome(data, as_expected=False, reason=reason)
 
 
-def _study(path: str) -> Outcome:
+def _study(path: str, order: int | None) -> Outcome:
     from ptproof.averaging import load_dither_system, study
 
     problem = load_dither_system(path)
-    found = study(problem)
+    found = study(problem, order)
     gradient = found.gradient
     return Outcome(
         found.to_json(),
@@ -78,17 +92,17 @@ def _study(path: str) -> Outcome:
         tuple(str(symbol) for symbol in problem.system.state),
         f"drift + ({gradient[0]}) * grad {gradient[1]}" if gradient else "",
         found.caveats if found.system is not None else (),
-        _reason(found),
+        f"{path}: {found.unexpanded}" if found.unexpanded else _reason(found, path),
     )
 
 
-def _reason(found: Average) -> str:
+def _reason(found: Average, path: str) -> str:
     """Why there is no average, in one line."""
     if found.system is not None:
         return ""
     if found.refusals:
-        return "; ".join(f"refused, {text}" for text in found.refusals)
-    return "; ".join(f"undecided, {text}" for text in found.caveats)
+        return f"{path}: " + "; ".join(f"refused, {text}" for text in found.refusals)
+    return f"{path}: " + "; ".join(f"undecided, {text}" for text in found.caveats)
 
 
 def _show(outcome: Outcome) -> None:
@@ -117,6 +131,35 @@ def _show(outcome: Outcome) -> None:
     for caveat in outcome.caveats:
         console.print(Text(f"The average holds if this does, which was not shown: {caveat}", style="yellow"))
     _show_expected(console, data["expected"])
+    if data.get("orders"):
+        _show_orders(console, outcome)
+
+
+def _show_orders(console: Any, outcome: Outcome) -> None:
+    """The averages of each order with the first correctors; long ones are for --json."""
+    from rich.text import Text
+
+    from ptproof.commands.terminal import COLOURS
+
+    data = outcome.data
+    for entry in data["orders"]:
+        power = f"omega^(-{entry['order'] - 1}/2) * " if entry["order"] > 1 else ""
+        console.print(Text(f"order {entry['order']}: dX/dtau has {power or 'the average'}", style="bold"))
+        for symbol, mean in zip(outcome.state, entry["average"], strict=True):
+            console.print(Text(f"  {symbol}: {_cut(mean)}"))
+        for symbol, corrector in zip(outcome.state, entry["correctors"], strict=True):
+            console.print(Text(f"  {symbol}: X has omega^(-{entry['order']}/2) * ({_cut(corrector)})", style="dim"))
+    for letter, meaning in data["remainder"]["fast"].items():
+        console.print(Text(f"  {letter} = {meaning}", style="dim"))
+    verdict = data["remainder"]["verdict"]
+    console.print(Text(f"put back into the system: {verdict}", style=COLOURS[verdict]), end=" ")
+    console.print(
+        Text(f"({data['remainder']['detail']}; what is left is of order omega^({data['remainder']['power']}))")
+    )
+
+
+def _cut(text: str) -> str:
+    return text if len(text) <= _LONGEST else f"{text[:_LONGEST]}… (whole with --json)"
 
 
 def _show_expected(console: Any, expected: dict[str, Any] | None) -> None:

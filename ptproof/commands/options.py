@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, nullcontext
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -78,8 +78,11 @@ def connected(address: str | None) -> Iterator[Any]:
 
 
 @contextmanager
-def loaded(paths: tuple[str, ...], memory: Memory | None = None) -> Iterator[Derivation]:
-    """The derivation below the paths; what its code prints, now and while it is used, goes to standard error."""
+def loaded(paths: tuple[str, ...], memory: Memory | None = None, select: str = "") -> Iterator[Derivation]:
+    """The derivation below the paths, or as much of it as a selection of claims needs.
+
+    What its code prints, now and while it is used, goes to standard error.
+    """
     from ptproof.proof.load import load
 
     with streams.aside():
@@ -87,8 +90,7 @@ def loaded(paths: tuple[str, ...], memory: Memory | None = None) -> Iterator[Der
         folder = os.getcwd()
         guard.limit()
         try:
-            with nullcontext() if memory is None else memory.loading():
-                derivation = load(paths)
+            derivation = load(paths) if memory is None else memory.load(select)
         except KeyboardInterrupt:
             if guard.own_interrupt():
                 raise InputError("the derivation raised KeyboardInterrupt while it was loaded") from None

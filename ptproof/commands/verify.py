@@ -43,7 +43,7 @@ def verify(
     if (shown := Shown.again(kept)) is not None:
         _print(replace(shown, seconds=time.perf_counter() - start), as_json)
         return 0 if shown.as_expected else 1
-    with options.loaded(paths, memory) as derivation:
+    with options.loaded(paths, memory, select) as derivation:
         verification, status = _decided(derivation, memory, select, **how)
         if kernel and status in (0, 1):
             try:

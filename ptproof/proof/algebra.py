@@ -18,72 +18,74 @@ from typing import Any
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ptproof.proof.powers import exponent_terms, fraction, positive_multiples, split_masked, symbolic_power
+from ptproof.proof.content import digest
+from ptproof.proof.powers import exponent_terms, fraction, positive_multiples, split_powers, symbolic_power
+from ptproof.proof.prepared import NotAlgebraic as NotAlgebraic
+from ptproof.proof.prepared import by_comparisons, prepare, real_where_defined
 
-_COMPARISONS = (sp.LessThan, sp.StrictLessThan, sp.GreaterThan, sp.StrictGreaterThan)
-
-
-_WRITTEN = {
-    sp.tan: lambda a: sp.sin(a) / sp.cos(a),
-    sp.cot: lambda a: sp.cos(a) / sp.sin(a),
-    sp.sec: lambda a: 1 / sp.cos(a),
-    sp.csc: lambda a: 1 / sp.sin(a),
-    sp.sinh: lambda a: (sp.exp(a) - sp.exp(-a)) / 2,
-    sp.cosh: lambda a: (sp.exp(a) + sp.exp(-a)) / 2,
-    sp.tanh: lambda a: (sp.exp(a) - sp.exp(-a)) / (sp.exp(a) + sp.exp(-a)),
-}
+_letters: dict[Any, sp.Dummy] = {}
 
 
-class NotAlgebraic(Exception):
-    """The expression contains something that exact algebra has no rule for."""
+def _letter(meaning: sp.Expr, **assumptions: bool) -> sp.Dummy:
+    """The symbol for this meaning, the same one in every problem: what is found out about it is found out once.
+
+    Its name says what it stands for, so that problems are written in the same order in every run.
+    """
+    key = (meaning, tuple(sorted(assumptions.items())))
+    if key not in _letters:
+        _letters[key] = sp.Dummy(f"g{digest(meaning)[:16]}", **assumptions)
+    return _letters[key]
 
 
-@lru_cache(maxsize=4096, typed=True)
-def prepare(expression: sp.Expr) -> sp.Expr:
-    """Carry out derivatives, write tan and hyperbolic functions by sin, cos, exp, and split sums of angles."""
-    expression = sp.sympify(expression)
-    if expression.has(sp.Limit, sp.Sum, sp.Product):
-        # ``doit`` would ask SymPy for it, hint or no hint, and SymPy's answers are not trusted here.
-        raise NotAlgebraic("a limit, a sum or a product over an index, about which exact algebra knows nothing")
-    expression = expression.doit(integrals=False)
-    if expression.has(sp.Float):
-        raise NotAlgebraic("a floating-point number; write it as a fraction or as decimal text")
-    if expression.has(*_WRITTEN):
-        for function, written in _WRITTEN.items():
-            expression = expression.replace(function, written)
-    # One function at two equal arguments has to become one generator.
-    expression = expression.replace(
-        lambda node: isinstance(node, AppliedUndef),
-        lambda node: node.func(*(sp.factor(sp.cancel(sp.together(argument))) for argument in node.args)),
-    )
-    return expression.replace(
-        lambda node: isinstance(node, sp.sin | sp.cos), lambda node: _angle(node.func, node.args[0])
-    )
+@dataclass(frozen=True)
+class _Read:
+    """An expression with letters for values and derivatives of undefined functions, and the powers in it."""
+
+    expression: sp.Expr
+    letters: tuple[tuple[sp.Expr, sp.Dummy], ...]
+    powers: tuple[tuple[sp.Expr, sp.Expr], ...]
 
 
-def _by_comparisons(expression: sp.Piecewise) -> bool:
-    """Whether it is a choice by one comparison after the other, and nothing is left over."""
-    *some, (_, last) = expression.args
-    return last is sp.true and all(isinstance(condition, _COMPARISONS) for _, condition in some)
+@lru_cache(maxsize=8192, typed=True)
+def _read(expression: sp.Expr) -> _Read:
+    """The expression, prepared and masked before anything can rewrite the insides of functions, its powers split."""
+    prepared = prepare(expression)
+    nodes = sorted(prepared.atoms(AppliedUndef, sp.Derivative, sp.Subs), key=sp.default_sort_key)
+    letters = {node: _letter(node, **_known_of(node)) for node in nodes}
+    split = split_powers(prepared.xreplace(letters))
+    pairs = map(symbolic_power, sp.preorder_traversal(split))
+    return _Read(split, tuple(letters.items()), tuple(pair for pair in pairs if pair is not None))
 
 
-def _real_where_defined(expression: sp.Expr) -> bool:
-    """Whether every value is real: a quotient, a power or a choice of real numbers is, wherever it is defined."""
-    match expression:
-        case sp.Piecewise():
-            return all(_real_where_defined(value) for value, _ in expression.args)
-        case sp.Add() | sp.Mul():
-            return all(map(_real_where_defined, expression.args))
-        case sp.Pow() if expression.exp.is_integer:
-            return _real_where_defined(expression.base)
-    return bool(expression.is_real)
+@dataclass(frozen=True)
+class _Roots:
+    """Exponents of one base as integer combinations: their common denominator, and for each monomial a root."""
+
+    common: sp.Expr
+    roots: tuple[tuple[sp.Expr, sp.Expr, int, bool, str | None], ...]
 
 
-def _angle(function: type, argument: sp.Expr) -> sp.Expr:
-    """Write sin or cos of a sum by sines and cosines of its terms, their arguments in expanded form."""
-    numerator, denominator = sp.fraction(sp.together(argument))
-    terms = [sp.cancel(term / denominator) for term in sp.Add.make_args(sp.expand(numerator))]
-    return sp.expand_trig(function(sp.Add(*terms)))
+@lru_cache(maxsize=8192)
+def _roots_of(base: sp.Expr, exponents: tuple[sp.Expr, ...]) -> _Roots:
+    """Exponents e_j such that every exponent of this base is an integer combination of them."""
+    common: sp.Expr = sp.S.One
+    for _, denominator in map(fraction, exponents):
+        if denominator != 1:
+            common = sp.lcm(common, denominator)
+    if not base.is_positive and positive_multiples(exponents):
+        common = 1 / exponents[0]  # no quotient of roots, which says nothing where the base is 0
+    parts: dict[sp.Expr, list[sp.Rational]] = defaultdict(list)
+    for exponent in exponents:
+        for monomial, coefficient in exponent_terms(exponent, common):
+            parts[monomial].append(coefficient)
+    roots = []
+    for monomial, coefficients in parts.items():
+        lcm = int(sp.ilcm(1, *(coefficient.q for coefficient in coefficients)))
+        sign = "positive" if base.is_positive else "nonnegative" if base.is_nonnegative else None
+        # A quotient of real numbers is real wherever it is defined.
+        real = bool(monomial.is_real and (common.is_real or (1 / common).is_real))
+        roots.append((monomial, base ** (monomial / common / lcm), lcm, real, sign))
+    return _Roots(common, tuple(roots))
 
 
 @dataclass
@@ -100,7 +102,7 @@ class Generators:
     relations: list[tuple[sp.Symbol, sp.Expr]] = field(default_factory=list)
     meaning: dict[sp.Symbol, sp.Expr] = field(default_factory=dict)
     bases: dict[sp.Symbol, sp.Expr] = field(default_factory=dict)
-    _powers: dict[sp.Expr, list[sp.Expr]] = field(default_factory=lambda: defaultdict(list))
+    _powers: dict[sp.Expr, dict[sp.Expr, None]] = field(default_factory=lambda: defaultdict(dict))
     _roots: dict[sp.Expr, dict[sp.Expr, tuple[sp.Symbol, int]]] = field(default_factory=dict)
     _denominators: dict[sp.Expr, sp.Expr] = field(default_factory=dict)
     _branches: dict[sp.Expr, sp.Expr] = field(default_factory=dict)
@@ -108,53 +110,37 @@ class Generators:
     def symbol(self, meaning: sp.Expr, **assumptions: bool) -> sp.Symbol:
         """The symbol that stands for ``meaning``; the same one each time."""
         if meaning not in self.symbols:
-            generator = sp.Dummy(f"g{len(self.symbols)}", **assumptions)
-            self.symbols[meaning] = generator
-            self.meaning[generator] = meaning
+            self._take(meaning, _letter(meaning, **assumptions))
         return self.symbols[meaning]
+
+    def _take(self, meaning: sp.Expr, letter: sp.Dummy) -> None:
+        self.symbols[meaning] = letter
+        self.meaning[letter] = meaning
 
     def read(self, expressions: Iterable[sp.Expr]) -> list[sp.Expr]:
         """Prepare the expressions and note each base with all exponents that it carries."""
-        prepared = [split_masked(self._mask(prepare(expression)), self.meaning) for expression in expressions]
-        for expression in prepared:
-            for node in sp.preorder_traversal(expression):
-                pair = symbolic_power(node)
-                if pair is not None:
-                    self._powers[pair[0]].append(pair[1])
+        found = [_read(expression) for expression in expressions]
+        for item in found:
+            for meaning, letter in item.letters:
+                if meaning not in self.symbols:
+                    self._take(meaning, letter)
+            for base, exponent in item.powers:
+                self._powers[base][exponent] = None
         for base, exponents in self._powers.items():
             # A positive base is itself one of its powers, so that it is written by the same generators. A base that
             # may be 0 is not: it could come out as a quotient of generators that vanish.
             itself = [sp.S.One] if base.is_positive and base is not sp.E else []
-            self._choose_roots(base, [*exponents, *itself])
-        return prepared
+            self._choose_roots(base, tuple(dict.fromkeys([*exponents, *itself])))
+        return [item.expression for item in found]
 
-    def _mask(self, expression: sp.Expr) -> sp.Expr:
-        """Put symbols for values and derivatives of undefined functions, before anything can rewrite their insides."""
-        nodes = sorted(expression.atoms(AppliedUndef, sp.Derivative, sp.Subs), key=sp.default_sort_key)
-        return expression.xreplace({node: self.symbol(node, **_known_of(node)) for node in nodes})
-
-    def _choose_roots(self, base: sp.Expr, exponents: Sequence[sp.Expr]) -> None:
-        """Find exponents e_j such that every exponent of this base is an integer combination of them."""
-        fractions = [fraction(exponent) for exponent in exponents]
-        common = sp.Integer(1)
-        for _, denominator in fractions:
-            common = sp.lcm(common, denominator)
-        if not base.is_positive and positive_multiples(exponents):
-            common = 1 / exponents[0]  # no quotient of roots, which says nothing where the base is 0
-        parts: dict[sp.Expr, list[sp.Rational]] = defaultdict(list)
-        for exponent in exponents:
-            for monomial, coefficient in exponent_terms(exponent, common):
-                parts[monomial].append(coefficient)
-        self._denominators[base] = common
+    def _choose_roots(self, base: sp.Expr, exponents: tuple[sp.Expr, ...]) -> None:
+        """Symbols for roots of the base, by which every power of it is written."""
+        chosen = _roots_of(base, exponents)
+        self._denominators[base] = chosen.common
         self._roots[base] = {}
-        for monomial, coefficients in parts.items():
-            lcm = int(sp.ilcm(1, *(coefficient.q for coefficient in coefficients)))
-            root = base ** (monomial / common / lcm)
-            sign = "positive" if base.is_positive else "nonnegative" if base.is_nonnegative else None
-            # A quotient of real numbers is real wherever it is defined.
-            known = {sign: True} if sign and monomial.is_real and (common.is_real or (1 / common).is_real) else {}
-            generator = self.symbol(root, **known)
-            self._roots[base][monomial] = (generator, lcm)
+        for monomial, root, degree, real, sign in chosen.roots:
+            generator = self.symbol(root, **({sign: True} if sign and real else {}))
+            self._roots[base][monomial] = (generator, degree)
             if not base.is_nonnegative:
                 self.bases[generator] = base
 
@@ -168,7 +154,7 @@ class Generators:
     def pieces(self, generator: sp.Symbol) -> list[tuple[sp.Expr, tuple[sp.Expr, Any, sp.Expr] | None]]:
         """For a generator that stands for a Piecewise: each value with the comparison that it needs, or None."""
         meaning = self.meaning[generator]
-        if not (isinstance(meaning, sp.Piecewise) and _by_comparisons(meaning)):
+        if not (isinstance(meaning, sp.Piecewise) and by_comparisons(meaning)):
             return []
         branches = self._branches
         return [
@@ -198,18 +184,18 @@ class Generators:
             case sp.Abs():
                 argument = expression.args[0]
                 generator = self.symbol(expression, nonnegative=True)
-                if _real_where_defined(argument):
+                if real_where_defined(argument):
                     self._relate(generator, self.rational(argument) ** 2)
                 return generator
             case sp.Max() | sp.Min():
                 for argument in expression.args:
                     self._branches[argument] = self.rational(argument)
                 return self.symbol(expression, real=True)
-            case sp.Piecewise() if _by_comparisons(expression):
+            case sp.Piecewise() if by_comparisons(expression):
                 for value, condition in expression.args:
                     for side in (value, *condition.args):
                         self._branches[side] = self.rational(side)
-                return self.symbol(expression, **({"real": True} if _real_where_defined(expression) else {}))
+                return self.symbol(expression, **({"real": True} if real_where_defined(expression) else {}))
         pair = symbolic_power(expression)
         if pair is not None:
             return self._power(*pair)
@@ -286,6 +272,11 @@ def is_zero(expression: sp.Expr) -> bool:
     >>> is_zero(sp.cos(2 * x) - 1 + sp.sin(x) ** 2)
     False
     """
+    return _vanishes(sp.sympify(expression))
+
+
+@lru_cache(maxsize=4096, typed=True)
+def _vanishes(expression: sp.Expr) -> bool:
     generators = Generators()
     (prepared,) = generators.read([expression])
     numerator, denominator = sp.fraction(sp.together(generators.rational(prepared)))

@@ -7,6 +7,7 @@ of real arguments whose values are of its declared kind, whatever letters it is 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import lru_cache
 from typing import Any, TypeAlias
 
 import sympy as sp
@@ -56,10 +57,17 @@ def admissible(letter: Letter, value: Any) -> bool:
 
 def missing(letter: Letter, value: Any) -> dict[str, bool]:
     """What ``letter`` is declared to be and SymPy does not know of ``value``, as in :func:`admissible`."""
-    value = everywhere(letter, sp.sympify(value))
-    return {name: truth for name, truth in declared(letter).items() if getattr(value, f"is_{name}", None) is not truth}
+    return dict(_missing(letter, sp.sympify(value)))
 
 
+@lru_cache(maxsize=4096, typed=True)
+def _missing(letter: Letter, value: Any) -> tuple[tuple[str, bool], ...]:
+    there = everywhere(letter, value)
+    known = declared(letter).items()
+    return tuple((name, truth) for name, truth in known if getattr(there, f"is_{name}", None) is not truth)
+
+
+@lru_cache(maxsize=4096, typed=True)
 def everywhere(letter: Letter, value: sp.Expr) -> sp.Expr:
     """The value of a function at arbitrary real arguments, whatever its letters were declared to be."""
     if isinstance(letter, sp.Symbol):

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -17,6 +18,7 @@ from sympy.core.relational import Relational
 
 from ptproof.proof.declarations import declared, like
 from ptproof.proof.kinks import KINKS, switching
+from ptproof.proof.obligation import Obligation as Obligation
 from ptproof.proof.statement import Relation, RelationSign, eq, ge, gt, le
 from ptproof.system import differentiated
 
@@ -29,54 +31,6 @@ _COMPARED: dict[type, RelationSign] = {
     sp.Eq: "=", sp.Ne: "!=", sp.LessThan: "<=", sp.StrictLessThan: "<", sp.GreaterThan: ">=", sp.StrictGreaterThan: ">"
 }  # fmt: skip
 ZERO, ONE = sp.S.Zero, sp.S.One
-
-
-@dataclass(frozen=True)
-class Obligation:
-    """``relation`` has to hold wherever all of ``given`` does, lest ``node`` is not defined and real.
-
-    Without a relation nothing is known that would show it, and ``why`` says what is missing.
-    """
-
-    node: sp.Basic
-    relation: Relation | None
-    given: tuple[Relation, ...] = ()
-    why: str = ""
-    under_binder: bool = False
-
-    @property
-    def necessary(self) -> bool:
-        """Whether ``node`` being defined shows the relation; otherwise it is only enough.
-
-        A power of 0 or of a negative number may be defined where its exponent is a letter, and so may a derivative at
-        a place where two branches meet smoothly, or an integral over an integrand that is not everywhere.
-        """
-        if self.relation is None or self.under_binder:
-            return False
-        if not isinstance(self.node, sp.Pow):
-            return True
-        exponent = self.node.exp
-        if exponent.is_integer is False:
-            return exponent.is_positive is not None
-        return bool(exponent.is_integer and exponent.is_negative)
-
-    @property
-    def settled(self) -> bool:
-        """Whether what the symbols are declared to be is enough."""
-        if self.relation is None:
-            return False
-        difference = self.relation.left - self.relation.right
-        words = {
-            "!=": ("nonzero", "positive", "negative"), ">": ("positive",), ">=": ("nonnegative", "positive"),
-            "<": ("negative",), "<=": ("nonpositive", "negative"), "=": ("zero",),
-        }[self.relation.sign]  # fmt: skip
-        return any(getattr(difference, f"is_{word}") for word in words)
-
-    def __str__(self) -> str:
-        if self.relation is None:
-            return self.why
-        where = f" where {' and '.join(map(str, self.given))}" if self.given else ""
-        return f"{self.relation}{where}"
 
 
 @dataclass(frozen=True)
@@ -129,12 +83,19 @@ def obligations(
                 yield need
 
 
-def domain_of(relation: Relation, shown: Collection[sp.Basic] = ()) -> Iterator[Obligation]:
+def domain_of(relation: Relation, shown: Collection[sp.Basic] = ()) -> tuple[Obligation, ...]:
     """What has to hold for both sides of a relation to be defined and real, and is not plain from declarations."""
-    for side in (relation.left, relation.right):
-        if isinstance(relation.left, sp.Limit | sp.Integral) and side in (sp.oo, -sp.oo):
-            continue  # the value of a limit or an integral may be infinite
-        yield from (need for need in obligations(side, shown) if not need.settled)
+    return _domain(relation, frozenset(shown))
+
+
+@lru_cache(maxsize=8192)
+def _domain(relation: Relation, shown: frozenset[sp.Basic]) -> tuple[Obligation, ...]:
+    sides = [
+        side for side in (relation.left, relation.right)
+        # The value of a limit or an integral may be infinite.
+        if not (isinstance(relation.left, sp.Limit | sp.Integral) and side in (sp.oo, -sp.oo))
+    ]  # fmt: skip
+    return tuple(need for side in sides for need in obligations(side, shown) if not need.settled)
 
 
 def _of(node: sp.Basic, place: _Place) -> Iterator[Obligation]:

@@ -132,3 +132,12 @@ def guarded(says: Implication) -> Implication | None:
         return None
     relations: tuple[Relation, ...] = tuple(need.relation for need in needs if need.relation is not None)
     return Implication((*says.hypotheses, *relations), says.conclusion, says.source)
+
+
+def is_said(relation: Relation, facts: Iterable[Implication]) -> bool:
+    """Whether one of the facts says this without a hypothesis, or a strict inequality of which it is part."""
+    part = relation.standard()
+    enough = {"!=": ("!=", "<"), "<=": ("<=", "<", "=")}.get(part.sign, (part.sign,))
+    sides = {(part.left, part.right)} | ({(part.right, part.left)} if part.sign in ("!=", "=") else set())
+    said = (fact.conclusion.standard() for fact in facts if not fact.hypotheses)
+    return any(one.sign in enough and (one.left, one.right) in sides for one in said)

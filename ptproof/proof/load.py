@@ -6,7 +6,7 @@ import hashlib
 import importlib.machinery
 import importlib.util
 import sys
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import ModuleType
@@ -80,11 +80,12 @@ def with_ancestors(claims: Iterable[Claim]) -> tuple[Claim, ...]:
     return tuple(found.values())
 
 
-def load(paths: Sequence[str | Path] = ()) -> Derivation:
+def load(paths: Sequence[str | Path] = (), only: Collection[Path] | None = None) -> Derivation:
     """Import every module below ``paths`` (the shipped derivations where left out) and collect what they hold.
 
     A folder that holds Python files is one derivation and is imported as a package, so its modules may say
-    ``from .notation import …``. A folder of such folders holds several.
+    ``from .notation import …``. A folder of such folders holds several. With ``only`` these of its files are imported,
+    and what they import.
 
     Raises
     ------
@@ -93,11 +94,10 @@ def load(paths: Sequence[str | Path] = ()) -> Derivation:
         line and reason.
     """
     chosen = [Path(path) for path in paths] or [shipped()]
-    modules: list[ModuleType] = []
-    for path in chosen:
-        if not path.exists():
-            raise InputError(f"{path}: no such file or folder")
-        modules += list(_modules(path.resolve()))
+    names = {file: _module_name(file, chosen) for file in files_of(chosen)}
+    modules = [_module(file, name) for file, name in names.items() if only is None or file in only]
+    if only is not None:  # what they import holds claims as well
+        modules = [sys.modules[name] for name in names.values() if name in sys.modules]
     found: dict[str, Claim | Definition] = {}
     homes: dict[str, str] = {}
     # A module's own items first: what it imports from another section keeps the place that it has there.
@@ -146,23 +146,42 @@ def _items(module: ModuleType) -> Iterator[Claim | Definition]:
                 yield item
 
 
-def _modules(path: Path) -> Iterable[ModuleType]:
+def files_of(paths: Sequence[Path]) -> list[Path]:
+    """The files of derivations that the paths name or hold, in the order in which they are imported.
+
+    Raises
+    ------
+    InputError
+        If a path does not exist, or holds none.
+    """
+    found: list[Path] = []
+    for path in paths:
+        if not path.exists():
+            raise InputError(f"{path}: no such file or folder")
+        found += _files(path.resolve())
+    return found
+
+
+def _files(path: Path) -> Iterable[Path]:
     if path.is_file():
         if path.suffix != ".py":
             raise InputError(f"{path}: not a Python file of derivations")
-        yield _module(path) if (path.parent / "__init__.py").exists() else _import(_name(path), path)
-        return
+        return [path]
     files = sorted(
         file for file in path.glob("*.py") if file.name != "__init__.py" and not file.name.startswith("test_")
     )
     if files:
-        yield from map(_module, files)
-        return
+        return files
     folders = sorted(folder for folder in path.iterdir() if folder.is_dir() and any(folder.glob("*.py")))
     if not folders:
         raise InputError(f"{path}: no Python files of derivations")
-    for folder in folders:
-        yield from _modules(folder)
+    return (file for folder in folders for file in _files(folder))
+
+
+def _module_name(file: Path, chosen: Sequence[Path] = ()) -> str:
+    """The name of a file as a module of its folder; alone where the file itself is chosen and that is no package."""
+    alone = not (file.parent / "__init__.py").exists() and any(path.resolve() == file for path in chosen)
+    return _name(file) if alone else f"{_name(file.parent)}.{file.stem}"
 
 
 def _name(path: Path) -> str:
@@ -170,9 +189,12 @@ def _name(path: Path) -> str:
     return f"ptproof_derivation_{path.stem}_{hashlib.sha256(str(path).encode()).hexdigest()[:8]}"
 
 
-def _module(file: Path) -> ModuleType:
-    """The module of a file, as part of the package that its folder is."""
-    return _import(f"{_package(file.parent)}.{file.stem}", file)
+def _module(file: Path, name: str = "") -> ModuleType:
+    """The module of a file, as part of the package that its folder is, or alone under that name."""
+    name = name or _module_name(file)
+    if "." in name:
+        _package(file.parent)
+    return _import(name, file)
 
 
 def _package(folder: Path) -> str:

@@ -20,6 +20,7 @@ from ptproof.reading.cache import Cache, place
 
 if TYPE_CHECKING:
     from ptproof.proof.claim import Claim
+    from ptproof.proof.load import Derivation
     from ptproof.proof.result import Verification
     from ptproof.proof.verdict import Evidence
 
@@ -46,6 +47,7 @@ class Memory:
         self._fresh = fresh
         folder, self._environment = place(), hashes.environment()
         self._cache = Cache(folder and folder / self._environment[:16], say)
+        self._before: dict[str, str] = {}
         self._files: dict[str, str] = {}
         self._looked = 0.0
         self._open = False
@@ -53,13 +55,31 @@ class Memory:
     @contextlib.contextmanager
     def loading(self) -> Iterator[None]:
         """While the derivation is loaded: what is read now belongs to it."""
-        before = hashes.of_derivation(self._paths)
+        before = self._before = hashes.of_derivation(self._paths)
         with hashes.opened() as found:
             yield
         self._files = hashes.of_derivation(self._paths)
         self._open = bool(before) and before == self._files and all(self._files.values())
         self._files |= {file: hashes.of_file(file) for file in hashes.foreign(found)}
         self._looked = time.monotonic()
+
+    def load(self, select: str = "") -> Derivation:
+        """The derivation; where its contents are known, only the files that hold what is selected."""
+        from ptproof.proof import contents
+        from ptproof.proof.load import files_of, load
+
+        key = hashes.of_texts(["contents", self._environment, *map(str, self._paths)])
+        files, known = files_of(self._paths), None if self._fresh else self._cache.read(key)
+        with self.loading():
+            few = contents.needed(known, self._before, files, select)
+            derivation = load(self._paths, few)
+            if few is not None and known is not None and contents.doubtful(known, few, derivation):
+                few, derivation = None, load(self._paths)
+        if few is None and self._open:
+            said = contents.said(derivation, self._files, files)
+            if said != known:
+                self._cache.write(key, said)
+        return derivation
 
     def run(self, select: str) -> dict[str, Any] | None:
         """What :meth:`keep_run` kept of this very run, if every file is as it was; nothing has to be loaded for it."""

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from functools import lru_cache
-from typing import Any
 
 import sympy as sp
 
@@ -26,6 +25,21 @@ def exponent_terms(exponent: sp.Expr, common: sp.Expr) -> tuple[tuple[sp.Expr, s
     return tuple((monomial, sp.Rational(coefficient)) for coefficient, monomial in pairs)
 
 
+def reduced(expression: sp.Expr) -> sp.Expr:
+    """Every exponent with symbols in lowest terms: equal ones are then one, also in the base of another power.
+
+    Equal where both are defined, as everything in this algebra.
+
+    >>> n, x = sp.symbols("n x", positive=True)
+    >>> reduced((1 + x ** (2 * n / (2 * n + 2))) ** n)
+    (x**(n/(n + 1)) + 1)**n
+    """
+    return expression.replace(
+        lambda node: isinstance(node, sp.Pow) and bool(node.exp.free_symbols) and node.exp.is_rational_function(),
+        lambda node: node.base ** sp.cancel(node.exp),
+    )
+
+
 @lru_cache(maxsize=4096)
 def fraction(exponent: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
     """Numerator and denominator of an exponent."""
@@ -35,22 +49,6 @@ def fraction(exponent: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
 @lru_cache(maxsize=4096)
 def _factored(base: sp.Expr) -> sp.Expr:
     return sp.factor(sp.together(base))
-
-
-_standards: dict[Any, sp.Dummy] = {}
-
-
-def _standard(meaning: sp.Expr, symbol: sp.Symbol) -> sp.Dummy:
-    """One symbol of the same kind for this meaning, known nowhere outside of this module."""
-    kind = tuple(sorted(symbol._assumptions_orig.items()))
-    return _standards.setdefault((meaning, kind), sp.Dummy("s", **dict(kind)))
-
-
-def split_masked(expression: sp.Expr, meaning: Mapping[sp.Symbol, sp.Expr]) -> sp.Expr:
-    """:func:`split_powers`, done once for expressions that differ only in the names of symbols with one meaning."""
-    stands = {symbol: _standard(meaning[symbol], symbol) for symbol in expression.free_symbols & {*meaning}}
-    split = split_powers(expression.xreplace(stands))
-    return split.xreplace({standard: symbol for symbol, standard in stands.items()})
 
 
 @lru_cache(maxsize=4096)

@@ -7,7 +7,7 @@ a value. What the values need in order to be defined goes along (:attr:`Substitu
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
@@ -50,6 +50,8 @@ class Substitution:
         Symbol, or applied function → expression.
     has_sign
         Whether an expression is shown to be "positive", "nonnegative", …, where SymPy does not know it.
+    elsewhere
+        Functions whose values somebody else has shown to be of their kind wherever they are taken.
 
     Raises
     ------
@@ -67,11 +69,15 @@ class Substitution:
 
     values: Mapping[Any, Any]
     has_sign: Callable[[sp.Expr, str], bool] = field(default=_never, repr=False, compare=False)
+    elsewhere: Collection[Any] = ()
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "values", {key: sp.sympify(value) for key, value in self.values.items()})
         for letter, value in self.values.items():
             if isinstance(letter, AppliedUndef):
+                _check_letter(letter)
+                if letter in self.elsewhere:
+                    continue
                 _check_function(letter, value)
             if not is_kind(letter, value, self.has_sign, _real_where_defined):
                 raise NotOfKind(f"{value} is not known to be what {letter} stands for")
@@ -148,9 +154,12 @@ def replaced(expression: sp.Expr, equal: Mapping[sp.Expr, sp.Expr]) -> sp.Expr:
     return outside.xreplace({mask: _put(node, symbols, {}) for node, mask in masks.items()})
 
 
-def _check_function(letter: AppliedUndef, value: sp.Expr) -> None:
+def _check_letter(letter: AppliedUndef) -> None:
     if len(set(letter.args)) != len(letter.args) or not all(isinstance(entry, sp.Symbol) for entry in letter.args):
         raise InputError(f"the value of a function is given for it applied to distinct symbols, not for {letter}")
+
+
+def _check_function(letter: AppliedUndef, value: sp.Expr) -> None:
     if any(not need.settled for need in obligations(everywhere(letter, value))):
         raise NotOfKind(f"{value} is not known to be defined for all arguments of {letter}")
 

@@ -20,6 +20,12 @@ IDENTITIES = {
     "power of a product": (a * r ** (2 * kappa)) ** q - a**q * r ** (2 * kappa - 1),
     "powers that add up": V**q * V ** (1 / (2 * kappa)) - V,
     "powers over a sum": V ** (kappa / (kappa + 1)) * V ** (1 / (kappa + 1)) - V,
+    "equal exponents in the base of a power": (
+        (1 + V ** (kappa / (kappa + 1))) ** q - (1 + V ** (2 * kappa / (2 * kappa + 2))) ** q
+    ),
+    "equal exponents two powers deep": (
+        (1 + (1 + V ** (2 / (2 * kappa))) ** q) ** (1 / kappa) - (1 + (1 + V ** (1 / kappa)) ** q) ** (1 / kappa)
+    ),
     "root of a sum": sp.sqrt(x**2 + y**2) ** 3 - (x**2 + y**2) * sp.sqrt(x**2 + y**2),
     "rationalised denominator": 1 / (root - 1) - (root + 1) / (x**2 + y**2),
     "roots of numbers": sp.sqrt(8) - 2 * sp.sqrt(2),
@@ -42,6 +48,13 @@ def test_identity_is_seen(name: str) -> None:
 NEAR_MISSES = {
     "exponent": (r ** (2 * kappa)) ** q - r ** (2 * kappa + 1),
     "coefficient": V**q * V ** (1 / (2 * kappa)) - 2 * V,
+    "exponents in the base of a power": (
+        (1 + V ** (kappa / (kappa + 1))) ** q - (1 + V ** (2 * kappa / (2 * kappa + 1))) ** q
+    ),
+    "numerator of an exponent in a base": (
+        (1 + V ** (kappa / (kappa + 1))) ** q - (1 + V ** ((2 * kappa + 2) / (2 * kappa + 2))) ** q
+    ),
+    "sign of an exponent in a base": ((1 + V ** (1 / (2 * kappa))) ** q - (1 + V ** (-2 / (4 * kappa))) ** q),
     "sign of an angle": sp.cos(k * F - tau) - sp.cos(k * F) * sp.cos(tau) + sp.sin(k * F) * sp.sin(tau),
     "square root of a square": sp.sqrt(x**2) - x,
     "logarithm of an exponential of another": sp.exp(x) - sp.exp(y),

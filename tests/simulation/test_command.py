@@ -270,3 +270,41 @@ def test_what_the_vehicle_meets_is_refused_by_a_sentence(call, arguments, messag
     result = call("vanishing", "--until", "0.01", *arguments)
     assert (result.exit_code, result.stdout) == (2, "")
     assert message in result.stderr
+
+
+def test_an_enclosure_as_json(call):
+    result = call("vanishing", "--enclose", "--until", "0.01", "--time-limit", "600", "--json")
+    assert result.exit_code == 0
+    enclosure = json.loads(result.stdout)["enclosure"]
+    assert enclosure["verdict"] == "proved"
+    assert enclosure["width"] <= 1e-6
+    assert len(enclosure["times"]) == len(enclosure["lower"]) == len(enclosure["upper"]) == enclosure["steps"] + 1
+    assert {"method", "seconds", "states", "switches"} <= enclosure.keys()
+
+
+def test_an_enclosure_that_is_cut_short_is_undecided(call):
+    result = call("vanishing", "--enclose", "--time-limit", "0.1")
+    assert result.exit_code == 1
+    assert "enclosure undecided: the time limit was met" in result.stdout
+
+
+@pytest.mark.parametrize(
+    ("options", "sentence"),
+    [
+        (("--noise", "0.1"), "leave out --noise"), (("--motion", "t", "0"), "leave out --motion"),
+        (("--ensemble", "3"), "leave out --ensemble"), (("--enclose-width", "0"), "width: must be positive"),
+        (("--enclose-width", "small"), "unknown name 'small'"),
+    ],
+)  # fmt: skip
+def test_an_enclosure_of_bad_input_is_refused(call, options, sentence):
+    result = call("vanishing", "--enclose", *options)
+    assert result.exit_code == 2
+    assert sentence in result.stderr
+
+
+def test_the_picture_of_a_run_shows_its_enclosure(call, tmp_path):
+    files = [tmp_path / "plain.png", tmp_path / "enclosed.png"]
+    call("vanishing", "--until", "0.01", "--plot", str(files[0]))
+    result = call("vanishing", "--enclose", "--until", "0.01", "--time-limit", "600", "--plot", str(files[1]))
+    assert result.exit_code == 0
+    assert files[0].read_bytes() != files[1].read_bytes()

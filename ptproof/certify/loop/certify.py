@@ -1,17 +1,17 @@
 """Guarantees for the vehicle in closed loop: a bound of its distance for every start, heading and filter state.
 
 Theorem. Let F and the drift be smooth where they are enclosed, and let the seeker be the prescribed-time one with the
-gain K(t) (clipped or not). Let W(y, s, q, τ) be any polynomial in the letters of :mod:`ptproof.certify.loop.flow`, c₀ < … <
-c_n levels and B = [−h, h]², Q > 0 such that W > c_n on the boundary of B × {|q| ≤ Q}. On a stretch of time let
-dW/dτ ≤ R_j wherever y ∈ B, |q| ≤ Q and W ∈ [c_j, c_(j+1)]. If a vehicle starts with y ∈ B, |q| ≤ Q and W ≤ w₀ ≤ c_n, and
-the solution w of the comparison (:func:`ptproof.certify.loop.levels.fallen`) stays below c_n, then it exists on the whole
-stretch and W ≤ w. Its distance from the source is then at most δ + max{|y| : y ∈ B, W(y, ·) ≤ w}.
+gain K(t), clipped or not. Let W(y, s, q, τ) be any polynomial in the letters of :mod:`ptproof.certify.loop.flow`,
+c₀ < … < c_n levels, and B = [−h, h]², Q > 0 such that W > c_n on the boundary of B × {|q| ≤ Q}. On a stretch of time
+let dW/dτ ≤ R_j wherever y ∈ B, |q| ≤ Q and W ∈ [c_j, c_(j+1)]. If a vehicle starts with y ∈ B, |q| ≤ Q and
+W ≤ w₀ ≤ c_n, and the solution w of the comparison (:func:`ptproof.certify.loop.levels.fallen`) stays below c_n, then it
+exists on the whole stretch and W ≤ w. Its distance from the source is at most δ + max{|y| : y ∈ B, W(y, ·) ≤ w}.
 
-Proof. As long as (y, q) stays inside, W ≤ w by comparison; W < c_n keeps it from the boundary; F and the drift are smooth on
-a neighbourhood of B, so a solution that stays in a compact set exists. And x − x* = y + δn with |n| = 1. ∎
+Proof. As long as (y, q) stays inside, W ≤ w by comparison; W < c_n keeps it from the boundary; F and the drift are
+smooth on a neighbourhood of B, so a solution that stays in a compact set exists. And x − x* = y + δn, |n| = 1. ∎
 
-W is a corrected V = F(x*) − F (:mod:`ptproof.certify.loop.lyapunov`), but its truth as a certificate does not rest on where
-it came from. The hypotheses are checked in ball arithmetic on covers of B for all headings and all |q| ≤ Q.
+W is a corrected V (:mod:`ptproof.certify.loop.lyapunov`), but nothing rests on where it came from. The hypotheses are
+checked in ball arithmetic on covers of B, for all headings and all |q| ≤ Q.
 """
 
 from __future__ import annotations
@@ -34,8 +34,9 @@ from ptproof.balls.ball import ball_from, precision
 from ptproof.balls.rounding import up
 from ptproof.certify.loop.boxes import Boxes
 from ptproof.certify.loop.certificate import LoopCertificate
-from ptproof.certify.loop.cover import Model, farthest, guide, rates
+from ptproof.certify.loop.cover import farthest, guide, rates
 from ptproof.certify.loop.levels import Levels, Slice, fallen
+from ptproof.certify.loop.model import Model
 from ptproof.certify.loop.setup import Phase, Unfit, models, phases, slices
 from ptproof.errors import InputError
 from ptproof.problem import Problem
@@ -43,9 +44,13 @@ from ptproof.problem.model import number
 from ptproof.proof.verdict import Verdict
 
 _ORDERS = 3, 1, 3
+_ROUNDS = 3
+_ROUNDING = 1e-9  # covers that times are shown as floats
 _BANDS = 150  # of levels, per factor of ten
-_FILTER = np.concatenate([[0.0], 2.0 ** np.arange(-10, 1)])
+_FILTER = np.concatenate([[0.0], 2.0 ** np.arange(-12, 1)])
 _WEIGHT = 0.06
+SHAPES = "distance", "field"
+_NAMES = {"distance": "half the squared distance", "field": "the field below its peak"}
 
 
 class NoCertificate(Exception):
@@ -64,7 +69,7 @@ class Stage:
 
 def certify_loop(
     problem: Problem, radius: Any = None, *, filter_gap: Any = 0, tolerance: float = 0.12, workers: int | None = None,
-    client: Any = None,
+    client: Any = None, shapes: Sequence[str] = SHAPES,
 ) -> LoopCertificate:  # fmt: skip
     """Bound the distance of the prescribed-time seeker from the source over [t₀, t₀ + T], whatever its heading.
 
@@ -78,6 +83,8 @@ def certify_loop(
         |F(x(t₀)) − z(t₀)| is at most this.
     tolerance
         How much of a rate may be given away to save time.
+    shapes
+        What V is tried: half the squared distance from the source, F(x*) − F; the first that leads to a proof counts.
     workers, client
         Threads (left out: one per processor), or a ``distributed.Client``.
 
@@ -107,12 +114,16 @@ def certify_loop(
     times: tuple[float, ...] = ()
     distances: tuple[float, ...] = ()
     hover = None
-    try:
-        with precision(128):
-            times, distances, hover, detail = _curve(problem, size, gap, tolerance, workers, client)
-        verdict = Verdict.PROVED
-    except (NoCertificate, Unfit, Undefined) as error:
-        verdict, detail = Verdict.UNDECIDED, str(error)
+    verdict, reasons = Verdict.UNDECIDED, []
+    for shape in shapes:
+        try:
+            with precision(128):
+                times, distances, hover, detail = _curve(problem, size, gap, shape, tolerance, workers, client)
+            verdict = Verdict.PROVED
+            break
+        except (NoCertificate, Unfit, Undefined) as error:
+            reasons.append(f"with V {_NAMES[shape]}: {error}")
+            detail = "; ".join(reasons)
     tuning = problem.tuning
     return LoopCertificate(
         verdict, float(tuning.omega), float(tuning.mu), float(size), float(gap), times, distances, hover, detail,
@@ -126,24 +137,24 @@ def _distance(problem: Problem) -> sp.Expr:
 
 
 def _curve(
-    problem: Problem, radius: sp.Expr, gap: sp.Expr, tolerance: float, workers: int | None, client: Any
+    problem: Problem, radius: sp.Expr, gap: sp.Expr, shape: str, tolerance: float, workers: int | None, client: Any
 ) -> tuple[tuple[float, ...], tuple[float, ...], float | None, str]:
     spans = phases(problem)
     tuning = problem.tuning
     omega = ball_from(tuning.omega)
     reach = up(ball_from(radius) + 1 / omega.sqrt())
     filter_start = up(ball_from(gap) / (ball_from(tuning.mu) * omega.sqrt()))
-    tallest, steepest = _sizes(problem, reach)
-    prepared = models(problem, spans, _ORDERS, _WEIGHT * tallest / steepest)
+    tallest, steepest = _sizes(problem, reach, shape)
     m = float(tuning.mu * tuning.omega)
     typical = float(tuning.k) / (2 * (1 + m**2)) * steepest / tallest  # of −(dW/dτ)/W
+    prepared = models(problem, spans, shape, _ORDERS, _WEIGHT * tallest / steepest, typical)
     stage = _stage(prepared, spans, reach, filter_start)
     work = [(model, part) for model, span in zip(prepared, spans, strict=True) for part in slices(problem, span)]
     bounds = _all_rates(stage, work, tolerance * typical, workers, client)
     level = stage.start
     times, reached = [work[0][1].start], [level]
     for (_, part), found in zip(work, bounds, strict=True):
-        for piece in part.pieces():
+        for piece in part.parts or (part,):
             level = fallen(level, found, stage.levels, piece.shortest, piece.longest)
             if not level < stage.levels.edges[-1]:
                 raise NoCertificate(
@@ -152,22 +163,25 @@ def _curve(
                 )
             times.append(piece.end)
             reached.append(level)
-    if not (bounds[-1] < 0).any():
-        raise NoCertificate("no level of W is shown to decrease at the end: a larger omega or a smaller start would help")
+    if level > stage.start and not _held(stage.levels, bounds[-1], level):
+        raise NoCertificate(
+            "no level of W is shown to decrease at the end: a larger omega or a smaller start would help"
+        )
     steady = work[-1][1].steady
-    hover_level = _hover(stage.levels, bounds[-1]) if steady else None
+    hover_level = _hover(stage.levels, bounds[-1], level) if steady else None
     asked = np.array(sorted({*reached, *([] if hover_level is None else [hover_level])}))
     found = np.zeros(len(asked))
     for model, span in zip(prepared, spans, strict=True):
-        found = np.maximum(
-            found, farthest(model, asked, stage.filter_bands, stage.half, span.interval(), 0.005)
-        )
-    distance = dict(zip(asked.tolist(), (np.nextafter(found + prepared[0].reach, np.inf)).tolist(), strict=True))
-    detail = f"{len(work)} stretches of time"
+        found = np.maximum(found, farthest(model, asked, stage.filter_bands, stage.half, span.interval(), 0.005))
+    distance = dict(zip(asked.tolist(), ((found + prepared[0].reach) * (1 + _ROUNDING)).tolist(), strict=True))
+    detail = (
+        f"V is {_NAMES[shape]}, corrected to order {_ORDERS[0]} in 1/sqrt(omega); rates proved on {stage.levels.bands} "
+        f"bands of levels, all headings and filter states, over {len(work)} stretches of time"
+    )
     return tuple(times), tuple(distance[item] for item in reached), hover_level and distance[hover_level], detail
 
 
-def _sizes(problem: Problem, reach: float) -> tuple[float, float]:
+def _sizes(problem: Problem, reach: float, shape: str) -> tuple[float, float]:
     """About how large V and ‖∇F‖² are at a distance from the source; any positive numbers would do."""
     angles = np.linspace(0, 2 * np.pi, 64, endpoint=False)
     field = sp.lambdify(problem.variables, [problem.peak - problem.field.expression, *problem.field.gradient], "numpy")
@@ -177,22 +191,15 @@ def _sizes(problem: Problem, reach: float) -> tuple[float, float]:
         tallest, steepest = float(np.max(np.abs(height))), float(np.max(first**2 + second**2))
     if not (0 < tallest < math.inf and 0 < steepest < math.inf):
         raise NoCertificate("the field has no slope or no value around the start")
-    return tallest, steepest
+    return (tallest, steepest) if shape == "field" else (reach**2 / 2, reach * math.sqrt(steepest))
 
 
 def _stage(prepared: Sequence[Model], spans: Sequence[Phase], reach: float, filter_start: float) -> Stage:
     half = reach * 1.25
     for _ in range(5):
         half = math.ceil(half * 1024) / 1024
-        boxes = Boxes.square(half, 128)
-        boxes = boxes.chosen(boxes.nearest() <= reach)
-        values = prepared[0].values(prepared[0].columns, boxes, spans[0].interval())
-        deviation = float(prepared[0].manifold.bounds(values)[0].size().max()) * (1 + 1e-9) + filter_start
+        start, deviation = _start(prepared[0], half, reach, filter_start, spans[0].interval())
         weight = prepared[0].weight
-        function = prepared[0].function_too.bounds(values)[0]
-        start = max(
-            float(function.within(*pair)[1].max()) for pair in pairwise(np.linspace(0, deviation, 9))
-        )
         if not 0 < start < math.inf:
             raise NoCertificate(f"W is {start:.4g} at the start: the field is not above its surroundings there")
         widest = math.sqrt(2 * max(start, 0) * 6 / weight) + 2 * deviation
@@ -208,6 +215,27 @@ def _stage(prepared: Sequence[Model], spans: Sequence[Phase], reach: float, filt
         f"the level sets of W around the start are not shown to be closed (W ≤ {start:.4g} at the start, ≥ {top:.4g} "
         "around it): a larger omega or a smaller start would help"
     )
+
+
+def _start(model: Model, half: float, reach: float, filter_start: float, time: Intervals) -> tuple[float, float]:
+    """What W and |q| are at most where |y| ≤ ``reach`` and |g| ≤ ``filter_start``."""
+    boxes, level, deviation = Boxes.square(half, 64), -math.inf, 0.0
+    for left in range(_ROUNDS, -1, -1):
+        boxes = boxes.chosen(boxes.nearest() <= reach)
+        values, alone = model.values(model.columns, boxes, time), model.values(model.function_columns, boxes, time)
+        off = model.manifold.bounds(values)[0].size() * (1 + 1e-9) + filter_start
+        function, there = model.function.bounds(alone)
+        parts = np.linspace(0, float(off.max()), 9)
+        high = np.max([function.within(*pair)[1] for pair in pairwise(parts)], axis=0)
+        inside = boxes.farthest() <= reach
+        best = float(there.high[0][inside].max()) if inside.any() else -math.inf
+        split = (high > best * 1.001) & (left > 0)
+        level = max(level, float(high[~split].max(initial=-math.inf)))
+        deviation = max(deviation, float(off[~split].max(initial=0.0)))
+        boxes = boxes.chosen(split).quarters()
+        if not len(boxes):
+            break
+    return level, deviation
 
 
 def _ceiling(model: Model, half: float, bands: Array, time: Intervals) -> float:
@@ -261,15 +289,25 @@ def _all_rates(
 ) -> list[Array]:
     """Bounds of the rates on all stretches, sharp about the levels at which W is expected there."""
     if len({id(model) for model, _ in work}) == 1 and all(part.steady for _, part in work):
-        return [_Task(*work[0], stage, slack=slack).bounds()] * len(work)
+        task = _Task(*work[0], stage, slack=slack)
+        seen = task.expected()
+        rest = _hover(stage.levels, seen + 2 * slack * stage.levels.edges[1:], stage.start)
+        return [replace(task, seen=seen, window=(rest or 0.0, 1.05 * stage.start)).bounds()] * len(work)
     level, passed, tasks = stage.start, 0.0, []
     for model, part in work:
         task = _Task(model, part, stage, slack=slack)
         seen = task.expected()
         after = min(fallen(level, seen, stage.levels, part.shortest, part.longest), float(stage.levels.edges[-1]))
         passed += min(part.longest, 1e6)
+        if part.steady:
+            after = max(after, _hover(stage.levels, seen + 2 * slack * stage.levels.edges[1:], level) or 0.0)
         worse = math.exp(min(slack * passed, 5.0))
-        tasks.append(replace(task, seen=seen, window=(0.7 * min(level, after), 1.3 * worse * max(level, after))))
+        tasks.append(replace(task, seen=seen, window=(0.7 * min(level, after), 1.5 * worse * max(level, after))))
+        if not after < stage.levels.edges[-1]:
+            raise NoCertificate(
+                f"nothing keeps W from leaving its largest level at t = {part.end:.4g}: a larger omega, a smaller "
+                "start or a weaker drift would help"
+            )
         level = after
     if client is not None:
         return list(client.gather(client.map(_Task.bounds, tasks, pure=False)))
@@ -277,12 +315,18 @@ def _all_rates(
         return list(pool.map(_Task.bounds, tasks))
 
 
-def _hover(levels: Levels, found: Array) -> float | None:
-    """The level to which W falls in the end if the last stretch goes on."""
+def _held(levels: Levels, found: Array, level: float) -> bool:
+    """Whether W is kept from rising at a level: it falls in the band below or above."""
+    at = int(np.searchsorted(levels.edges, level, side="left"))
+    return bool((found[max(at - 1, 0) : at + 1] < 0).any())
+
+
+def _hover(levels: Levels, found: Array, level: float) -> float | None:
+    """The level to which W falls from ``level`` in the end if a stretch goes on; None where it does not fall."""
     falling = found < 0
-    if not falling.any():
+    band = min(int(np.searchsorted(levels.edges, level, side="left")) - 1, levels.bands - 1)
+    if band < 0 or not falling[band]:
         return None
-    band = int(np.flatnonzero(falling)[-1])
     while band > 0 and falling[band - 1]:
         band -= 1
     return float(levels.edges[band])

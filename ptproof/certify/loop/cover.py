@@ -13,51 +13,16 @@ from itertools import pairwise
 import numpy as np
 
 from ptproof.balls.arrays import Array, Intervals
-from ptproof.balls.matrices import Around
 from ptproof.certify.loop.boxes import Boxes, Mask
-from ptproof.certify.loop.jets import Jets
 from ptproof.certify.loop.levels import Indices, Levels, largest_over, smallest_within
-from ptproof.certify.loop.ranges import Columns, Form
+from ptproof.certify.loop.model import Model
 
 _CHUNK = 2048
+_CLASS = 1 / 16  # the slopes κ are multiples of this part of the typical one
+_MOST = 150_000  # boxes, after which nothing is refined any more
+_SLACK = 2.0**-44
 _RADII, _ANGLES = 64, 24
 _FINEST = 1 / 32  # of δ: half the side of boxes that are not quartered any more
-
-
-@dataclass(frozen=True, eq=False)
-class Model:
-    """W and its rate as forms, ready to be bounded.
-
-    Attributes
-    ----------
-    jets
-        What the letters are.
-    columns, function_columns
-        The products of letters that occur, and those that occur in W.
-    function, rate, manifold
-        W (over its own columns), dW/dτ and ρ.
-    function_too
-        W over all columns.
-    reach
-        A float not below δ.
-    weight
-        λ.
-    """
-
-    jets: Jets
-    columns: Columns
-    function_columns: Columns
-    function: Form
-    function_too: Form
-    rate: Form
-    manifold: Form
-    reach: float
-    weight: float
-
-    def values(self, columns: Columns, boxes: Boxes, time: Intervals) -> Around:
-        """The products of letters on boxes."""
-        found = self.jets.enclosures(columns.letters, boxes.sides(), time, self.reach)
-        return columns.values(found, len(boxes))
 
 
 def guide(model: Model, levels: Levels, half: float, time: Intervals) -> Array:
@@ -90,28 +55,27 @@ def rates(
     """
     found = np.full(levels.bands, -np.inf)
     wanted = (levels.edges[1:] >= window[0]) & (levels.edges[:-1] <= window[1])
-    seen, boxes = seen.copy(), Boxes.square(half)
+    count, seen, boxes, unit = 0, seen.copy(), Boxes.square(half), model.typical * _CLASS
     while len(boxes):
         looks = [(part, _Look.at(model, part, levels, filter_bands, time)) for part in boxes.parts(_CHUNK)]
         for _, look in looks:
             np.maximum.at(seen, look.place, look.value)
         enough = np.where(wanted, seen + slack * levels.edges[1:], np.inf)
-        fine = boxes.half < model.reach * _FINEST
+        count += len(boxes)
+        fine = boxes.half < model.reach * _FINEST or count > _MOST
         rest = []
         for part, look in looks:
-            split = np.zeros(len(part), bool) if fine else look.above(enough)
-            np.maximum(found, look.largest(~split, levels.bands), out=found)
+            split = np.zeros(len(part), bool) if fine else look.above(enough, levels, unit)
+            np.maximum(found, look.largest(~split, levels, unit), out=found)
             rest.append(part.chosen(split).quarters())
         boxes = Boxes.joined(rest)
     return found
 
 
-def farthest(
-    model: Model, wanted: Array, filter_bands: Array, half: float, time: Intervals, tolerance: float
-) -> Array:
+def farthest(model: Model, wanted: Array, filter_bands: Array, half: float, time: Intervals, tolerance: float) -> Array:
     """For each of the increasing levels ``wanted`` a bound of |y| where W is not above it, for y in [−half, half]²."""
     found, seen = np.zeros((2, len(wanted)))
-    boxes = Boxes.square(half)
+    count, boxes = 0, Boxes.square(half)
     while len(boxes):
         looks = []
         for part in boxes.parts(_CHUNK):
@@ -120,7 +84,8 @@ def farthest(
             looks.append((part, np.searchsorted(wanted, low, side="left"), part.farthest()))
             _raise(seen, np.searchsorted(wanted, there.low[0], side="left"), np.hypot(part.first, part.second))
         enough = np.append(np.maximum.accumulate(seen) * (1 + tolerance), np.inf)
-        fine = boxes.half < model.reach * _FINEST / 4
+        count += len(boxes)
+        fine = boxes.half < model.reach * _FINEST / 4 or count > _MOST
         rest = []
         for part, edge, reach in looks:
             split = np.zeros(len(part), bool) if fine else reach > enough[edge]
@@ -137,30 +102,57 @@ def _raise(found: Array, at: Indices, values: Array) -> None:
 
 @dataclass(frozen=True, eq=False)
 class _Look:
-    """What boxes say: ranges of bands per band of |q| (bands of |q| × boxes) with rates, and their middles' levels."""
+    """What boxes say: per band of |q| and box the bands of levels touched and ``rates`` r, and per box ``slopes`` κ.
+
+    On level c the rate is at most r − κc: both depend on where a box is cut by the level, and the difference hardly.
+    """
 
     first: Indices
     last: Indices
     rates: Array
+    slopes: Indices
     place: Indices
     value: Array
 
     @staticmethod
     def at(model: Model, boxes: Boxes, levels: Levels, filter_bands: Array, time: Intervals) -> _Look:
         values = model.values(model.columns, boxes, time)
-        (function, there), (rate, rate_there) = model.function_too.bounds(values), model.rate.bounds(values)
-        rows = [
-            (*levels.touched(*function.within(*pair)), rate.within(*pair)[1]) for pair in pairwise(filter_bands)
-        ]
+        (function, there), (rate, rate_there) = model.function_rest.bounds(values), model.rate_rest.bounds(values)
+        centred = model.centred(boxes, time)
+        slopes = centred.slopes(model.typical * _CLASS)
+        kappa = slopes * (model.typical * _CLASS)
+        rows = []
+        for pair in pairwise(filter_bands):
+            low, high = function.within(*pair)
+            rest = np.maximum(kappa * low, kappa * high)
+            main, other = centred.combined(kappa), rate.within(*pair)[1]
+            found = main + rest + other + (np.abs(main) + np.abs(rest) + np.abs(other)) * _SLACK
+            size = (np.abs(centred.low) + np.abs(centred.high) + np.abs(low) + np.abs(high)) * _SLACK
+            rows.append((*levels.touched(centred.low + low - size, centred.high + high + size), found))
         first, last, found = (np.stack(column) for column in zip(*rows, strict=True))
-        at_rest = 0.5 * (there.low[0] + there.high[0])
+        at_rest = centred.start.middle + 0.5 * (there.low[0] + there.high[0])
         place = np.clip(np.searchsorted(levels.edges, at_rest) - 1, 0, levels.bands - 1)
-        return _Look(first, last, found, place, rate_there.high[0])
+        # The same level is met at other places for other headings.
+        elsewhere = np.abs(kappa) * 0.5 * (there.high[0] - there.low[0])
+        return _Look(first, last, found, slopes, place, centred.main.middle + rate_there.high[0] + elsewhere)
 
-    def above(self, enough: Array) -> Mask:
+    def above(self, enough: Array, levels: Levels, unit: float) -> Mask:
         """The boxes that say more than ``enough`` on some band that they touch."""
-        return np.asarray((self.rates > smallest_within(self.first, self.last, enough)).any(axis=0))
+        found = np.zeros(self.slopes.shape, bool)
+        for slope in np.unique(self.slopes):
+            at = self.slopes == slope
+            allowed = enough + levels.shift(slope * unit)
+            found[at] = (self.rates[:, at] > smallest_within(self.first[:, at], self.last[:, at], allowed)).any(axis=0)
+        return found
 
-    def largest(self, keep: Mask, bands: int) -> Array:
+    def largest(self, keep: Mask, levels: Levels, unit: float) -> Array:
         """Per band of levels the largest rate on the kept boxes."""
-        return largest_over(*(part[:, keep].ravel() for part in (self.first, self.last, self.rates)), bands)
+        found = np.full(levels.bands, -np.inf)
+        for slope in np.unique(self.slopes[keep]):
+            at = keep & (self.slopes == slope)
+            most = largest_over(*(part[:, at].ravel() for part in (self.first, self.last, self.rates)), levels.bands)
+            some = np.isfinite(most)
+            shift = levels.shift(slope * unit)[some]
+            value = most[some] - shift + (np.abs(most[some]) + np.abs(shift)) * _SLACK
+            found[some] = np.maximum(found[some], value)
+        return found

@@ -4,8 +4,8 @@ With σ = ωτ, δ = 1/√ω, m = μω, the position x, the heading s and g = (F
 
     dx/dσ = δ e(s) + δ² d(τ, x),   ds/dσ = 1 − δkg,   dg/dσ = (∇F(x)·(e(s) + δ d(τ, x)) − g)/m,
 
-with e = (cos s, sin s) and d the drift in τ (f divided by the gain). The centre y = x − x* − δn(s), n = (sin s, −cos s), of
-the circle of radius δ on which the vehicle turns while g = 0 obeys
+with e = (cos s, sin s) and d the drift in τ (f divided by the gain). The centre y = x − x* − δn(s), where
+n = (sin s, −cos s), of the circle of radius δ on which the vehicle turns while g = 0 obeys
 
     dy/dσ = δ²(k g e(s) + d(τ, x* + y + δn)),
 

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from math import comb, factorial
 
+import numpy as np
 import sympy as sp
 from flint import acb
 
@@ -14,7 +15,7 @@ from ptproof.balls.tape import Tape, compile_tape
 from ptproof.certify.loop.polynomials import Letter, Polynomial, by_slow, product, scaled, term, total
 
 ONE = acb(1)
-FIELD, FIRST, SECOND, CLOCK, REST = "F", "d1", "d2", "h", "R"
+FIELD, FIRST, SECOND, CLOCK, REST, DISTANCE = "F", "d1", "d2", "h", "R", "V"
 """The field F(x* + y) − F(x*), the drift's two entries, the clock's factor h = dt/dτ, and rests of Taylor polynomials.
 
 The rest of F₁, say, of order K has the letter ``R F`` with one derivative in the first coordinate.
@@ -71,7 +72,7 @@ class Jets:
             raise Unresolved(f"{letter} has no derivative")
         name, i, j, late = letter
         new = (Letter(name, i + 1, j, late), Letter(name, i, j + 1, late), Letter(name, i, j, late + 1))[axis]
-        if (name == CLOCK and axis < 2) or (name == FIELD and axis == 2):
+        if (name == CLOCK and axis < 2) or (name in (FIELD, DISTANCE) and axis == 2):
             return None
         return None if self.expression(new) == 0 else new
 
@@ -114,11 +115,11 @@ class Jets:
         return dict(zip(letters, run(self._tapes[letters], values), strict=True))
 
     def _rest(self, letter: Letter, values: Sequence[Intervals]) -> Intervals:
-        """Lagrange: (n·∇)^(K+1) a/(K + 1)! somewhere on the way, at most Σ binomial · |partial derivative| / (K + 1)!."""
+        """Lagrange: (n·∇)^(K+1) a/(K + 1)! on the way, at most Σ binomial · |partial derivative| / (K + 1)!."""
         _, name, degree = letter.name.split()
         order = int(degree) + 1
         parts = {i: Letter(name, letter.first + i, letter.second + order - i) for i in range(order + 1)}
         found = self._values(tuple(parts.values()), values)
         sizes = [found[part].magnitude() * (comb(order, i) / factorial(order)) for i, part in parts.items()]
-        bound = sum(sizes) * (1 + 1e-12)
+        bound = np.sum(np.broadcast_arrays(*sizes), axis=0) * (1 + 1e-12)
         return Intervals(-bound, bound)

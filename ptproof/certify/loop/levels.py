@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from itertools import pairwise
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,6 +33,11 @@ class Levels:
         first = np.searchsorted(self.edges, low, side="left") - 1
         last = np.searchsorted(self.edges, high, side="right")
         return np.clip(first, 0, self.bands), np.clip(last, 0, self.bands)
+
+    def shift(self, slope: float) -> Array:
+        """The smallest value of ``slope`` · c on each band, from below."""
+        found = slope * (self.edges[:-1] if slope >= 0 else self.edges[1:])
+        return np.asarray(found - np.abs(found) * 2.0**-50)
 
 
 def largest_over(first: Indices, last: Indices, values: Array, size: int) -> Array:
@@ -82,8 +86,8 @@ class Slice:
         Bounds of its length in τ; infinite where the gain is.
     steady
         Whether nothing in it depends on time.
-    count
-        The number of pieces for a curve.
+    parts
+        Shorter ones that it consists of, where a curve is to have more points; empty where it is one itself.
     """
 
     start: float
@@ -92,18 +96,11 @@ class Slice:
     shortest: float
     longest: float
     steady: bool
-    count: int
-
-    def pieces(self) -> list[Slice]:
-        """Equal parts, in τ."""
-        n = self.count
-        marks = [self.start + (self.end - self.start) * i / n for i in range(n)] + [self.end]
-        short, long = self.shortest / n * (1 - 1e-15), self.longest / n * (1 + 1e-15)
-        return [replace(self, start=a, end=b, shortest=short, longest=long, count=1) for a, b in pairwise(marks)]
+    parts: tuple[Slice, ...] = ()
 
 
 def fallen(level: float, rates: Array, levels: Levels, shortest: float, longest: float) -> float:
-    """A level that W is not above at the end of a slice, if it was not above ``level`` at its start; ∞ if there is none.
+    """A level that W is not above at the end of a slice if it was not above ``level`` at its start; ∞ if none is.
 
     While W is in band j, dW/dτ ≤ ``rates[j]``. Where the rate is negative W falls through the band in the time that
     this takes at most; where it is not, W does not rise faster than that, and not beyond the bottom of a band in which

@@ -12,26 +12,47 @@ from dataclasses import dataclass, replace
 from flint import acb
 
 from ptproof.certify.loop.flow import Flow
-from ptproof.certify.loop.jets import FIELD, REST
-from ptproof.certify.loop.polynomials import ZERO, Key, Letter, Polynomial, real, scaled, selected, term, total
+from ptproof.certify.loop.jets import REST
+from ptproof.certify.loop.polynomials import ZERO, Key, Polynomial, real, scaled, selected, term, total
 
 _NOISE = 1e-13
 
 
 @dataclass(frozen=True)
 class Lyapunov:
-    """W = V + δ²W₂ + … + (λ/2)q² with the flow in whose coordinate q it is written, and dW/dτ = ω dW/dσ."""
+    """W = V + rest, and dW/dτ = main + rest, where main depends on y and τ alone and has the lowest order."""
 
     flow: Flow
-    function: Polynomial
-    rate: Polynomial
+    start: Polynomial
+    function_rest: Polynomial
+    main: Polynomial
+    rate_rest: Polynomial
+
+    @staticmethod
+    def of(flow: Flow, start: Polynomial, function: Polynomial) -> Lyapunov:
+        """From any W, by exact differentiation along the flow."""
+        rate = scaled(acb(1), flow.derivative(function), grade=-2)
+        return Lyapunov(
+            flow, start, total(function, scaled(acb(-1), start)), selected(rate, _is_main),
+            selected(rate, lambda key: not _is_main(key)),
+        )  # fmt: skip
+
+    @property
+    def function(self) -> Polynomial:
+        """W."""
+        return total(self.start, self.function_rest)
 
 
-def lyapunov(flow: Flow, order: int, manifold_order: int, weight: float) -> Lyapunov:
-    """V = F(x*) − F(y), corrected to ``order``, with q measured from the slow manifold to ``manifold_order``.
+def _is_main(key: Key) -> bool:
+    return key[0] <= 0 and key[1] == 0 and key[2] == 0 and not any(letter.name.startswith(REST) for letter in key[3])
+
+
+def lyapunov(flow: Flow, start: Polynomial, order: int, manifold_order: int, weight: float) -> Lyapunov:
+    """``start`` V, corrected to ``order``, with q measured from the slow manifold to ``manifold_order``.
 
     At the grade j the manifold solves m ∂ρ_j/∂s + ρ_j = what is left of m dq/dσ at q = 0, and W_j solves
     L₀W_j = −(R_j − its mean over s at q = 0), L₀ = ∂_s − (q/m)∂_q, which is diagonal in the terms exp(ins) q^p.
+    ``weight`` is the λ of (λ/2)q².
     """
     flow = replace(flow, manifold=ZERO)
     m = float(flow.m)
@@ -39,18 +60,16 @@ def lyapunov(flow: Flow, order: int, manifold_order: int, weight: float) -> Lyap
         left = selected(flow.deviation, _plain(grade, lambda key: key[2] == 0))
         step = {key: complex(value) * m / (1 + 1j * key[1] * m) for key, value in left.items()}
         flow = replace(flow, manifold=total(flow.manifold, _exact(step)))
-    function = total(term(acb(-1), Letter(FIELD)), term(acb(weight) / 2, power=2))
-    corrected = term(acb(-1), Letter(FIELD))
+    corrected = start
     for grade in range(1, order + 1):
         left = selected(flow.derivative(corrected), _plain(grade, lambda key: bool(key[1] or key[2])))
         step = {key: -complex(value) / (1j * key[1] - key[2] / m) for key, value in left.items()}
         corrected = total(corrected, _exact(step))
-    function = total(corrected, term(acb(weight) / 2, power=2))
-    return Lyapunov(flow, function, scaled(acb(1), flow.derivative(function), grade=-2))
+    return Lyapunov.of(flow, start, total(corrected, term(acb(weight) / 2, power=2)))
 
 
 def _plain(grade: int, keep: Callable[[Key], bool]) -> Callable[[Key], bool]:
-    """Of this grade, kept, and with letters that W may have: no rests, and nothing that jumps where the gain is clipped."""
+    """Of this grade, kept, with letters that W may have: no rests, and nothing that jumps where the gain is clipped."""
     return lambda key: (
         key[0] == grade and keep(key) and not any(letter.late or letter.name.startswith(REST) for letter in key[3])
     )

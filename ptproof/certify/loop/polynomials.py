@@ -38,8 +38,12 @@ def collected(items: Iterable[tuple[Key, Any]]) -> Polynomial:
     sums: dict[Key, Any] = {}
     for key, value in items:
         sums[key] = sums[key] + value if key in sums else value
-    # Of a ball, `== 0` says that it is exactly zero, and `!= 0` that it certainly is not.
-    return {key: value for key, value in sums.items() if not value == 0}
+    return {key: value for key, value in sums.items() if not _is_zero(value)}
+
+
+def _is_zero(value: Any) -> bool:
+    # Of a ball, `== 0` says that it is exactly zero; `!= 0` would say that it certainly is not.
+    return bool(value == 0)
 
 
 def total(*parts: Polynomial) -> Polynomial:
@@ -89,9 +93,7 @@ def selected(part: Polynomial, keep: Callable[[Key], bool]) -> Polynomial:
 def real(part: Polynomial) -> Polynomial:
     """The nearest real polynomial: the coefficients of opposite turns are conjugate to each other exactly."""
     return collected(
-        item
-        for (g, n, p, letters), value in part.items()
-        for item in _pair(g, n, p, letters, complex(value))
+        item for (g, n, p, letters), value in part.items() for item in _pair(g, n, p, letters, complex(value))
     )
 
 

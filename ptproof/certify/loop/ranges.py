@@ -1,7 +1,7 @@
 """What a polynomial in the vehicle's variables is on boxes of slow variables: for all headings, for bands of |q|.
 
-On a box each coefficient of exp(ins) q^p is an interval. Over the headings, the sum of the moduli bounds what oscillates;
-over a band of |q|, each power by itself.
+On a box each coefficient of exp(ins) q^p is an interval. Over the headings, the sum of the moduli bounds what
+oscillates; over a band of |q|, each power by itself.
 """
 
 from __future__ import annotations
@@ -14,8 +14,8 @@ from typing import Any
 import numpy as np
 from flint import arb
 
+from ptproof.balls.around import Around, Matrix
 from ptproof.balls.arrays import Array, Intervals
-from ptproof.balls.matrices import Around, Matrix
 from ptproof.balls.rounding import up
 from ptproof.certify.loop.polynomials import Letter, Polynomial
 
@@ -120,6 +120,16 @@ class Form:
         """The ranges of the coefficients on boxes, and those at the boxes' middles alone, for orientation."""
         found = self.matrix.times(values)
         return self._gathered(found.middle, found.radius), self._gathered(found.middle, np.zeros(found.middle.shape[1]))
+
+    def alone(self, values: Around) -> Around:
+        """A form without headings and filter, on boxes."""
+        if any(self.turns) or any(self.powers):
+            raise ValueError("the form depends on the heading or the filter")
+        if not self.turns:
+            nothing = np.zeros(values.middle.shape[1])
+            return Around(nothing, nothing)
+        found = self.matrix.times(values)
+        return Around(found.middle[0], found.radius[0])
 
     def _gathered(self, middle: Array, radius: Array) -> Bounds:
         half, boxes = len(self.turns), middle.shape[1]

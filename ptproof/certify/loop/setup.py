@@ -1,10 +1,10 @@
-"""From a seeking problem to the vehicle's flow and its function W, with the closed loop checked to be what is bounded."""
+"""From a seeking problem to the vehicle's flow and its function W; the closed loop is checked to be what is bounded."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import sympy as sp
@@ -14,13 +14,12 @@ from ptproof.balls.arrays import Intervals
 from ptproof.balls.ball import ball_from, interval
 from ptproof.balls.rounding import down, up
 from ptproof.balls.tape import switching_part
-from ptproof.certify.loop.cover import Model
 from ptproof.certify.loop.flow import ONE, Flow
-from ptproof.certify.loop.jets import CLOCK, FIELD, FIRST, SECOND, Jets
+from ptproof.certify.loop.jets import CLOCK, DISTANCE, FIELD, FIRST, SECOND, Jets
 from ptproof.certify.loop.levels import Slice
-from ptproof.certify.loop.lyapunov import lyapunov
-from ptproof.certify.loop.polynomials import ZERO, scaled
-from ptproof.certify.loop.ranges import Columns, Form
+from ptproof.certify.loop.lyapunov import Lyapunov, lyapunov
+from ptproof.certify.loop.model import Model
+from ptproof.certify.loop.polynomials import ZERO, Letter, term
 from ptproof.errors import InputError
 from ptproof.problem import Problem
 from ptproof.problem.model import TIME, parameters
@@ -124,6 +123,7 @@ def jets_of(problem: Problem, phase: Phase, order: int) -> Jets:
     expressions = {FIELD: field, CLOCK: factor}
     for name, rate in zip((FIRST, SECOND), problem.drift.rate, strict=True):
         expressions[name] = factor * rate.subs(moved, simultaneous=True)
+    expressions[DISTANCE] = (first**2 + second**2) / 2
     for what, value in expressions.items():
         if (part := switching_part(value, {first, second, TIME})) is not None:
             raise Unfit(f"{what} is not shown to be smooth, because of {part}")
@@ -131,11 +131,12 @@ def jets_of(problem: Problem, phase: Phase, order: int) -> Jets:
 
 
 def models(
-    problem: Problem, spans: Sequence[Phase], orders: tuple[int, int, int], weight: float
+    problem: Problem, spans: Sequence[Phase], shape: str, orders: tuple[int, int, int], weight: float, typical: float
 ) -> tuple[Model, ...]:
     """W and its rate on each phase; ``orders`` are those of W, of the manifold and of the Taylor polynomials.
 
-    W is one and the same polynomial on all phases, in letters that are continuous where the gain is clipped.
+    V is F(x*) − F for the ``shape`` "field", and half the squared distance from the source for "distance". W is one and
+    the same polynomial on all phases, in letters that are continuous where the gain is clipped.
     """
     values = numbers(problem)
     drift = problem.drift
@@ -144,37 +145,34 @@ def models(
     if drift.matrix is not None:
         rows = [[ball_from(entry) for entry in drift.matrix.row(i)] for i in (0, 1)]
         matrix = ((rows[0][0], rows[0][1]), (rows[1][0], rows[1][1]))
+    start = term(-ONE, Letter(FIELD)) if shape == "field" else term(ONE, Letter(DISTANCE))
     letters = [jets_of(problem, span, orders[2]) for span in (spans if drifting else spans[:1])]
-    first = lyapunov(
-        Flow(letters[0], values["k"], values["m"], matrix, drifting, ZERO), orders[0], orders[1], weight
-    )
-    found = []
-    for jets in letters:
-        flow = Flow(jets, values["k"], values["m"], matrix, drifting, first.flow.manifold)
-        function, rate, delta = first.function, scaled(ONE, flow.derivative(first.function), grade=-2), values["delta"]
-        columns, alone = Columns.of(function, rate, flow.manifold), Columns.of(function)
-        forms = ((function, alone), (function, columns), (rate, columns), (flow.manifold, columns))
-        made = (Form.of(part, delta, over) for part, over in forms)
-        found.append(Model(jets, columns, alone, *made, up(delta), weight))
-    return tuple(found) if drifting else tuple(found) * len(spans)  # without a drift nothing depends on time
+    flows = [Flow(jets, values["k"], values["m"], matrix, drifting, ZERO) for jets in letters]
+    first = lyapunov(flows[0], start, orders[0], orders[1], weight)
+    found = [first]
+    for flow in flows[1:]:
+        found.append(Lyapunov.of(replace(flow, manifold=first.flow.manifold), start, first.function))
+    made = tuple(Model.of(item, values["delta"], weight, typical) for item in found)
+    return made if drifting else made * len(spans)  # without a drift nothing depends on time
 
 
 def slices(problem: Problem, span: Phase) -> list[Slice]:
-    """A phase in stretches of time: one where nothing depends on time, else pieces that are equal in t."""
+    """A phase in stretches of time that are equal in t; where nothing depends on time they are parts of one."""
     drift = problem.drift
     moving = any(rate.has(TIME) for rate in drift.rate)
     steady = not any(rate != 0 for rate in drift.rate) or (span.constant and not moving)
-    pieces = 1 if steady else _PIECES
+    pieces = _SHOWN if steady else _PIECES
     ends = [span.start + (span.end - span.start) * sp.Rational(i, pieces) for i in range(pieces + 1)]
-    places = [span.dilated(end) for end in ends]
-    found = []
-    for (a, b), (low, high) in zip(pairwise(ends), pairwise(places), strict=True):
-        length = None if low is None or high is None else high - low
-        found.append(
-            Slice(
-                float(a), float(b), Intervals.around(interval(ball_from(a), ball_from(b))),
-                math.inf if length is None else max(down(length), 0.0), math.inf if length is None else up(length),
-                steady, _SHOWN if steady else 1,
-            )
-        )  # fmt: skip
-    return found
+    found = [_slice(span, a, b, steady) for a, b in pairwise(ends)]
+    if not steady:
+        return found
+    return [replace(_slice(span, span.start, span.end, steady), parts=tuple(found))]
+
+
+def _slice(span: Phase, start: sp.Expr, end: sp.Expr, steady: bool) -> Slice:
+    ends = span.dilated(start), span.dilated(end)
+    length = None if ends[0] is None or ends[1] is None else ends[1] - ends[0]
+    shortest = math.inf if length is None else max(down(length), 0.0)
+    longest = math.inf if length is None else up(length)
+    time = Intervals.around(interval(ball_from(start), ball_from(end)))
+    return Slice(float(start), float(end), time, shortest, longest, steady)

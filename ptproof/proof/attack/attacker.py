@@ -20,7 +20,7 @@ from ptproof.proof.attack.numbers import NotReal, Undefined, Unsure, undisturbed
 from ptproof.proof.attack.preparation import Prepared, prepared
 from ptproof.proof.attack.quantified import satisfied
 from ptproof.proof.attack.roughness import rough
-from ptproof.proof.attack.sampling import MISSES, Point, Sampler
+from ptproof.proof.attack.sampling import MISSES, Point, Sampler, open_in
 from ptproof.proof.attack.worth import text
 from ptproof.proof.claim import Goal
 from ptproof.proof.statement import Exists, Prose, Relation, Smooth, expressions_of
@@ -225,7 +225,7 @@ def _confirmed(ready: Prepared, point: Point) -> bool:
             evaluator = point.evaluator(digits)
             if not all(holds(bound.relation, evaluator) for bound in ready.bounds):
                 return False
-            if not satisfied(ready.quantified, evaluator, dense=digits == _DIGITS[0]):
+            if not satisfied(open_in(ready, point), evaluator, dense=digits == _DIGITS[0]):
                 return False
     except MISSES:
         return False
@@ -236,10 +236,11 @@ def _trusted(ready: Prepared, point: Point) -> bool:
     """Whether the functions are such that a grid can tell whether an assumption over several variables holds.
 
     Over one variable the places between those of the grid are looked at too; over several only functions that were
-    made to satisfy such an assumption count, and one that speaks of numbers only is never certain to hold.
+    made to satisfy such an assumption count, and one that speaks of numbers only is never certain to hold. What holds
+    by how the functions were made is not asked.
     """
     made = dict.fromkeys(ready.defined) | dict.fromkeys(ready.solutions)
-    several = [item for item in ready.quantified if len(item.variables) > 1]
+    several = [item for item in open_in(ready, point) if len(item.variables) > 1]
     found = [{node.func for e in expressions_of([item]) for node in e.atoms(AppliedUndef)} for item in several]
     inside: set[Any] = set().union(*found)
     if not all(found):

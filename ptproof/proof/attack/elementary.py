@@ -3,21 +3,33 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import lru_cache
 from typing import Any
 
 from ptproof.proof.attack.numbers import ONE, ZERO, Exact, NotReal, Number
 from ptproof.proof.attack.series import HALF, Calculus, Value, base
 
+_HELD = {"positive": (1,), "negative": (-1,), "zero": (0,), "nonnegative": (0, 1), "nonpositive": (-1, 0)}
+
+
+@lru_cache(maxsize=4096)
+def _asked(declared: Any) -> tuple[bool | None, frozenset[int] | None]:
+    """Whether a value has to be an integer, or must not be one; and the signs that it may have, where that is asked."""
+    known = {word: getattr(declared, f"is_{word}") for word in _HELD}
+    signs = None
+    if any(truth is not None for truth in known.values()):
+        signs = frozenset(
+            n for n in (-1, 0, 1) if all(known[word] is not (n not in held) for word, held in _HELD.items())
+        )
+    return declared.is_integer, signs
+
 
 def fits(declared: Any, value: Number, calculus: Calculus) -> bool:
     """Whether a value is one that a symbol, or an applied undefined function, was declared to take."""
-    if declared.is_integer and not (type(value) is Exact and value.q == 1):
+    integer, signs = _asked(declared)
+    if integer is not None and integer is not (type(value) is Exact and value.q == 1):
         return False
-    if declared.is_integer is False and type(value) is Exact and value.q == 1:
-        return False
-    signs = {"positive": (1,), "negative": (-1,), "zero": (0,), "nonnegative": (0, 1), "nonpositive": (-1, 0)}
-    sign = calculus.numbers.sign(value) if any(getattr(declared, f"is_{word}") is not None for word in signs) else 0
-    return all(getattr(declared, f"is_{word}") is not (sign not in held) for word, held in signs.items())
+    return signs is None or calculus.numbers.sign(value) in signs
 
 
 def _quotient(calculus: Calculus, sine: bool, value: Value) -> Value:
@@ -81,3 +93,13 @@ UNARY: dict[str, Callable[[Calculus, Value], Value]] = {
     "re": lambda c, v: v,
     "conjugate": lambda c, v: v,
 }
+
+COMPARISONS: dict[str, Callable[[int], bool]] = {
+    "Equality": lambda sign: sign == 0,
+    "Unequality": lambda sign: sign != 0,
+    "LessThan": lambda sign: sign <= 0,
+    "StrictLessThan": lambda sign: sign < 0,
+    "GreaterThan": lambda sign: sign >= 0,
+    "StrictGreaterThan": lambda sign: sign > 0,
+}
+"""By the name of SymPy's relation: what it says of the sign of the difference."""

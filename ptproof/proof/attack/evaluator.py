@@ -10,23 +10,18 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Callable, Mapping
-from functools import lru_cache
 from typing import Any, TypeAlias
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ptproof.proof.attack.elementary import UNARY, fits
+from ptproof.proof.attack.elementary import COMPARISONS, UNARY, fits
 from ptproof.proof.attack.functions import Concrete
 from ptproof.proof.attack.limiting import integral, limit
 from ptproof.proof.attack.numbers import ONE, ZERO, Exact, NotReal, Number, Undefined, Unsure
 from ptproof.proof.attack.scope import BINDERS, Inadmissible, Scope, Work
 from ptproof.proof.attack.series import Calculus, Series, Value, base, hashable
-
-
-@lru_cache(maxsize=4096)
-def _rational(node: sp.Rational) -> Exact:
-    return Exact(int(node.p), int(node.q))
+from ptproof.proof.attack.tree import Node, tree
 
 
 class Evaluator:
@@ -37,6 +32,7 @@ class Evaluator:
         self.functions = functions
         self.work = work if work is not None else Work()
         self.point = Scope({})
+        self._concrete: dict[object, Concrete | None] = {}
         self._tag = itertools.count(1)
         self._depth = 0
         self._integrals: dict[Any, Number] = {}
@@ -49,37 +45,48 @@ class Evaluator:
         return value
 
     def value(self, expression: sp.Expr, scope: Scope) -> Value:
-        found = scope.known.get(expression)
+        return self.worth(tree(expression), scope)
+
+    def worth(self, node: Node, scope: Scope) -> Value:
+        """The value of an expression that was taken apart before."""
+        found = scope.known.get(node)
         if found is None:
             work = self.work
             work.steps += 1
             if work.steps > work.limit:
                 raise Unsure("too much work")
-            handler = _HANDLERS.get(type(expression)) or _handler(expression)
-            found = scope.known[expression] = handler(self, expression, scope)
+            if node.handler is None:
+                node.handler = _handler(node.expression)
+            found = scope.known[node] = node.handler(self, node, scope)
         return found
 
-    def _symbol(self, node: sp.Expr, scope: Scope) -> Value:
-        if node not in scope.symbols:
-            raise Unsure(f"{node} has no value")
-        return scope.symbols[node]
+    def _symbol(self, node: Node, scope: Scope) -> Value:
+        try:
+            return scope.symbols[node.expression]
+        except KeyError:
+            raise Unsure(f"{node.expression} has no value") from None
 
-    def _number(self, node: sp.Rational, scope: Scope) -> Value:
-        return _rational(node)
+    def _number(self, node: Node, scope: Scope) -> Value:
+        return node.rational
 
-    def _applied(self, node: AppliedUndef, scope: Scope) -> Value:
-        if node in scope.symbols:
-            return scope.symbols[node]
-        concrete = self.functions.get(node.func)
+    def _applied(self, node: Node, scope: Scope) -> Value:
+        given = scope.symbols.get(node.expression)
+        if given is not None:
+            return given
+        function = node.function
+        if function in self._concrete:
+            concrete = self._concrete[function]
+        else:
+            concrete = self._concrete[function] = self.functions.get(node.expression.func)
         if concrete is None:
-            raise Unsure(f"{node.func} has no concrete function")
-        arguments = tuple(self.value(argument, scope) for argument in node.args)
+            raise Unsure(f"{node.expression.func} has no concrete function")
+        arguments = [self.worth(argument, scope) for argument in node.parts]
         inside = Scope({**self.point.symbols, **dict(zip(concrete.arguments, arguments, strict=True))})
         self._depth += 1
         if self._depth > 8:
             raise Unsure("functions are defined by each other")
         try:
-            return self._checked(node, self.value(concrete.body, inside))
+            return self._checked(node.expression, self.worth(tree(concrete.body), inside))
         finally:
             self._depth -= 1
 
@@ -91,19 +98,19 @@ class Evaluator:
 
     # The nodes -------------------------------------------------------------------------------------------------------
 
-    def _add(self, node: sp.Expr, scope: Scope) -> Value:
-        return self.calculus.add([self.value(part, scope) for part in node.args])
+    def _add(self, node: Node, scope: Scope) -> Value:
+        return self.calculus.add([self.worth(part, scope) for part in node.parts])
 
-    def _mul(self, node: sp.Expr, scope: Scope) -> Value:
+    def _mul(self, node: Node, scope: Scope) -> Value:
         # All of them are evaluated: 0 times something undefined is undefined.
-        values = [self.value(part, scope) for part in node.args]
-        total = values[0]
-        for value in values[1:]:
+        total, *values = [self.worth(part, scope) for part in node.parts]
+        for value in values:
             total = self.calculus.mul(total, value)
         return total
 
-    def _pow(self, node: sp.Expr, scope: Scope) -> Value:
-        return self.calculus.power(self.value(node.args[0], scope), self.value(node.args[1], scope))
+    def _pow(self, node: Node, scope: Scope) -> Value:
+        base, exponent = node.parts
+        return self.calculus.power(self.worth(base, scope), self.worth(exponent, scope))
 
     def _constant(self, node: sp.Expr, scope: Scope) -> Value:
         return self.calculus.numbers.constant(type(node).__name__)
@@ -135,7 +142,7 @@ class Evaluator:
         if name in ("And", "Or", "Not"):
             inner = [self.truth(part, scope) for part in condition.args]
             return all(inner) if name == "And" else any(inner) if name == "Or" else not inner[0]
-        test = _COMPARISONS.get(name)
+        test = COMPARISONS.get(name)
         if test is None:
             raise Unsure(f"the condition {condition} is not evaluated")
         left, right = (self.value(side, scope) for side in condition.args)
@@ -208,7 +215,7 @@ class Evaluator:
                 raise Unsure(f"{node} is not evaluated")
             if count:
                 moved = Series(next(self._tag), (start, ONE, *(ZERO,) * (int(count) - 1)))
-                inside[variable] = known[variable] = moved
+                inside[variable] = known[tree(variable)] = moved
                 levels.append((moved.tag, int(count)))
         value = self.value(node.args[0], Scope(inside, known))
         for tag, count in reversed(levels):
@@ -251,19 +258,9 @@ class Evaluator:
         return limit(self, node, scope)
 
 
-_COMPARISONS: dict[str, Callable[[int], bool]] = {
-    "Equality": lambda sign: sign == 0,
-    "Unequality": lambda sign: sign != 0,
-    "LessThan": lambda sign: sign <= 0,
-    "StrictLessThan": lambda sign: sign < 0,
-    "GreaterThan": lambda sign: sign >= 0,
-    "StrictGreaterThan": lambda sign: sign > 0,
-}
-_Handler: TypeAlias = Callable[[Evaluator, Any, Scope], Value]
-_NODES: dict[str, _Handler] = {
-    "Add": Evaluator._add,
-    "Mul": Evaluator._mul,
-    "Pow": Evaluator._pow,
+_Handler: TypeAlias = Callable[[Evaluator, Node, Scope], Value]
+_ON_NODES: dict[str, _Handler] = {"Add": Evaluator._add, "Mul": Evaluator._mul, "Pow": Evaluator._pow}
+_NODES: dict[str, Callable[[Evaluator, Any, Scope], Value]] = {
     "Float": Evaluator._float,
     "ImaginaryUnit": Evaluator._imaginary,
     "Piecewise": Evaluator._piecewise,
@@ -285,16 +282,19 @@ _NODES: dict[str, _Handler] = {
     **dict.fromkeys(("Pi", "Exp1", "GoldenRatio", "EulerGamma", "Catalan"), Evaluator._constant),
     **dict.fromkeys(("NaN", "ComplexInfinity"), Evaluator._undefined),
 }
-_HANDLERS: dict[type, _Handler] = {}  # of the types met so far, without the undefined functions
 
 
-def _handler(node: Any) -> _Handler:
+def _handler(expression: Any) -> _Handler:
     """What evaluates expressions of this type."""
-    if isinstance(node, AppliedUndef):
+    if isinstance(expression, AppliedUndef):
         return Evaluator._applied
-    name = type(node).__name__
-    found = Evaluator._symbol if node.is_Symbol else Evaluator._number if node.is_Rational else _NODES.get(name)
-    if found is None:
+    if expression.is_Symbol:
+        return Evaluator._symbol
+    if expression.is_Rational:
+        return Evaluator._number
+    name = type(expression).__name__
+    if name in _ON_NODES:
+        return _ON_NODES[name]
+    if (found := _NODES.get(name)) is None:
         raise Unsure(f"{name} is not evaluated")
-    _HANDLERS[type(node)] = found
-    return found
+    return lambda evaluator, node, scope: found(evaluator, node.expression, scope)

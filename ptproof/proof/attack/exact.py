@@ -7,6 +7,7 @@ from typing import Any
 
 import sympy as sp
 
+from ptproof.proof.attack.functions import concretely
 from ptproof.proof.attack.preparation import Prepared
 from ptproof.proof.attack.sampling import Point
 
@@ -28,9 +29,7 @@ def exact_values(ready: Prepared, point: Point) -> dict[Any, Any]:
 
 
 def _with(expression: sp.Expr, known: Mapping[Any, sp.Expr], point: Point) -> sp.Expr:
-    for function, concrete in point.functions.items():
-        expression = expression.replace(function, sp.Lambda(concrete.arguments, concrete.body))
-    return expression.doit(integrals=False, limits=False).xreplace(dict(known))
+    return concretely(expression, point.functions).xreplace(dict(known))
 
 
 def _pinned(ready: Prepared, known: Mapping[Any, sp.Expr], point: Point) -> dict[Any, sp.Expr]:

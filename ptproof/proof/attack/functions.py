@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import itertools
 import random
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import Any
 
 import sympy as sp
@@ -21,6 +21,19 @@ class Concrete:
 
     arguments: tuple[sp.Symbol, ...]
     body: sp.Expr
+
+    @cached_property
+    def inside(self) -> frozenset[Any]:
+        """The undefined functions in it."""
+        return frozenset(node.func for node in self.body.atoms(AppliedUndef))
+
+
+def concretely(expression: sp.Expr, functions: Mapping[Any, Concrete]) -> sp.Expr:
+    """The expression with these functions put in, and derivatives carried out."""
+    for function, concrete in functions.items():
+        if expression.has(function):
+            expression = expression.replace(function, sp.Lambda(concrete.arguments, concrete.body))
+    return expression.doit(integrals=False, limits=False)
 
 
 @lru_cache(maxsize=64)
@@ -188,8 +201,11 @@ def _rates(item: ForAll) -> list[tuple[Any, Concrete]]:
 START = sp.Symbol("_start", positive=True)
 
 
-def closed_forms(right: sp.Expr, value: sp.Symbol, time: sp.Symbol) -> list[sp.Expr]:
-    """Solutions of value' = ``right``, a sum of terms that are free of the value or have one power of it."""
+def closed_forms(right: sp.Expr, value: sp.Symbol, time: sp.Symbol, faster: Sequence[int] = (1, 2, 6)) -> list[sp.Expr]:
+    """Solutions of value' = ``right``, a sum of terms that are free of the value or have one power of it.
+
+    Where the rate is linear some are ``faster``, so many times as fast: that satisfies an inequality.
+    """
     free, rates, powers = sp.S.Zero, sp.S.Zero, set()
     for term in sp.Add.make_args(right):
         if not term.has(value):
@@ -217,7 +233,7 @@ def closed_forms(right: sp.Expr, value: sp.Symbol, time: sp.Symbol) -> list[sp.E
             found.append(-free / rates + START * sp.exp(rates * time))
     if free == 0 and (whole := antiderivative(rates, time)) is not None:
         if exponent == 1:
-            found += [START * sp.exp(times * whole) for times in (1, 2, 6)]
+            found += [START * sp.exp(times * whole) for times in faster]
         else:
             found.append((START + (1 - exponent) * whole) ** (1 / (1 - exponent)))
     return found

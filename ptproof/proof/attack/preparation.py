@@ -14,6 +14,7 @@ from sympy.core.function import AppliedUndef
 
 from ptproof.proof.attack.functions import Concrete, differentiable, solutions
 from ptproof.proof.attack.scope import BINDERS
+from ptproof.proof.attack.settings import Setting, settings
 from ptproof.proof.attack.trajectories import trajectories
 from ptproof.proof.claim import Goal
 from ptproof.proof.statement import (
@@ -74,6 +75,10 @@ class Prepared:
         Functions that are differentiable only so often, by what draws one.
     smooth
         Whether the statement is about smoothness.
+    settings
+        Fields for the assumptions on several variables, each with a motion if a system is assumed.
+    definitions
+        The assumptions that define the functions of ``defined``, which therefore hold.
     """
 
     parts: tuple[Relation, ...]
@@ -86,6 +91,8 @@ class Prepared:
     special: tuple[Isolated, ...]
     limited: tuple[tuple[Any, Callable[[Random], Concrete]], ...] = ()
     smooth: bool = False
+    settings: tuple[Setting, ...] = ()
+    definitions: frozenset[ForAll] = frozenset()
 
 
 def prepared(goal: Goal) -> Prepared:
@@ -93,7 +100,8 @@ def prepared(goal: Goal) -> Prepared:
     statement: list[Statement] = [] if isinstance(goal.statement, Prose) else [goal.statement]
     everything = [*statement, *goal.assumptions]
     quantified = tuple(item for item in goal.assumptions if isinstance(item, ForAll))
-    defined = dict(_definitions(quantified))
+    definitions = {function: (concrete, item) for function, concrete, item in _definitions(quantified)}
+    defined = {function: concrete for function, (concrete, _) in definitions.items()}
     symbols = _free(goal, everything)
     applied = sorted(set().union(*(e.atoms(AppliedUndef) for e in expressions_of(everything))), key=str)
     bound_inside = _applied_inside(everything, quantified)
@@ -104,6 +112,7 @@ def prepared(goal: Goal) -> Prepared:
     functions = {node.func: node for node in applied if node not in pinned and node.func not in defined}
     relations = plain(goal.assumptions)
     parts = _parts(goal.statement)
+    used = frozenset(item for _, item in definitions.values())
     return Prepared(
         parts,
         tuple(_bound(relation, (*symbols, *pinned)) for relation in relations),
@@ -115,6 +124,8 @@ def prepared(goal: Goal) -> Prepared:
         tuple(itertools.islice(_special(_places(goal.statement), (*symbols, *pinned)), 60)),
         _limited(goal.statement),
         isinstance(goal.statement, Smooth),
+        settings(quantified, used, tuple(defined.items())),
+        used,
     )
 
 
@@ -162,7 +173,7 @@ def _applied_inside(everything: list[Any], quantified: Iterable[ForAll]) -> set[
     return found
 
 
-def _definitions(quantified: Iterable[ForAll]) -> Iterable[tuple[Any, Concrete]]:
+def _definitions(quantified: Iterable[ForAll]) -> Iterable[tuple[Any, Concrete, ForAll]]:
     """f(s) = expression for all s: the function is that expression."""
     for item in quantified:
         left, right = item.relation.left, item.relation.right
@@ -173,7 +184,7 @@ def _definitions(quantified: Iterable[ForAll]) -> Iterable[tuple[Any, Concrete]]
             if isinstance(one, AppliedUndef) and one.args == item.variables and one.func not in inside:
                 places = tuple(sp.Dummy(variable.name, real=True) for variable in item.variables)
                 body = other.xreplace(dict(zip(item.variables, places, strict=True)))
-                yield one.func, Concrete(places, body)
+                yield one.func, Concrete(places, body), item
                 break
 
 

@@ -94,7 +94,7 @@ def _approached(
             return None
         try:
             # A function with a kink at the point must not move along with the place.
-            evaluator = Point(values, point.defined, _fixed(point), point.work).evaluator(digits)
+            evaluator = Point(values, point.defined, _fixed(point), point.settled, point.work).evaluator(digits)
             if not all(holds(bound.relation, evaluator) for bound in ready.bounds):
                 return None
             found.append(_derivatives(expression, along, order, evaluator))

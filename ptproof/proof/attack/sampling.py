@@ -9,10 +9,10 @@ from fractions import Fraction
 from typing import Any
 
 import sympy as sp
-from sympy.core.function import AppliedUndef
 
 from ptproof.proof.attack.elementary import fits
 from ptproof.proof.attack.evaluator import Evaluator
+from ptproof.proof.attack.fields import Range
 from ptproof.proof.attack.functions import START, Concrete, drawn
 from ptproof.proof.attack.kinds import fits_kind, holds
 from ptproof.proof.attack.numbers import NotReal, Number, Undefined, Unsure, exact
@@ -20,6 +20,7 @@ from ptproof.proof.attack.preparation import Bound, Prepared
 from ptproof.proof.attack.quantified import satisfied
 from ptproof.proof.attack.scope import Inadmissible, Scope, Work
 from ptproof.proof.attack.values import Drawer
+from ptproof.proof.statement import ForAll
 
 MISSES = (Unsure, Undefined, NotReal, Inadmissible, OverflowError, ZeroDivisionError, ValueError, RecursionError)
 _SWEEPS = 5
@@ -30,17 +31,21 @@ _ROUNDS = 3  # of these, before others are drawn
 
 @dataclass(frozen=True)
 class Point:
-    """Exact values of the free symbols, some of them by an expression in the others, and concrete functions."""
+    """Exact values of the free symbols, some of them by an expression in the others, and concrete functions.
+
+    ``settled`` are the assumptions that hold for these functions by how they were made.
+    """
 
     values: Mapping[Any, Fraction]
     defined: tuple[tuple[Any, sp.Expr], ...] = ()
     functions: Mapping[Any, Concrete] = field(default_factory=dict)
+    settled: frozenset[ForAll] = frozenset()
     work: Work = field(default_factory=Work, compare=False)
     made: dict[int, Evaluator] = field(default_factory=dict, compare=False, repr=False)
 
     def changed(self, atom: Any, value: Fraction) -> Point:
         """The point with another value of one symbol."""
-        return Point({**self.values, atom: value}, self.defined, self.functions, self.work)
+        return Point({**self.values, atom: value}, self.defined, self.functions, self.settled, self.work)
 
     def evaluator(self, digits: int) -> Evaluator:
         """An evaluator at this point; raises what evaluating a value that is defined may raise."""
@@ -87,16 +92,29 @@ class Sampler:
         }
         if self.goal.solutions and generator.random() < 0.75:
             functions.update(_without_circles(generator.sample(self.goal.solutions, len(self.goal.solutions))))
+        settled, letters = self.goal.definitions, {}
+        if self.goal.settings and generator.random() < 0.9:
+            setting = generator.choice(self.goal.settings)
+            functions.update(setting.functions)
+            settled, letters = settled | setting.items, dict(setting.letters)
+            letters.update({letter: self._within_range(interval) for letter, interval in setting.ranges})
         functions.update(self.goal.defined)
         functions.update({function: draw(self.random) for function, draw in self.goal.limited})
-        defined, taken = self._definitions()
+        defined, taken = self._definitions(letters)
         values = self.drawer.values(self.attempt, taken)
         values[START] = generator.choice((Fraction(1), Fraction(1, 3), Fraction(5), Fraction(1, 50)))
-        return Point(values, defined, functions, self.work)
+        return Point(values, defined, functions, settled, self.work)
 
-    def _definitions(self) -> tuple[tuple[tuple[Any, sp.Expr], ...], set[Any]]:
-        """Symbols that equalities give, and some that are put at the end of an inequality."""
-        found: dict[Any, sp.Expr] = {}
+    def _within_range(self, interval: Range) -> sp.Rational:
+        """A value of a letter for which a field satisfies its assumptions: mostly the best one."""
+        share = self.random.choice((sp.S.One, sp.S.One, sp.S.One, sp.Rational(2, 3), sp.Rational(1, 3)))
+        if interval.high is None:
+            return interval.low / share
+        return share * interval.high + (1 - share) * (interval.low or 0)
+
+    def _definitions(self, letters: Mapping[Any, sp.Expr]) -> tuple[tuple[tuple[Any, sp.Expr], ...], set[Any]]:
+        """Symbols that a field or equalities give, and some that are put at the end of an inequality."""
+        found: dict[Any, sp.Expr] = dict(letters)
         bounds = list(self.goal.bounds)
         self.random.shuffle(bounds)
         bounds.sort(key=lambda bound: bound.relation.sign != "=")
@@ -129,7 +147,7 @@ class Sampler:
             evaluator = point.evaluator(50)
             broken = [bound for bound in self.goal.bounds if not holds(bound.relation, evaluator)]
             if not broken:
-                return point if satisfied(self.goal.quantified, evaluator, dense=False) else None
+                return point if satisfied(open_in(self.goal, point), evaluator, dense=False) else None
             changed = self._repaired(point, broken, evaluator)
             if changed is None:
                 return None
@@ -181,19 +199,24 @@ class Sampler:
         return None
 
 
+def open_in(goal: Prepared, point: Point) -> tuple[ForAll, ...]:
+    """The quantified assumptions of which it has to be looked up whether they hold at the point."""
+    return tuple(item for item in goal.quantified if item not in point.settled)
+
+
 def _without_circles(solutions: list[tuple[Any, Concrete]]) -> dict[Any, Concrete]:
     """One function each, none of which is defined through itself."""
     found: dict[Any, Concrete] = {}
 
     def through(function: Any, seen: set[Any]) -> set[Any]:
         if function in found and function not in seen:
-            for node in found[function].body.atoms(AppliedUndef):
-                seen |= {function} | through(node.func, seen | {function}) | {node.func}
+            for other in found[function].inside:
+                seen |= {function} | through(other, seen | {function}) | {other}
         return seen
 
     for function, concrete in solutions:
         if function not in found:
-            inside = {node.func for node in concrete.body.atoms(AppliedUndef)}
+            inside = concrete.inside
             if function not in inside.union(*(through(other, set()) for other in inside)):
                 found[function] = concrete
     return found

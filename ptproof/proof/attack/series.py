@@ -38,9 +38,9 @@ class Calculus:
         self.numbers = Arithmetic(digits)
 
     def add(self, terms: list[Value]) -> Value:
-        series = [term for term in terms if isinstance(term, Series)]
+        series = [term for term in terms if type(term) is Series]
         if not series:
-            return self.numbers.add([term for term in terms if not isinstance(term, Series)])
+            return self.numbers.add(terms)
         tag = max(term.tag for term in series)
         order = next(len(term.terms) for term in series if term.tag == tag)
         rows: list[list[Value]] = [[] for _ in range(order)]
@@ -61,7 +61,7 @@ class Calculus:
         return self.add([left, self.neg(right)])
 
     def mul(self, left: Value, right: Value) -> Value:
-        if not isinstance(left, Series) and not isinstance(right, Series):
+        if type(left) is not Series and type(right) is not Series:
             return self.numbers.mul(left, right)
         if not isinstance(left, Series) or (isinstance(right, Series) and right.tag > left.tag):
             left, right = right, left
@@ -94,7 +94,7 @@ class Calculus:
         return sign
 
     def power(self, value: Value, exponent: Value) -> Value:
-        if not isinstance(value, Series) and not isinstance(exponent, Series):
+        if type(value) is not Series and type(exponent) is not Series:
             return self.numbers.power(value, exponent)
         if isinstance(exponent, Series):
             return self.exp(self.mul(exponent, self.log(value)))

@@ -2,43 +2,114 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+import itertools
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
 from typing import Any
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ptproof.proof.attack.functions import Concrete, closed_forms
+from ptproof.proof.attack.functions import Concrete, closed_forms, concretely
 from ptproof.proof.statement import ForAll
 
 
-def trajectories(items: Iterable[ForAll]) -> Iterator[tuple[Any, Concrete]]:
-    """Functions that satisfy together the equations x' = rhs(s, x) among the ``items``.
+@dataclass(frozen=True)
+class Motion:
+    """Functions that satisfy a system together, where the letters have the values given."""
 
-    One of them moves and the others are 0, if their equations allow it. The constant of integration is the symbol
-    ``START``. Whoever draws one of each function checks that they belong together, and that they satisfy the equations.
+    functions: tuple[tuple[Any, Concrete], ...]
+    letters: tuple[tuple[Any, sp.Expr], ...] = ()
+
+
+def motions(items: Iterable[ForAll], functions: Mapping[Any, Concrete], letters: Mapping[Any, sp.Expr]) -> list[Motion]:
+    """Solutions of the equations x' = rhs(s, x) among the ``items``, with these functions and letters put in.
+
+    One state moves and the others are 0, where that satisfies their equations, maybe only if some letters that may be
+    any number are 0. The constant of integration is the symbol ``START``.
     """
-    rates = dict(_equations(items))
+    rates = {
+        state: concretely(rate, functions).subs(dict(letters), simultaneous=True) for state, rate in equations(items)
+    }
+    found: list[Motion] = []
+    if any(rate.has(sp.Derivative, sp.Subs) for rate in rates.values()):
+        return found
     for moving in rates:
         rest = {other: sp.S.Zero for other in rates if other != moving}
-        if not all(map(_may_vanish, rest)):
+        if not all(map(_may_vanish, rest)) or not _may_be_positive(moving):
             continue
-        if any(rates[other].subs(rest, simultaneous=True) != 0 for other in rest):
+        zeros: dict[Any, sp.Expr] = {}
+        for other in rest:
+            zeros.update(_at_rest(rates[other].subs(rest, simultaneous=True).subs(zeros)))
+        if any(rates[other].subs(rest, simultaneous=True).subs(zeros) != 0 for other in rest):
             continue
         (time,) = moving.args
         value = sp.Dummy("value", positive=True)
-        right = sp.expand_mul(rates[moving].subs({**rest, moving: value}, simultaneous=True))
+        right = rates[moving].subs({**rest, moving: value}, simultaneous=True).subs(zeros)
+        right = sp.expand_mul(right.xreplace({sp.Abs(value): value}))
         right = sp.Add(*(sp.powsimp(term, combine="exp") for term in sp.Add.make_args(right)))
-        if right.has(AppliedUndef, sp.Derivative) or not _may_be_positive(moving):
+        if right.has(AppliedUndef, sp.Derivative, sp.Subs):
             continue
         place = sp.Symbol("_argument0", real=True)
-        forms = closed_forms(right, value, time)
-        yield from ((moving.func, Concrete((place,), form.xreplace({time: place}))) for form in forms)
-        if forms:
-            yield from ((other.func, Concrete((place,), sp.S.Zero)) for other in rest)
+        still = tuple((other.func, Concrete((place,), sp.S.Zero)) for other in rest)
+        for form in closed_forms(right, value, time, (1,)):
+            moved = (moving.func, Concrete((place,), form.xreplace({time: place})))
+            found.append(Motion((moved, *still), tuple(zeros.items())))
+    return found
 
 
-def _equations(items: Iterable[ForAll]) -> Iterator[tuple[AppliedUndef, sp.Expr]]:
+def _at_rest(rate: sp.Expr) -> dict[Any, sp.Expr]:
+    """A letter without a sign that makes the rate 0 where it is 0, if the rate is not 0 already."""
+    if rate == 0:
+        return {}
+    letters = (letter for letter in rate.free_symbols if letter.is_real and letter.is_nonnegative is None)
+    zero = (letter for letter in sorted(letters, key=str) if rate.subs(letter, 0) == 0)
+    return dict.fromkeys(itertools.islice(zero, 1), sp.S.Zero)
+
+
+def trajectories(items: Iterable[ForAll]) -> Iterator[tuple[Any, Concrete]]:
+    """The functions of the motions that ask nothing of a letter.
+
+    Whoever draws one of each function checks that they belong together, and that they satisfy the equations.
+    """
+    for motion in motions(items, {}, {}):
+        if not motion.letters:
+            yield from motion.functions
+
+
+_SHARES = (sp.S.Zero, sp.Rational(-1, 3), sp.Rational(1, 4))
+
+
+def drifts(items: Iterable[ForAll], functions: Mapping[Any, Concrete]) -> Iterator[dict[Any, Concrete]]:
+    """Functions for those in the rates that have none: a multiple of the gradient of one of the ``functions``, or 0.
+
+    The arguments that the gradient takes are the last ones.
+    """
+    nodes = set().union(*(rate.atoms(AppliedUndef) for _, rate in equations(items)))
+    states = {state.func for state, _ in equations(items)}
+    free = {node.func: len(node.args) for node in sorted(nodes, key=str) if node.func not in {*states, *functions}}
+    potentials = [one for one in functions.values() if 1 < len(one.arguments) == len(free) and one.body != 0]
+    for share in _SHARES if potentials and min(free.values()) >= len(free) else _SHARES[:1]:
+        found = {}
+        for k, (function, count) in enumerate(free.items()):
+            places = tuple(sp.Symbol(f"_argument{i}", real=True) for i in range(count))
+            body = sp.S.Zero
+            if share:
+                slope = sp.diff(potentials[0].body, potentials[0].arguments[k])
+                moved = dict(zip(potentials[0].arguments, places[-len(free) :], strict=True))
+                body = share * slope.subs(moved, simultaneous=True)
+            found[function] = Concrete(places, body)
+        yield found
+        if not free:
+            return
+
+
+def is_equation(item: ForAll) -> bool:
+    """Whether an assumption gives the rate of a function of one time."""
+    return bool(list(equations([item])))
+
+
+def equations(items: Iterable[ForAll]) -> Iterator[tuple[AppliedUndef, sp.Expr]]:
     """Each function of one time with its rate."""
     for item in items:
         left = item.relation.left

@@ -102,9 +102,19 @@ def _eventually(relation: Relation, h: sp.Symbol) -> bool:
 
 def _sign_near_zero(expression: sp.Expr, h: sp.Symbol) -> tuple[int, bool] | None:
     """The sign for all h > 0 close to 0, and whether the value 0 is excluded; None where it is not known."""
-    for sign, strict, weak in ((1, "is_positive", "is_nonnegative"), (-1, "is_negative", "is_nonpositive")):
-        if getattr(expression, weak):
-            return sign, bool(getattr(expression, strict))
+    weak = None
+    for sign, strictly, weakly in ((1, "is_positive", "is_nonnegative"), (-1, "is_negative", "is_nonpositive")):
+        if getattr(expression, strictly):
+            return sign, True
+        if getattr(expression, weakly):
+            weak = sign, False
+    # A square, say, is not negative anywhere, and near 0 it may be known to be positive.
+    found = _sign_by_parts(expression, h)
+    return weak if found is None else found
+
+
+def _sign_by_parts(expression: sp.Expr, h: sp.Symbol) -> tuple[int, bool] | None:
+    """The same from factors, powers, and limits."""
     if isinstance(expression, sp.Mul):
         found = [_sign_near_zero(factor, h) for factor in expression.args]
         if None in found:

@@ -17,7 +17,8 @@ import sympy as sp
 from ptproof.proof.algebra import Generators, NotAlgebraic
 from ptproof.proof.claim import Goal, engine
 from ptproof.proof.definedness import Obligation, domain_of
-from ptproof.proof.facts import Fact, usable
+from ptproof.proof.engines.terms import known_of, library, one_at_a_time, term, variable_of
+from ptproof.proof.facts import Fact, is_said, usable
 from ptproof.proof.statement import MEANING, Implication, Relation, free_symbols, relations_of, undefined_functions
 from ptproof.proof.verdict import Evidence, Verdict
 
@@ -83,10 +84,13 @@ def follows(
         known += [_relation(need) for need in needs if need.necessary and not need.given]
     elif not (defined := are_met(needs, known, facts, seconds=min(seconds, _SECONDS_TO_BE_DEFINED))).shown:
         return defined
-    if not facts:
-        return _follows(conclusion, known, (), seconds)
-    alone = _follows(conclusion, known, (), min(seconds / 8, _SECONDS_ALONE))
-    if alone.shown:
+    return _shown(conclusion, known, facts, seconds)
+
+
+def _shown(conclusion: Relation, known: Sequence[Relation], facts: Sequence[Implication], seconds: float) -> Answer:
+    """Without the facts for a short time, then with them."""
+    alone = _follows(conclusion, known, (), min(seconds / 8, _SECONDS_ALONE) if facts else seconds)
+    if alone.shown or not facts:
         return alone
     together = _follows(conclusion, known, facts, seconds)
     # What facts make no easier may only have needed longer.
@@ -100,13 +104,11 @@ def are_met(
     """Whether everything that an expression needs in order to be defined is shown to follow, one after the other."""
     known = list(assumptions)
     for need in needs:
-        if need.settled:
-            continue
         if need.relation is None:
             return Answer(False, str(need))
-        answer = _follows(need.relation, [*known, *need.given], (), seconds or SECONDS)
-        if not answer.shown and facts:
-            answer = _follows(need.relation, [*known, *need.given], facts, seconds or SECONDS)
+        if need.settled or is_said(need.relation, facts):
+            continue
+        answer = _shown(need.relation, [*known, *need.given], facts, seconds or SECONDS)
         if not answer.shown:
             return Answer(False, f"{need} is not shown, without which {need.node} is not defined: {answer.how}")
         if not need.given:
@@ -125,15 +127,18 @@ def _follows(
 def _answered(
     conclusion: Relation, assumptions: tuple[Relation, ...], facts: tuple[Implication, ...], seconds: float
 ) -> Answer:
-    import z3
-
     try:
         problem = _Problem(conclusion, assumptions, facts)
     except NotAlgebraic as error:
         return Answer(False, str(error))
-    tried = []
+    with one_at_a_time:
+        return _asked(problem, bool(facts), seconds)
+
+
+def _asked(problem: _Problem, told_facts: bool, seconds: float) -> Answer:
+    z3, tried = library(), []
     # What the facts say may be enough, whatever the roots in them are roots of.
-    told = bool(problem.generators.relations and facts)
+    told = bool(problem.generators.relations and told_facts)
     if told and problem.solver(z3, "default", int(1000 * min(seconds / 8, 1.0)), opaque=True).check() == z3.unsat:
         return Answer(True, "z3 (default)")
     for tactic, share in (("default", 0.5), ("qfnra-nlsat", 0.5)):
@@ -184,10 +189,12 @@ class _Problem:
                 "simplify", "purify-arith", "propagate-values", "solve-eqs", "tseitin-cnf", tactic
             ).solver()
         solver.set("timeout", max(milliseconds, 1))
-        variables: dict[sp.Symbol, Any] = {}
+        used: dict[sp.Symbol, None] = {}
 
         def number(expression: sp.Expr) -> Any:
-            return _to_z3(expression, variables, z3)
+            told, symbols = term(expression)
+            used.update(symbols)
+            return told
 
         def relation(item: Relation) -> Any:
             return MEANING[item.sign](number(item.left), number(item.right))
@@ -216,11 +223,11 @@ class _Problem:
         solver.add(z3.Not(relation(self.conclusion)))
         for base, product in self.generators.split_bases():
             value = number(product)
-            facts = [value == number(base)] if base.is_Rational else _known(base, value, None, z3)
+            facts = [value == number(base)] if base.is_Rational else known_of(base, value, None, z3)
             for fact in facts:
                 solver.add(fact)
-        for symbol, variable in list(variables.items()):
-            for fact in _known(symbol, variable, self.generators.meaning.get(symbol), z3):
+        for symbol in used:
+            for fact in known_of(symbol, variable_of(symbol), self.generators.meaning.get(symbol), z3):
                 solver.add(fact)
         return solver
 
@@ -244,56 +251,3 @@ def _domains(relations: Sequence[Relation]) -> Iterator[Obligation]:
 def _relation(need: Obligation) -> Relation:
     assert need.relation is not None
     return need.relation
-
-
-def _to_z3(expression: sp.Expr, variables: dict[sp.Symbol, Any], z3: Any) -> Any:
-    match expression:
-        case sp.Rational():
-            return z3.RealVal(f"{expression.p}/{expression.q}")
-        case sp.Symbol():
-            if expression not in variables:
-                variables[expression] = z3.Real(f"{expression.name}_{len(variables)}")
-            return variables[expression]
-        case sp.Add():
-            return z3.Sum([_to_z3(argument, variables, z3) for argument in expression.args])
-        case sp.Mul():
-            numerator, denominator = sp.fraction(expression)
-            if denominator != 1:
-                return _to_z3(numerator, variables, z3) / _to_z3(denominator, variables, z3)
-            return z3.Product([_to_z3(argument, variables, z3) for argument in expression.args])
-        case sp.Pow():
-            base, exponent = _to_z3(expression.base, variables, z3), int(expression.exp)
-            power = z3.Product([base] * abs(exponent)) if exponent else z3.RealVal(1)
-            return power if exponent >= 0 else 1 / power
-    raise NotAlgebraic(f"no rule for {expression}")
-
-
-def _known(symbol: sp.Symbol, variable: Any, meaning: sp.Expr | None, z3: Any) -> list[Any]:
-    """The facts that hold for a symbol by its declaration, or for a generator by its meaning."""
-    facts = []
-    whole = bool(symbol.is_integer)
-    if symbol.is_positive:
-        facts.append(variable >= 1 if whole else variable > 0)
-    elif symbol.is_nonnegative:
-        facts.append(variable >= 0)
-    elif symbol.is_negative:
-        facts.append(variable <= -1 if whole else variable < 0)
-    elif symbol.is_nonpositive:
-        facts.append(variable <= 0)
-    elif symbol.is_nonzero:
-        facts.append(variable != 0)
-    if isinstance(meaning, sp.Pow) and meaning.exp.is_Rational and not meaning.exp.is_Integer:
-        facts.append(variable >= 0)  # a root is real only of what is not negative, and is then not negative
-    if isinstance(meaning, sp.sin | sp.cos):
-        facts += [variable <= 1, variable >= -1]
-    if meaning is not None and meaning.is_NumberSymbol:
-        from ptproof.balls.ball import enclose
-
-        ball = enclose(meaning, {}, bits=64)
-        facts += [variable >= _fraction(ball.lower(), z3), variable <= _fraction(ball.upper(), z3)]
-    return facts
-
-
-def _fraction(end: Any, z3: Any) -> Any:
-    exact = end.fmpq()
-    return z3.RealVal(f"{exact.p}/{exact.q}")

@@ -11,6 +11,7 @@ import itertools
 import random
 import time
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 import sympy as sp
@@ -22,6 +23,7 @@ from ptproof.proof.claim import Goal, engine
 from ptproof.proof.declarations import admissible
 from ptproof.proof.definedness import Obligation, obligations
 from ptproof.proof.engines.evaluation import carried_out
+from ptproof.proof.engines.partial import values_where_used
 from ptproof.proof.engines.reals import follows
 from ptproof.proof.signs import holds
 from ptproof.proof.statement import All, Assumption, ForAll, Relation, free_symbols, relations_of, undefined_functions
@@ -59,7 +61,7 @@ def search(goal: Goal, seconds: float) -> tuple[Witness | None, int]:
 def check_witness(goal: Goal, values: Mapping[Any, Any]) -> tuple[Witness | None, str]:
     """The witness if these exact values satisfy every assumption and break a relation, else the reason."""
     try:
-        there = Substitution(values)
+        there = values_where_used(goal, values)
     except InputError as error:
         return None, str(error)
     for assumption in goal.assumptions:
@@ -73,9 +75,12 @@ def check_witness(goal: Goal, values: Mapping[Any, Any]) -> tuple[Witness | None
 
 
 def at_example(goal: Goal, values: Mapping[Any, Any]) -> tuple[bool, str]:
-    """Whether exact values satisfy every assumption, and the statement does not fail there; and what is said of it."""
+    """Whether exact values satisfy every assumption, and the statement does not fail there; and what is said of it.
+
+    Nothing is said of a statement that takes a function where its value is not known to be defined.
+    """
     try:
-        there = Substitution(values)
+        there = values_where_used(replace(goal, statement=All(())), values)
     except InputError as error:
         return False, f"the example is none: {error}"
     for assumption in goal.assumptions:
@@ -139,7 +144,7 @@ def _holds(assumption: Assumption, values: Substitution) -> bool:
         case ForAll(variables=variables):
             # A bound variable may carry the name of a free one: its value at the witness is not meant here.
             free = {key: value for key, value in values.values.items() if key not in variables}
-            there = Substitution(free).quantified(assumption)
+            there = Substitution(free, elsewhere=values.elsewhere).quantified(assumption)
             return follows(there.relation.map(differentiated), there.domain, seconds=2.0).shown
     return False
 

@@ -48,15 +48,20 @@ def scalar(system: System, tolerance: float) -> Any:
 @lru_cache(maxsize=64)
 def _ready(
     system: System, conditions: tuple[Relational, ...], tolerance: float
-) -> Callable[[float, tuple[float, ...]], tuple[Any, Callable[[Array], Array]]]:
+) -> Callable[[float, tuple[float, ...]], tuple[Any, Array]]:
     """From an instant and the parameters to an integrator and its constants; one look-up, since runs are short."""
     pick, made = picker(system, conditions), {}
+    told: dict[int, tuple[tuple[float, ...], Array]] = {}  # the latest parameters, and what follows from them
 
-    def ready(time: float, values: tuple[float, ...]) -> tuple[Any, Callable[[Array], Array]]:
+    def ready(time: float, values: tuple[float, ...]) -> tuple[Any, Array]:
         smooth = pick(time, values)
-        if id(smooth) not in made:
-            made[id(smooth)] = scalar(smooth, tolerance), equations(smooth).constants
-        return made[id(smooth)]
+        key = id(smooth)
+        if key not in made:
+            made[key] = scalar(smooth, tolerance), equations(smooth).constants
+        solver, constants = made[key]
+        if key not in told or told[key][0] != values:
+            told[key] = values, constants(np.array(values))
+        return solver, told[key][1]
 
     return ready
 
@@ -157,12 +162,12 @@ class _Taylor(Engine):
 
     def trajectory(self, plan: Plan, member: Batch) -> Run:
         """One run; its samples come from the Taylor series of the steps, in one call for each piece."""
-        values = member.parameters[:, 0]
-        way, numbers = _Way(plan, Samples(member), Budget(plan.settings)), tuple(values.tolist())
+        numbers = tuple(member.parameters[:, 0].tolist())
+        way = _Way(plan, Samples(member), Budget(plan.settings))
         ready = _ready(plan.system, plan.conditions, _tolerance(plan))
         for grid in member.grids(plan.settings.samples):
             solver, constants = ready(float(grid[0] + grid[-1]) / 2, numbers)
-            solver.time, solver.state[:], solver.pars[:] = grid[0], way.samples.state, constants(values)
+            solver.time, solver.state[:], solver.pars[:] = grid[0], way.samples.state, constants
             if stop := way.along(solver, grid):
                 return way.samples.run(stop)
         return way.samples.run()

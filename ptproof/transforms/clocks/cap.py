@@ -143,7 +143,8 @@ def _settled(value: sp.Expr) -> sp.Expr:
     """The value at the corner in a short form, where that is shown to be the same; a number stays as it is."""
     if not value.free_symbols:  # exp(899/101) − 1 has factors without end
         return value
-    for form in (factored(sp.cancel(settle(value))), settle(sp.simplify(value)), settle(value)):
+    shorter = (lambda: factored(sp.cancel(settle(value))), lambda: settle(sp.simplify(value)), lambda: settle(value))
+    for form in (short() for short in shorter):  # ``simplify`` takes longest, and is asked only where it has to be
         # SymPy would write 1 + tan² as 1/cos², whose denominator hides that it is positive.
         if vanishes(form - value) and (form.has(sp.tan) or not value.has(sp.tan)):
             return form

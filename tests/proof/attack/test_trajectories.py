@@ -26,6 +26,7 @@ UNSOLVED = {
     "nobody may rest": {X: Y + 1, Y: X + 1},
     "a value that is never 0 beside a negative one": {P: P * N, N: P * N},
     "a sum of powers": {X: X**3 - X, Y: Y**3 + Y**2},
+    "a rate with a slope by a state": {X: sp.Derivative(sp.Function("F", real=True)(X, Y), X), Y: -X},
     "a rate with an unknown function": {X: sp.Function("F", real=True)(X), Y: sp.Function("F", real=True)(Y)},
 }
 

@@ -25,6 +25,8 @@ CASES = [
     ((2 * s**2 + s) / (3 * s**2 - 1), s, sp.oo, "-", sp.Rational(2, 3)),
     (sp.cos(s / (1 + s)), s, sp.oo, "-", sp.cos(1)),
     (1 / sp.sqrt(1 - s), s, 1, "-", sp.oo),
+    # A square that is not negative anywhere is positive near the point.
+    ((s**2 / (1 - s / T)) ** (-1 / k), s, T, "-", 0),
 ]
 
 
@@ -38,6 +40,10 @@ NONE = [
     (c * s, s, sp.oo),
     (s - s**2 * sp.exp(-s), s, sp.oo),
     (sp.Function("f")(s), s, sp.oo),
+    # Squares that may be 0 all the way, or fall to 0; and what is negative near the point.
+    (((c * s) ** 2 / (s / T - 1)) ** (-1 / k), s, T),
+    (((s - c) ** 2 / (s / T - 1)) ** (-1 / k), s, T),
+    ((-(s**2) / (s / T - 1)) ** (-1 / k), s, T),
 ]
 
 

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import random
+import threading
+
 import pytest
 import sympy as sp
 
@@ -100,3 +103,24 @@ GAIN = sp.Piecewise((1 / (1 - x) ** 2, x <= sp.Rational(1, 2)), (4, True))
 )
 def test_a_choice_by_comparisons_is_followed_case_by_case(conclusion, given, holds):
     assert follows(conclusion, given).shown is holds
+
+
+def test_several_threads_may_ask_at_once() -> None:
+    """A proof that has run out of time may still be asking while the next one does; z3's own terms are not for that."""
+    letters, shown = sp.symbols("a:z", real=True), []
+
+    def ask(n: int) -> None:
+        draw = random.Random(n)
+        for _ in range(25):
+            x, y, z = draw.sample(letters, 3)
+            c = sp.Integer(draw.randint(1, 10**6))
+            square = (x - c * y) ** 2
+            shown.append(follows(ge(square + c * z**2, 0), []).shown)
+            shown.append(not follows(gt(square, 0), []).shown)
+
+    threads = [threading.Thread(target=ask, args=(n,)) for n in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert shown == [True] * 200

@@ -1,0 +1,231 @@
+"""The average of a dither system to any order in 1/√ω, with the change of variables, what is left, and the check."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from ptproof.averaging.average import check_form, derive, parts
+from ptproof.averaging.brackets import Vector, tidy
+from ptproof.averaging.coefficients import signals
+from ptproof.averaging.expansion import Expansion, normal_form
+from ptproof.averaging.oscillation import DELTA
+from ptproof.averaging.problem import DitherProblem
+from ptproof.averaging.residual import put_back
+from ptproof.averaging.scaled import linear, of_problem
+from ptproof.errors import InputError
+from ptproof.proof.algebra import is_zero
+from ptproof.proof.engines.smoothness import smoothness
+from ptproof.proof.verdict import Evidence, Verdict
+from ptproof.system import DitherSystem, System
+
+HIGHEST = 12
+_TIDIED = 16
+
+
+@dataclass(frozen=True)
+class Orders:
+    """X = x + ω^(−1/2) W_1 + … + ω^(−(N+1)/2) W_(N+1), with dX/dτ = A_1(X) + … + ω^(−(N−1)/2) A_N(X) + r.
+
+    Guaranteed where ``evidence`` is proved: along every solution of the system the identity holds, with the remainder
+    r = ω^(−N/2) · ``remainder``, whose factor is bounded on every compact set of slow states and y, uniformly in τ and
+    large ω, where the fields and the drift are C^(N+1) (``smooth`` says whether) and bounded in τ with their
+    derivatives. So on a finite interval on which the average's solution exists, X stays within O(ω^(−N/2)) of it, and
+    with N = 1 this is Lie bracket averaging. With ``problem.mu_omega`` = m the fast states are z = l(x) + y/√ω, as slow
+    to settle as the dithers: A_1 depends on m and tends to the Lie bracket average as m → 0.
+
+    Attributes
+    ----------
+    problem, expansion
+        What was asked, and the expansion in δ = 1/√ω and σ = ωτ, one power further than ``order``.
+    evidence
+        Whether all of it, put back into the system, cancels: exact algebra of its own.
+    smooth
+        Whether fields, drift and quasi-steady state have the derivatives that this takes.
+    """
+
+    problem: DitherProblem
+    expansion: Expansion
+    evidence: Evidence
+    smooth: Evidence
+
+    @property
+    def order(self) -> int:
+        """N."""
+        return self.expansion.order - 1
+
+    @functools.cached_property
+    def averages(self) -> tuple[Vector, ...]:
+        """A_1, …, A_N, n expressions each, in readable form."""
+        return tuple(tuple(map(_readable, self._of_states(row))) for row in self.expansion.means[1:])
+
+    @functools.cached_property
+    def correctors(self) -> tuple[Vector, ...]:
+        """W_1, …, W_(N+1), n expressions each, in time, phase, states and the scaled fast states."""
+        return tuple(map(self._of_states, self.expansion.correctors))
+
+    @property
+    def fast(self) -> dict[sp.Symbol, sp.Expr]:
+        """{y: what it is}: the scaled fast states that the correctors contain."""
+        return self.expansion.oscillation.meaning
+
+    @property
+    def system(self) -> System:
+        """The average to order N; from N = 2 on ω is one of its parameters."""
+        system, rows = self.problem.system, zip(*self.averages, strict=True)
+        root = sp.sqrt(system.omega)
+        rhs = tuple(sp.Add(*(entry / root**power for power, entry in enumerate(row))) for row in rows)
+        return System(system.time, system.state, rhs, name=f"average of {system.name} to order {self.order}")
+
+    @property
+    def transformed(self) -> Vector:
+        """X in terms of τ, θ, x, y and ω."""
+        root = sp.sqrt(self.problem.system.omega)
+        return tuple(
+            symbol + sp.Add(*(row[place] / root**power for power, row in enumerate(self.correctors, start=1)))
+            for place, symbol in enumerate(self.problem.system.state)
+        )
+
+    @functools.cached_property
+    def leading(self) -> Vector:
+        """The limit of ``remainder`` as ω → ∞."""
+        return self._of_states(self.expansion.rest[self.expansion.order + 1])
+
+    @functools.cached_property
+    def remainder(self) -> Vector:
+        """ω^(N/2) r, n finite expressions in τ, θ, x, y and ω: dX/dτ along the system less the average at X."""
+        own, omega = self.expansion.oscillation, self.problem.system.omega
+        steps = {
+            symbol: sp.Add(*(DELTA**n * row[i] for n, row in enumerate(self.expansion.correctors, start=1)))
+            for i, symbol in enumerate(own.slow)
+        }
+        moved = {symbol: symbol + step for symbol, step in steps.items()}
+        result = []
+        for place, symbol in enumerate(self.problem.system.state):
+            along = sp.Add(
+                *(sp.diff(moved[symbol], s) * rate for s, rate in zip(own.states, own.right_hand_side, strict=True))
+            )
+            means = sp.Add(
+                *(
+                    DELTA**j * row[place].subs(moved, simultaneous=True)
+                    for j, row in enumerate(self.expansion.means, start=1)
+                )
+            )
+            left = (along - means) / DELTA ** (self.order + 2)
+            result.append(left.subs(DELTA, 1 / sp.sqrt(omega)))
+        return tuple(result)
+
+    def _of_states(self, row: Vector) -> Vector:
+        """Without the entry of the slow time, which is its own average."""
+        return row[: len(self.problem.system.state)]
+
+    def to_json(self) -> dict[str, Any]:
+        """``orders`` and ``remainder``, as the command ``ptproof average --order`` prints them."""
+        verdict = str(self.evidence.verdict)
+        return {
+            "orders": [
+                {"order": n, "average": [*map(str, row)], "correctors": [*map(str, own)], "verdict": verdict}
+                for n, (row, own) in enumerate(zip(self.averages, self.correctors, strict=False), start=1)
+            ],
+            "remainder": {
+                "power": f"-{self.order}/2",
+                "corrector": [*map(str, self.correctors[-1])],
+                "leading": [*map(str, self.leading)],
+                "fast": {str(y): str(value) for y, value in self.fast.items()},
+                "verdict": verdict,
+                "detail": self.evidence.detail,
+                "smooth": str(self.smooth.verdict),
+            },
+        }
+
+
+def average_to_order(problem: DitherProblem | DitherSystem, order: int = 1) -> Orders:
+    """The average of a dither system to order N = ``order`` in 1/√ω, by exact algebra, put back and checked.
+
+    Parameters
+    ----------
+    problem
+        With or without fast states; where ``mu_omega`` is given they keep their dynamics, else they are at their
+        quasi-steady state. Unknown functions stay as they are.
+
+    Raises
+    ------
+    InputError
+        If the order is not a whole number from 1 to 12.
+    AveragingRefused, AveragingUndecided
+        If the system is not of the form, a dither has no exact mean 0 and period, the fast states are not linear and
+        shown to be stable, or with fast states of their own dynamics a dither is no sum of sines and cosines.
+    ArithmeticError
+        If the first order is not the Lie bracket average that is derived the other way (that would be a bug).
+
+    Examples
+    --------
+    >>> tau, theta, x = sp.symbols("tau theta x", real=True)
+    >>> omega, F = sp.Symbol("omega", positive=True), sp.Function("F", real=True)(x)
+    >>> seeker = DitherSystem(tau, theta, omega, (x,), (0,), ((1,), (F,)), (sp.cos(theta), sp.sin(theta)))
+    >>> found = average_to_order(seeker, 2)
+    >>> found.averages, found.correctors[0], str(found.evidence.verdict)
+    (((Derivative(F(x), x)/2,), (0,)), (F(x)*cos(theta) - sin(theta),), 'proved')
+    """
+    if isinstance(problem, DitherSystem):
+        problem = DitherProblem(problem)
+    check_order(order, "order")
+    check_form(problem.system)
+    signals(problem.system)
+    oscillation = of_problem(problem, order + 2)
+    expansion = normal_form(oscillation, order + 1)
+    found = Orders(problem, expansion, put_back(expansion), _smooth(problem, oscillation.meaning, order))
+    if not oscillation.fast:
+        _same_as_brackets(found)
+    return found
+
+
+def check_order(order: Any, where: str) -> int:
+    """``order``, if it is a whole number from 1 to 12."""
+    if not isinstance(order, int) or isinstance(order, bool) or not 1 <= order <= HIGHEST:
+        raise InputError(f"{where}: expected a whole number from 1 to {HIGHEST}, got {order}")
+    return order
+
+
+def _same_as_brackets(found: Orders) -> None:
+    steady = [*_steady(found.problem)]
+    for ours, brackets in zip(found.averages[0], derive(found.problem.reduced(tuple(steady))).system.rhs, strict=True):
+        if not is_zero(ours - brackets):
+            raise ArithmeticError(f"the first order {ours} is not shown to be the Lie bracket average {brackets}")
+
+
+def _steady(problem: DitherProblem) -> Sequence[sp.Expr]:
+    return linear(problem.fast)[1] if problem.fast else ()
+
+
+def _smooth(problem: DitherProblem, fast: dict[sp.Symbol, sp.Expr], order: int) -> Evidence:
+    """Whether the fields and the drift are C^(N+1), and where fast states move, the quasi-steady state is C^(N+2)."""
+    variables = (problem.system.time, *problem.system.state, *(problem.fast.state if problem.fast else ()))
+    asked = [(place, entry, order + 1) for place, entries in parts(problem.system) for entry in entries]
+    asked += [(f"l_{i}", entry, order + 2) for i, entry in enumerate(_steady(problem) if fast else (), start=1)]
+    asked += [
+        (f"dither {i}", entry, order + 1)
+        for i, entry in enumerate(problem.system.dithers, start=1)
+        if problem.system.time in entry.free_symbols
+    ]
+    for place, entry, needed in asked:
+        own = (problem.system.time,) if place.startswith("dither") else variables
+        declared = problem.functions is not None
+        assumed = {node if declared else node.func: sp.oo for node in problem.smooth_functions}
+        evidence = smoothness(entry, own, needed, {**assumed, **_applied(entry, declared)}, problem.domain)
+        if evidence.verdict is not Verdict.PROVED:
+            return Evidence(evidence.engine, evidence.verdict, f"{place}: {evidence.detail}", witness=evidence.witness)
+    return Evidence("smoothness", Verdict.PROVED, f"fields and drift are C^{order + 1}")
+
+
+def _readable(entry: sp.Expr) -> sp.Expr:
+    return tidy(entry) if len(sp.Add.make_args(entry)) <= _TIDIED else entry
+
+
+def _applied(entry: sp.Expr, declared: bool) -> dict[Any, Any]:
+    return {} if declared else {node.func: sp.oo for node in entry.atoms(AppliedUndef)}

@@ -1,0 +1,229 @@
+"""Functions of the phase over one period, as combinations of a basis: products, derivatives, means, antiderivatives.
+
+A basis function is named by a key; what multiplies it is a polynomial of :mod:`ptproof.averaging.ring`. Sines and
+cosines have one basis, dithers with jumps and kinks another: powers times sines and cosines, each on one piece of the
+period.
+"""
+
+from __future__ import annotations
+
+import functools
+import itertools
+from abc import ABC, abstractmethod
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+import sympy as sp
+
+from ptproof.averaging.quasipolynomial import QuasiPolynomial, exact_sign
+from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided
+from ptproof.averaging.ring import Coefficient, Ring
+from ptproof.averaging.signal import Signal, read_signal
+from ptproof.proof.kinks import innermost
+
+Key = tuple[Any, ...]
+Terms = tuple[tuple[Key, Coefficient], ...]
+
+
+class Phases(ABC):
+    """The functions of the phase that a calculation needs.
+
+    ``multiply`` and ``primitive`` give (key, coefficient) pairs, each calculated once.
+    ``primitive`` is the antiderivative of zero mean of the function less its mean.
+    """
+
+    def __init__(self, ring: Ring, phase: sp.Symbol, period: sp.Expr) -> None:
+        self.ring, self.phase, self.period = ring, phase, period
+        self.multiply = functools.cache(self._multiply)
+        self.primitive = functools.cache(self._primitive)
+        self.mean = functools.cache(self._mean)
+
+    @property
+    @abstractmethod
+    def one(self) -> Terms:
+        """The function 1."""
+
+    @abstractmethod
+    def read(self, expression: sp.Expr, where: str) -> Terms:
+        """A function of the phase, with coefficients that may contain anything else."""
+
+    @abstractmethod
+    def expression(self, terms: Mapping[Key, sp.Expr]) -> sp.Expr:
+        """The sum with these coefficients, for all phases."""
+
+    @abstractmethod
+    def _multiply(self, first: Key, second: Key) -> Terms: ...
+
+    @abstractmethod
+    def _mean(self, key: Key) -> Coefficient: ...
+
+    @abstractmethod
+    def _primitive(self, key: Key) -> Terms: ...
+
+
+class Harmonics(Phases):
+    """cos(r ν φ) with the key (r, 0) and sin(r ν φ) with (r, 1), where ν = 2π/period and r is a whole number."""
+
+    def __init__(self, ring: Ring, phase: sp.Symbol, period: sp.Expr) -> None:
+        super().__init__(ring, phase, period)
+        self.base = sp.radsimp(sp.simplify(2 * sp.pi / period))
+        self._faster, self._slower = ring.read(self.base), ring.read(1 / self.base)
+
+    @property
+    def one(self) -> Terms:
+        return (((0, 0), self.ring.one),)
+
+    def rate(self, key: Key) -> Coefficient:
+        """r ν."""
+        return key[0] * self._faster
+
+    def read(self, expression: sp.Expr, where: str) -> Terms:
+        signal = read_signal(expression, self.phase, self.period, where)
+        result: list[tuple[Key, Coefficient]] = []
+        for (_, rate), values in signal.pieces[0].terms.items():
+            turns = int(sp.radsimp(sp.simplify(rate / self.base)))
+            for kind, value in enumerate(values):
+                if value != 0:
+                    result.append(((turns, kind), self.ring.read(value)))
+        return tuple(result)
+
+    def expression(self, terms: Mapping[Key, sp.Expr]) -> sp.Expr:
+        functions = (sp.cos, sp.sin)
+        return sp.Add(*(value * functions[kind](r * self.base * self.phase) for (r, kind), value in terms.items()))
+
+    def _multiply(self, first: Key, second: Key) -> Terms:
+        (r, a), (q, b) = first, second
+        half = self.ring.number(sp.Rational(1, 2))
+        # 2 cos cos = cos(−) + cos(+), 2 sin sin = cos(−) − cos(+), 2 sin cos = sin(+) + sin(−), with r − q for (−).
+        if a == b:
+            items = [(r - q, 0, half), (r + q, 0, -half if a else half)]
+        else:
+            items = [(r - q, 1, half if a else -half), (r + q, 1, half)]
+        return self._collected(items)
+
+    def _collected(self, items: Iterable[tuple[int, int, Coefficient]]) -> Terms:
+        sums: dict[Key, Coefficient] = {}
+        for r, kind, value in items:
+            if r < 0 and kind:
+                value = -value
+            if r or not kind:
+                key = (abs(r), kind)
+                sums[key] = sums.get(key, self.ring.zero) + value
+        return tuple((key, value) for key, value in sums.items() if value != 0)
+
+    def derivative(self, key: Key) -> Terms:
+        """The derivative of a basis function."""
+        r, kind = key
+        return () if r == 0 else (((r, 1 - kind), self.rate(key) if kind else -self.rate(key)),)
+
+    def _mean(self, key: Key) -> Coefficient:
+        return self.ring.one if key == (0, 0) else self.ring.zero
+
+    def _primitive(self, key: Key) -> Terms:
+        r, kind = key
+        if r == 0:
+            return ()
+        value = self.ring.number(sp.Rational(1, r)) * self._slower
+        return (((r, 1 - kind), -value if kind else value),)
+
+
+class Pieces(Phases):
+    """φ^n cos(rφ), key (p, n, r, 0), and φ^n sin(rφ), key (p, n, r, 1), on the piece p of the period, 0 elsewhere."""
+
+    def __init__(self, ring: Ring, phase: sp.Symbol, period: sp.Expr, points: Sequence[sp.Expr]) -> None:
+        super().__init__(ring, phase, period)
+        self.points = tuple(points)
+        self._signals = functools.cache(self._signal)
+
+    @property
+    def one(self) -> Terms:
+        return tuple(((p, 0, sp.S.Zero, 0), self.ring.one) for p in range(len(self.points) - 1))
+
+    def read(self, expression: sp.Expr, where: str) -> Terms:
+        return self._terms(read_signal(expression, self.phase, self.period, where))
+
+    def _terms(self, signal: Signal) -> Terms:
+        result: list[tuple[Key, Coefficient]] = []
+        place = 0
+        for p, end in enumerate(self.points[1:]):
+            for (n, rate), values in signal.pieces[place].terms.items():
+                result.extend(
+                    ((p, n, rate, kind), self.ring.read(value)) for kind, value in enumerate(values) if value != 0
+                )
+            place += place + 1 < len(signal.pieces) and exact_sign(signal.points[place + 1] - end) <= 0
+        return tuple(result)
+
+    def expression(self, terms: Mapping[Key, sp.Expr]) -> sp.Expr:
+        pieces = [
+            QuasiPolynomial.collect(
+                ((n, rate), (sp.S.Zero, value) if kind else (value, sp.S.Zero))
+                for (q, n, rate, kind), value in terms.items()
+                if q == p
+            )
+            for p in range(len(self.points) - 1)
+        ]
+        if all(piece == pieces[0] for piece in pieces):
+            if pieces[0].is_trigonometric_polynomial:
+                return pieces[0].expression(self.phase)
+            return Signal(self.period, (self.points[0], self.points[-1]), (pieces[0],)).expression(self.phase)
+        return Signal(self.period, self.points, tuple(pieces)).expression(self.phase)
+
+    def _signal(self, key: Key) -> Signal:
+        p, n, rate, kind = key
+        own = QuasiPolynomial({(n, rate): (sp.S.Zero, sp.S.One) if kind else (sp.S.One, sp.S.Zero)})
+        blank = QuasiPolynomial()
+        return Signal(self.period, self.points, tuple(own if q == p else blank for q in range(len(self.points) - 1)))
+
+    def _multiply(self, first: Key, second: Key) -> Terms:
+        if first[0] != second[0]:
+            return ()
+        place = first[0]
+        product = self._signals(first).pieces[place] * self._signals(second).pieces[place]
+        return tuple(
+            ((place, n, rate, kind), self.ring.read(value))
+            for (n, rate), values in product.terms.items()
+            for kind, value in enumerate(values)
+            if value != 0
+        )
+
+    def _mean(self, key: Key) -> Coefficient:
+        return self.ring.read(sp.expand(self._signals(key).mean))
+
+    def _primitive(self, key: Key) -> Terms:
+        signal = self._signals(key)
+        mean = QuasiPolynomial.constant(-signal.mean)
+        shifted = Signal(self.period, self.points, tuple(piece + mean for piece in signal.pieces))
+        return self._terms(shifted.primitive)
+
+
+def _compared(first: sp.Expr, second: sp.Expr) -> int:
+    return exact_sign(first - second)
+
+
+def phases_for(
+    ring: Ring, phase: sp.Symbol, period: sp.Expr, expressions: Iterable[sp.Expr], *, smooth: str = ""
+) -> Phases:
+    """The basis that holds these functions of the phase; with ``smooth``, a reason, only sines and cosines are taken.
+
+    Raises
+    ------
+    AveragingRefused, AveragingUndecided
+        If the period is not one of them all, or no exact integral is known.
+    """
+    points: set[sp.Expr] = set()
+    for i, expression in enumerate(expressions, start=1):
+        if innermost(expression, {phase}) is None:
+            continue
+        if smooth:
+            raise AveragingRefused("D", f"dither {i}", f"{expression} has jumps or kinks; {smooth}")
+        points.update(read_signal(expression, phase, period, f"dither {i}").points)
+    if not points:
+        return Harmonics(ring, phase, period)
+    ordered = sorted(points, key=functools.cmp_to_key(_compared))
+    merged = [ordered[0]]
+    for before, point in itertools.pairwise(ordered):
+        if exact_sign(point - before) > 0:
+            merged.append(point)
+    if len(merged) < 2:
+        raise AveragingUndecided("the pieces of the dithers are not told apart")
+    return Pieces(ring, phase, period, merged)

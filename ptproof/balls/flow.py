@@ -1,0 +1,232 @@
+"""Solutions of ordinary differential equations, enclosed over one step around a polynomial that comes close."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cached_property
+from typing import Any
+
+import flint
+from flint import arb, arb_mat, arb_series
+
+from ptproof.balls.ball import interval
+from ptproof.balls.jet import JETS, Jet, variables
+from ptproof.balls.matrices import (
+    Growth,
+    Vector,
+    grown,
+    identity,
+    inverse,
+    magnitudes,
+    times,
+)  # fmt: skip
+from ptproof.balls.pieces import Piece, Proposal, VectorField, hull
+from ptproof.balls.polynomials import around, highest, largest, not_below, spectra
+from ptproof.balls.region import Region
+from ptproof.balls.series import SERIES, series_length
+from ptproof.balls.tape import Undefined
+
+_JACOBIAN = 15  # so many coefficients of a Jacobian are told apart
+
+
+def flow(field: VectorField, region: Region, start: arb, length: arb, proposal: Proposal) -> tuple[Piece, Region]:
+    """Enclose all solutions that start in ``region`` at ``start``, over a step of ``length``.
+
+    **Theorem.** Let x' = f(t, x), and p, P polynomials in s, t = start + (length/2)(1 + s). Write a solution that
+    starts in c + e₀ as x = p + P e₀ + S g. Then in s, with h = length/2 and J = ∂f/∂x(t, p),
+
+        g' = S⁻¹(h f(t, p) − p') + S⁻¹(h J P − P') e₀ + h S⁻¹ J S g + h S⁻¹ q,   |qᵢ| <= ½ Σ |∂ⱼ∂ₖfᵢ| |eⱼ| |eₖ|,
+
+    with e = x − p and the second derivatives on the box around p and x (Taylor's theorem). The first two terms are
+    bounded by the Taylor polynomials of f and J along p with Lagrange's remainder, whose coefficient is enclosed over
+    the whole step; the third by the largest diagonal entries, and the largest magnitudes off the diagonal, of
+    h S⁻¹ J S along p; the fourth from a tube |g| <= ρ that is assumed. Hence D⁺|g| <= M|g| + δ as long as x stays in
+    the tube, and :func:`grown` bounds |g|. If that bound is below ρ, then each solution from ``region`` exists over
+    the whole step, is unique and lies in the tube.
+
+    *Proof.* f has continuous derivatives on the tube, where they are enclosed, so that there is one solution, which can
+    be continued until it leaves the tube. Until then the inequality holds, so |g| stays below ρ: it does not leave. ∎
+
+    Returns
+    -------
+    The step with the tube's bounds, and a region that contains every solution at its end.
+
+    Raises
+    ------
+    Undefined
+        Where this is not shown: no enclosure, a guard that may be negative, or a tube that does not close.
+    """
+    step = _Step(field, region, start, length, proposal)
+    growth, errors = step.closed()
+    step.guarded(errors)
+    ends = [sum(row, arb(0)) for row in step.rows]
+    carried = sum(proposal.spread[1:], proposal.spread[0])
+    after = region.moved(ends, carried, proposal.metric, (proposal.basis, growth.end))
+    added = times(magnitudes(proposal.basis), growth.end)
+    return Piece(start, length, proposal.path, tuple(errors), tuple(added)), after
+
+
+class _Step:
+    """The terms of the theorem for one step."""
+
+    def __init__(self, field: VectorField, region: Region, start: arb, length: arb, proposal: Proposal) -> None:
+        self.field, self.region, self.proposal = field, region, proposal
+        self.half = length / 2
+        self.middle = start + self.half
+        n, path = field.dimension, proposal.path
+        self.count = count = path.ncols()
+        entries = path.entries()
+        self.rows = [entries[i * count : (i + 1) * count] for i in range(n)]
+        self.back = inverse(proposal.basis)
+        self.terms = count + 9
+        self.expand()
+
+    def expand(self) -> None:
+        """The Taylor polynomials along the path, and the coefficients of their remainders."""
+        terms, tape = self.terms, self.field.tape
+        with series_length(terms):
+            time = arb_series([self.middle, self.half], terms)
+            outputs = tape.run([time, *(arb_series(row, terms) for row in self.rows)], SERIES)
+            self.series = [_coefficients(item, terms) for item in outputs]
+        everywhere = around(self.proposal.path, terms + 1).entries()
+        with series_length(terms + 1):
+            wide = [everywhere[i : i + terms + 1] for i in range(0, len(everywhere), terms + 1)]
+            time = arb_series([self.middle + self.half * interval(-1, 1), self.half], terms + 1)
+            outputs = tape.run([time, *(arb_series(row, terms + 1) for row in wide)], SERIES)
+            self.rest = [arb(0) if isinstance(item, arb) else item[terms].abs_upper() for item in outputs]
+        if not all(item.is_finite() for item in self.rest):
+            raise Undefined("not analytic along the step")
+
+    def square(self, entries: Sequence[arb]) -> arb_mat:
+        """The Jacobian's entries as a matrix."""
+        n = self.field.dimension
+        flat = [arb(0)] * (n * n)
+        for (i, j), entry in zip(self.field.places, entries, strict=False):
+            flat[i * n + j] = entry
+        return arb_mat(n, n, flat)
+
+    def defect(self) -> Vector:
+        """Bounds of S⁻¹(h f(t, p) − p')."""
+        n, terms = self.field.dimension, self.terms
+        flat = []
+        for rate, row in zip(self.series[:n], self.rows, strict=True):
+            slope = [*(k * c for k, c in enumerate(row[1:], start=1)), *[arb(0)] * terms]
+            flat += [self.half * a - b for a, b in zip(rate, slope, strict=False)]
+        spectrum = spectra(self.back * arb_mat(n, terms, flat)).entries()
+        left = times(magnitudes(self.back), [(self.half * r).abs_upper() for r in self.rest[:n]])
+        return [largest(spectrum[i * terms : (i + 1) * terms]) + left[i] for i in range(n)]
+
+    @cached_property
+    def jacobians(self) -> list[arb_mat]:
+        """The first coefficients of J along the path."""
+        n, places = self.field.dimension, len(self.field.places)
+        return [self.square([row[k] for row in self.series[n : n + places]]) for k in range(_JACOBIAN)]
+
+    @cached_property
+    def jacobian_rest(self) -> arb_mat:
+        """What the others add to J at most."""
+        n, places = self.field.dimension, len(self.field.places)
+        rows = zip(self.series[n : n + places], self.rest[n : n + places], strict=True)
+        return self.square([sum((c.abs_upper() for c in row[_JACOBIAN:]), rest).upper() for row, rest in rows])
+
+    def bounded(self, parts: Sequence[arb_mat], *, signed: bool = False) -> arb_mat:
+        """Bounds of the magnitudes of a polynomial's matrices; with ``signed`` of the values, on the diagonal."""
+        n, count = self.field.dimension, len(parts)
+        entries = [part.entries() for part in parts]
+        spectrum = spectra(arb_mat(n * n, count, [part[i] for i in range(n * n) for part in entries])).entries()
+        bounds = []
+        for i in range(n * n):
+            part = spectrum[i * count : (i + 1) * count]
+            bounds.append(highest(part) if signed and i % (n + 1) == 0 else largest(part))
+        return arb_mat(n, n, bounds)
+
+    def rates(self) -> arb_mat:
+        """M: of h S⁻¹ J S along the path."""
+        basis, back = self.proposal.basis, self.back
+        bounds = self.bounded([back * J * basis for J in self.jacobians], signed=True)
+        total = self.half * (bounds + magnitudes(back) * self.jacobian_rest * magnitudes(basis))
+        return _uppers(total)
+
+    def spreading(self) -> arb_mat:
+        """Bounds of S⁻¹(h J P − P') B, in matrices of magnitudes."""
+        spread, frame = self.proposal.spread, self.region.frame
+        zero, count = 0 * spread[0], len(spread)
+        defects = [(-k - 1) * spread[k + 1] if k + 1 < count else zero for k in range(count + _JACOBIAN - 1)]
+        scaled = [self.half * J for J in self.jacobians]
+        for i, J in enumerate(scaled):
+            for j, part in enumerate(spread):
+                defects[i + j] += J * part
+        bounds = self.bounded([self.back * part * frame for part in defects])
+        left = magnitudes(self.half * self.jacobian_rest) * self.bounded([part * frame for part in spread])
+        return bounds + magnitudes(self.back) * left
+
+    def bending(self, errors: Sequence[arb]) -> tuple[Vector, list[Vector]]:
+        """Bounds of |h q| for states within ``errors`` of the path, and of the guards' slopes there."""
+        n, places = self.field.dimension, self.field.places
+        time = self.middle + self.half * interval(-1, 1)
+        outputs = self.field.tape.run(variables([time, *hull(self.proposal.path, errors)]), JETS)
+        total = [arb(0)] * n
+        for (i, j), output in zip(places, outputs[n:], strict=False):
+            if isinstance(output, Jet):
+                for slope, error in zip(output.slopes[1:], errors, strict=True):
+                    if slope is not None:
+                        total[i] += slope.abs_upper() * error * errors[j]
+        guards = [
+            [arb(0)] * n if not isinstance(output, Jet)
+            else [arb(0) if slope is None else slope.abs_upper() for slope in output.slopes[1:]]
+            for output in outputs[n + len(places) :]
+        ]  # fmt: skip
+        return [(self.half * entry / 2).abs_upper() for entry in total], guards
+
+    def closed(self) -> tuple[Growth, Vector]:
+        """Bounds of g in a tube that closes, and those of x − p."""
+        region, spread, basis = self.region, self.proposal.spread, self.proposal.basis
+        n = self.field.dimension
+        begin = sum(((-1) ** k * part for k, part in enumerate(spread[1:], start=1)), spread[0])
+        point = [sum(((-1) ** k * c for k, c in enumerate(row)), arb(0)) for row in self.rows]
+        left_out = magnitudes(self.back * (identity(n) - begin) * region.frame)
+        first = _plus(times(left_out, region.radii), times(magnitudes(self.back), _bounds(region.difference(point))))
+        rates, known = self.rates(), _plus(self.defect(), times(self.spreading(), region.radii))
+        along = times(self.bounded([part * region.frame for part in spread]), region.radii)
+        outward, inward = magnitudes(basis), magnitudes(self.back)
+        growth = grown(rates, known, first, 2)
+        for factor in (1.25, 2, 8):
+            tube = [(arb(factor) * entry + arb(2) ** (-2 * flint.ctx.prec)).upper() for entry in growth.over]
+            errors = _plus(along, times(outward, tube))
+            self.slopes: list[Vector]
+            bent, self.slopes = self.bending(errors)
+            growth = grown(rates, _plus(known, times(inward, bent)), first, 2)
+            if all(entry < limit for entry, limit in zip(growth.over, tube, strict=True)):
+                return growth, errors
+        raise Undefined("no tube closes around the step")
+
+    def guarded(self, errors: Sequence[arb]) -> None:
+        """Raises unless every guard is shown not to be negative in the tube."""
+        first = len(self.series) - self.field.guards
+        for index, slopes in enumerate(self.slopes):
+            margin = sum((a * b for a, b in zip(slopes, errors, strict=True)), self.rest[first + index])
+            if not not_below(self.series[first + index], margin.upper()):
+                raise GuardCrossed(f"guard {index} may be negative")
+
+
+class GuardCrossed(Undefined):
+    """Another right-hand side may hold before the step's end."""
+
+
+def _coefficients(item: Any, terms: int) -> list[arb]:
+    if isinstance(item, arb):
+        return [item, *[arb(0)] * (terms - 1)]
+    found = item.coeffs()
+    return [*found, *[arb(0)] * (terms - len(found))]
+
+
+def _plus(left: Sequence[arb], right: Sequence[arb]) -> Vector:
+    return [(a + b).upper() for a, b in zip(left, right, strict=True)]
+
+
+def _bounds(column_: arb_mat) -> Vector:
+    return [entry.abs_upper() for entry in column_.entries()]
+
+
+def _uppers(balls: arb_mat) -> arb_mat:
+    return arb_mat(balls.nrows(), balls.ncols(), [entry.upper() for entry in balls.entries()])

@@ -1,0 +1,98 @@
+"""What z3 is told: expressions as its terms, and what is known of each symbol."""
+
+from __future__ import annotations
+
+import threading
+from functools import cache, lru_cache
+from typing import Any
+
+import sympy as sp
+
+from ptproof.proof.algebra import NotAlgebraic
+
+# z3's terms live in one context, which is not made for two threads, and a proof that has run out of time may still ask.
+one_at_a_time = threading.Lock()
+
+
+@cache
+def library() -> Any:
+    """z3, told that terms may be given up by another thread than the one that asks."""
+    import z3
+
+    z3.Z3_enable_concurrent_dec_ref(z3.main_ctx().ref())
+    return z3
+
+
+_variables: dict[sp.Symbol, Any] = {}
+_named: dict[str, sp.Symbol] = {}
+
+
+def variable_of(symbol: sp.Symbol) -> Any:
+    """The unknown for a symbol, another one for each symbol."""
+    if symbol not in _variables:
+        name = symbol.name
+        while name in _named:
+            name += "'"
+        _named[name] = symbol
+        _variables[symbol] = library().Real(name)
+    return _variables[symbol]
+
+
+@lru_cache(maxsize=2**14)
+def term(expression: sp.Expr) -> tuple[Any, dict[sp.Symbol, None]]:
+    """The expression for z3, and the symbols in it."""
+    symbols = dict.fromkeys(sorted(expression.free_symbols, key=sp.default_sort_key))
+    return _to_z3(expression), symbols
+
+
+@lru_cache(maxsize=2**14)
+def _to_z3(expression: sp.Expr) -> Any:
+    z3 = library()
+    match expression:
+        case sp.Rational():
+            return z3.RealVal(f"{expression.p}/{expression.q}")
+        case sp.Symbol():
+            return variable_of(expression)
+        case sp.Add():
+            return z3.Sum([_to_z3(argument) for argument in expression.args])
+        case sp.Mul():
+            numerator, denominator = sp.fraction(expression)
+            if denominator != 1:
+                return _to_z3(numerator) / _to_z3(denominator)
+            return z3.Product([_to_z3(argument) for argument in expression.args])
+        case sp.Pow():
+            base, exponent = _to_z3(expression.base), int(expression.exp)
+            power = z3.Product([base] * abs(exponent)) if exponent else z3.RealVal(1)
+            return power if exponent >= 0 else 1 / power
+    raise NotAlgebraic(f"no rule for {expression}")
+
+
+def known_of(symbol: sp.Symbol, variable: Any, meaning: sp.Expr | None, z3: Any) -> list[Any]:
+    """The facts that hold for a symbol by its declaration, or for a generator by its meaning."""
+    facts = []
+    whole = bool(symbol.is_integer)
+    if symbol.is_positive:
+        facts.append(variable >= 1 if whole else variable > 0)
+    elif symbol.is_nonnegative:
+        facts.append(variable >= 0)
+    elif symbol.is_negative:
+        facts.append(variable <= -1 if whole else variable < 0)
+    elif symbol.is_nonpositive:
+        facts.append(variable <= 0)
+    elif symbol.is_nonzero:
+        facts.append(variable != 0)
+    if isinstance(meaning, sp.Pow) and meaning.exp.is_Rational and not meaning.exp.is_Integer:
+        facts.append(variable >= 0)  # a root is real only of what is not negative, and is then not negative
+    if isinstance(meaning, sp.sin | sp.cos):
+        facts += [variable <= 1, variable >= -1]
+    if meaning is not None and meaning.is_NumberSymbol:
+        from ptproof.balls.ball import enclose
+
+        ball = enclose(meaning, {}, bits=64)
+        facts += [variable >= _fraction(ball.lower(), z3), variable <= _fraction(ball.upper(), z3)]
+    return facts
+
+
+def _fraction(end: Any, z3: Any) -> Any:
+    exact = end.fmpq()
+    return z3.RealVal(f"{exact.p}/{exact.q}")
