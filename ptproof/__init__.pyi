@@ -6,6 +6,7 @@ from .certify import certify_field as certify_field
 from .certify import certify_loop as certify_loop
 from .certify.trajectory import Enclosure as Enclosure
 from .certify.trajectory import enclose as enclose
+from .design import design as design
 from .errors import InputError as InputError
 from .gains import GainData as GainData
 from .gains import gains as gains

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 )  # fmt: skip
 @click.option("--radius", metavar="R", help="Of the ball of starts; left out, the problem's start is on its rim.")
 @click.option("--filter-gap", default="0", show_default=True, metavar="G", help="|F - z| at the start is at most this.")
+@click.option("--seeker", metavar="NAME", help="Only pt has a certificate; a problem meant for another one is refused.")
 @click.option("--over", metavar="NAMES", help="The two numbers of the map (default: omega and another that is free).")
 @click.option("--time-limit", type=float, default=600.0, show_default=True, help="Seconds for the search.")
 @options.jobs
@@ -31,7 +32,8 @@ if TYPE_CHECKING:
 @options.as_json
 def design(
     problem: str, residual: str, u1_max: str | None, u2_max: str | None, free: str, radius: str | None,
-    filter_gap: str, over: str | None, time_limit: float, jobs: int | None, plot: str | None, as_json: bool,
+    filter_gap: str, seeker: str | None, over: str | None, time_limit: float, jobs: int | None, plot: str | None,
+    as_json: bool,
 ) -> int:  # fmt: skip
     """Find numbers with which the vehicle itself is certified to end within a residual.
 
@@ -40,7 +42,7 @@ def design(
     if none were, which does not say that there are none.
 
     \b
-    Example:  ptproof design saturated --residual 0.3 --u1-max 400 --free omega,mu
+    Example:  ptproof design saturated --seeker pt --residual 0.3 --u1-max 400 --free omega,mu
     """
     from ptproof.commands.terminal import progress
     from ptproof.design import Limits
@@ -52,6 +54,11 @@ def design(
         return None if text is None else parse(text, where=f"--{where}")
 
     target = example(problem) if problem in EXAMPLES else load(problem)
+    if (meant := seeker or target.default_seeker) != "pt":
+        raise InputError(
+            f"design: a certificate is for the seeker pt, and {problem} is meant for {meant}; with --seeker pt numbers "
+            f"for its loop without that are looked for"
+        )
     names = [name.strip() for name in free.split(",") if name.strip()]
     limits = Limits(exact(u1_max, "u1-max"), exact(u2_max, "u2-max"))
     start, gap = exact(radius, "radius"), exact(filter_gap, "filter-gap")

@@ -1,6 +1,6 @@
 """The search for numbers: first what the average's bound and the inputs' limits rule out, then certificates.
 
-For each choice of k, T and ν_min, those nearest to the given ones first, the average's certified bound is computed; it
+For each choice of k, T and ν_min, those in which fewest change first, the average's certified bound is computed; it
 depends on neither ω nor μ, and a choice whose average is not within the residual is left. Then ω is raised, from where
 a certificate can exist at all (its bound contains the radius 1/√ω of the vehicle's circle) to where the inputs' limits
 end, until one does, and lowered again between the last two.
@@ -36,7 +36,7 @@ _OMEGA_STEP, _OMEGA_MOST = 2.0, 1e7
 _REFINED = 2
 _COARSE, _FINE = 0.5, 0.12
 _NEAR = 2.5  # a coarse bound that is farther off is not worth a fine one
-_CHOICES = 40
+_CHOICES = 60
 Advance = Callable[[int, str], None]
 
 
@@ -161,10 +161,12 @@ def with_numbers(problem: Problem, **numbers: sp.Expr) -> Problem:
 
 
 def _choices(asked: _Asked) -> Iterator[Problem]:
-    """The problem with other k, T and ν_min where these are free, the nearest ones first."""
+    """The problem with other k, T and ν_min where these are free: one changed first, then two, the nearest first."""
     names = [name for name in asked.free if name in _LADDERS]
     ladders = [_LADDERS[name] for name in names]
-    factors = sorted(itertools.product(*ladders), key=lambda factor: sum(abs(math.log(f)) for f in factor))
+    factors = sorted(
+        itertools.product(*ladders), key=lambda row: (sum(f != 1 for f in row), sum(abs(math.log(f)) for f in row))
+    )
     for factor in factors[:_CHOICES]:
         changes = {}
         for name, f in zip(names, factor, strict=True):
@@ -254,12 +256,15 @@ def _certified(
 ) -> tuple[Problem, LoopCertificate] | None:
     """The choice with its certificate, if it ends within the residual and keeps the limits."""
     asked.advance(1, f"omega = {float(choice.tuning.omega):.4g}, k = {float(choice.tuning.k):.3g}")
-    certificate = certify_loop(choice, asked.radius, filter_gap=asked.gap, tolerance=tolerance, workers=asked.workers)
-    final = certificate.final
+    certificate = _certificate(asked, choice, tolerance)
+    final, wanted = certificate.final, float(asked.residual)
+    if tolerance > _FINE and final is not None and wanted < final < _NEAR * wanted and not asked.late:
+        certificate = _certificate(asked, choice, _FINE)
+        final = certificate.final
     why: str | None
     if final is None:
         why = certificate.detail
-    elif final > float(asked.residual):
+    elif final > wanted:
         why = f"the vehicle is certain to end within {final:.4g} only"
     else:
         peak = angular_peak(choice, max(certificate.distances), asked.gap)

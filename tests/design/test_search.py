@@ -1,5 +1,6 @@
 """The search: its order, limits and reasons with a certificate that is made up, and once with the real one."""
 
+import importlib
 import math
 from dataclasses import replace
 
@@ -7,7 +8,6 @@ import numpy as np
 import pytest
 import sympy as sp
 
-import ptproof.design.search as searching
 from ptproof.certify.loop.certificate import LoopCertificate
 from ptproof.design import Limits, design
 from ptproof.design.answer import decimal_text
@@ -19,6 +19,7 @@ from ptproof.proof.verdict import Evidence, Verdict
 from ptproof.simulation import ensemble, simulate
 
 R = sp.Rational
+searching = importlib.import_module("ptproof.design.search")  # the room has the function's name
 PLAIN = example("saturated")
 
 
@@ -79,7 +80,7 @@ def test_limits_of_the_inputs_bound_the_frequency(quick):
 def test_an_angular_velocity_that_is_not_certain_to_keep_its_limit_is_not_given(quick):
     free = design(PLAIN, R(1, 2))
     assert design(PLAIN, R(1, 2), limits=Limits(u2_max=R(free.u2_peak) * 2)).u2_peak <= free.u2_peak * 2
-    below = design(PLAIN, R(1, 2), limits=Limits(u2_max=600))
+    below = design(PLAIN, R(1, 2), limits=Limits(u2_max=R(free.u2_peak) * R(3, 4)))
     assert below.verdict is Verdict.UNDECIDED
     assert "|u2|" in below.detail
 
@@ -147,7 +148,7 @@ def test_numbers_are_exact_decimals_where_they_have_one(value, text):
 
 
 def test_what_is_found_is_true_of_vehicles():
-    found = design(PLAIN, R(1, 4), radius=1)
+    found = design(PLAIN, R(4, 5), radius=1, free=["mu"])
     assert found.verdict is Verdict.PROVED
-    ends = ensemble(found.problem, 200, "pt", initial={"x1": 1, "x2": 0}, seed=3)
-    assert ends.max <= found.certificate.final <= 0.25
+    ends = ensemble(found.problem, 60, "pt", initial={"x1": 1, "x2": 0}, seed=3)
+    assert ends.max <= found.certificate.final <= 0.8
