@@ -17,6 +17,7 @@ from ptproof.balls.tape import compile_tape
 from ptproof.errors import InputError
 from ptproof.problem import Problem
 from ptproof.problem.model import TIME, positive
+from ptproof.transforms.clocks import CappedClock
 
 _BOXES = 64
 _INTERVALS = 512
@@ -46,7 +47,7 @@ class Limits:
 def largest_gain(problem: Problem) -> sp.Expr:
     """The gain K at its largest on [t₀, t₀ + T], exact; infinite where nothing caps it."""
     clock = problem.clock
-    return sp.oo if problem.tuning.nu_min is None else sp.sympify(clock.last_rate)
+    return sp.sympify(clock.last_rate) if isinstance(clock, CappedClock) else sp.oo
 
 
 def forward_peak(problem: Problem) -> float:

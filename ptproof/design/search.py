@@ -207,7 +207,9 @@ def _with_frequency(asked: _Asked, choice: Problem) -> tuple[Problem, LoopCertif
     if found is None:
         return None
     best = found
-    for _ in range(_REFINED if failed is not None else 0):
+    for _ in range(_REFINED):
+        if failed is None:
+            break
         omega = rounded(math.sqrt(float(failed) * float(best[0].tuning.omega)))
         if asked.late or not failed < omega < best[0].tuning.omega:
             break
