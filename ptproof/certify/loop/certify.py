@@ -45,6 +45,7 @@ from ptproof.proof.verdict import Verdict
 
 _ORDERS = 3, 1, 3
 _ROUNDS = 3
+_NEAR = 6  # radii of the circle: a bound above that and above the start's distance is none
 _ROUNDING = 1e-9  # covers that times are shown as floats
 _BANDS = 150  # of levels, per factor of ten
 _FILTER = np.concatenate([[0.0], 2.0 ** np.arange(-12, 1)])
@@ -174,6 +175,12 @@ def _curve(
     for model, span in zip(prepared, spans, strict=True):
         found = np.maximum(found, farthest(model, asked, stage.filter_bands, stage.half, span.interval(), 0.005))
     distance = dict(zip(asked.tolist(), ((found + prepared[0].reach) * (1 + _ROUNDING)).tolist(), strict=True))
+    near = max(up(ball_from(radius)), _NEAR * prepared[0].reach)
+    if distance[reached[-1]] > near:
+        raise NoCertificate(
+            f"the vehicle is shown to stay within {max(distance[item] for item in reached):.4g}, but not to come "
+            f"closer than {near:.4g}: a larger omega, k or T would help"
+        )
     detail = (
         f"V is {_NAMES[shape]}, corrected to order {_ORDERS[0]} in 1/sqrt(omega); rates proved on {stage.levels.bands} "
         f"bands of levels, all headings and filter states, over {len(work)} stretches of time"

@@ -120,7 +120,7 @@ class _Look:
         (function, there), (rate, rate_there) = model.function_rest.bounds(values), model.rate_rest.bounds(values)
         centred = model.centred(boxes, time)
         slopes = centred.slopes(model.typical * _CLASS)
-        kappa = slopes * (model.typical * _CLASS)
+        kappa: Array = np.asarray(slopes * (model.typical * _CLASS), dtype=np.float64)
         rows = []
         for pair in pairwise(filter_bands):
             low, high = function.within(*pair)
@@ -150,7 +150,8 @@ class _Look:
         found = np.full(levels.bands, -np.inf)
         for slope in np.unique(self.slopes[keep]):
             at = keep & (self.slopes == slope)
-            most = largest_over(*(part[:, at].ravel() for part in (self.first, self.last, self.rates)), levels.bands)
+            first, last, values = self.first[:, at].ravel(), self.last[:, at].ravel(), self.rates[:, at].ravel()
+            most = largest_over(first, last, values, levels.bands)
             some = np.isfinite(most)
             shift = levels.shift(slope * unit)[some]
             value = most[some] - shift + (np.abs(most[some]) + np.abs(shift)) * _SLACK

@@ -37,12 +37,12 @@ from ptproof.certify.loop.polynomials import (
 
 ONE = acb(1)
 _HALF, _TURN = acb(0.5), acb(0, 0.5)
-DIRECTION = (
+DIRECTION: tuple[Polynomial, Polynomial] = (
     {(0, 1, 0, ()): _HALF, (0, -1, 0, ()): _HALF},
     {(0, 1, 0, ()): -_TURN, (0, -1, 0, ()): _TURN},
 )
 """e(s) = (cos s, sin s)."""
-OUTWARD = (DIRECTION[1], scaled(-ONE, DIRECTION[0]))
+OUTWARD: tuple[Polynomial, Polynomial] = (DIRECTION[1], scaled(-ONE, DIRECTION[0]))
 """n(s) = (sin s, −cos s)."""
 FILTER = term(ONE, power=1)
 

@@ -65,9 +65,11 @@ class Model:
         for part in (found.main, found.start):
             parts += [part, *(scaled(acb(1), by_slow(part, axis, jets.derivative)) for axis in (0, 1))]
         few = Columns.of(*parts)
-        forms = (Form.of(part, delta, rest) for part in (found.function_rest, found.rate_rest, manifold))
+        function_rest, rate_rest, shape = (
+            Form.of(part, delta, rest) for part in (found.function_rest, found.rate_rest, manifold)
+        )
         return Model(
-            jets, Form.of(found.function, delta, alone), alone, rest, *forms,
+            jets, Form.of(found.function, delta, alone), alone, rest, function_rest, rate_rest, shape,
             tuple(Form.of(part, delta, few) for part in parts), few, up(delta), weight, typical,
         )  # fmt: skip
 

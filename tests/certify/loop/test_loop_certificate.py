@@ -23,7 +23,7 @@ def tuned(name="saturated", **numbers):
 
 @cache
 def found(omega=30, gap=0):
-    return certify_loop(tuned(omega=omega), filter_gap=sp.Rational(gap), tolerance=0.4, workers=1)
+    return certify_loop(tuned(omega=omega), filter_gap=sp.Rational(gap), tolerance=0.12, workers=1)
 
 
 def outside(certificate, problem, size=200):
