@@ -62,13 +62,12 @@ def certify(
             target, None if radius is None else parse(radius, where="--radius"),
             filter_gap=parse(filter_gap, where="--filter-gap"), tolerance=tolerance, workers=jobs, client=client,
         )  # fmt: skip
-    if plot is not None and found.verdict is Verdict.PROVED:
-        _draw(target, found, plot)
+    outside = _draw(target, found, plot) if plot is not None and found.verdict is Verdict.PROVED else 0
     if as_json:
         options.print_json(found.to_json())
     else:
         click.echo(_text(problem, found))
-    return 0 if found.verdict is Verdict.PROVED else 1
+    return 0 if found.verdict is Verdict.PROVED and not outside else 1
 
 
 def retuned(problem: Problem, numbers: dict[str, str | None]) -> Problem:
@@ -95,8 +94,8 @@ def _text(name: str, found: LoopCertificate) -> str:
     return "\n".join([head, starts, last, *rest, *rows, found.detail])
 
 
-def _draw(problem: Problem, found: LoopCertificate, path: str) -> None:
-    """The bound over simulated vehicles; one outside would be an error of ptproof's own, and is said."""
+def _draw(problem: Problem, found: LoopCertificate, path: str) -> int:
+    """The bound over simulated vehicles; how many are outside, which would be an error of our own, and is said."""
     import numpy as np
 
     from ptproof.simulation.drawing import save
@@ -109,6 +108,7 @@ def _draw(problem: Problem, found: LoopCertificate, path: str) -> None:
     save(_figure(found, many.times, np.asarray(worst), many.distances, outside), path)
     if outside:
         click.echo(f"ptproof: {outside} simulated vehicles are outside the bound: please report this", err=True)
+    return outside
 
 
 def _figure(found: LoopCertificate, times: Any, worst: Any, distances: Any, outside: int) -> Any:
