@@ -15,7 +15,7 @@ MOTION = ("t/2", "sin(3*t)")
 
 
 def standing(problem, motion):
-    """The closed loop of F(x − d(t)), made from the seeker's law, where a drift E∇F moves along and another does not."""
+    """The closed loop of F(x − d(t)), made from the seeker's law, where a drift E∇F moves along, another does not."""
     shift = {x: x - sp.sympify(d).subs(sp.Symbol("t"), TIME) for x, d in zip(problem.variables, motion, strict=True)}
     field, drift = problem.field.expression.subs(shift, simultaneous=True), problem.drift.rate
     if problem.drift.kind == "gradient":
