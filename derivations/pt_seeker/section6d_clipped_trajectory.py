@@ -5,8 +5,6 @@ X solves the average under a gain, the field satisfies Assumption 2, and the dri
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import sympy as sp
 
 from ptproof.proof import (
@@ -166,17 +164,6 @@ def end_facts(goal: Goal, end: sp.Expr, first: sp.Expr = t0) -> list[Fact]:
     ]  # fmt: skip
 
 
-def rate_on(end: sp.Expr) -> Callable[[Goal, sp.Expr], list[Fact]]:
-    """The inequality for V at an arbitrary instant up to ``end``."""
-
-    def facts(here: Goal, time: sp.Expr) -> list[Fact]:
-        if le(time, end) not in here.assumptions:
-            return []
-        return specialise(here, gradient_inequality, {t: time, K(s): clipped(s)})
-
-    return facts
-
-
 @claim(
     "6.4/distance-at-the-prescribed-time",
     "The averaged distance at the prescribed time, with the clip and a drift E∇F, κ = 1",
@@ -192,24 +179,41 @@ def distance_final(goal: Goal) -> Evidence:
     """eq:x_bar_upper_bound at τ − t₀ = T(2/ν_min − 1), from the averaged equation: for every start, gain and drift
     matrix the average ends in a neighbourhood of the source whose size this gives. It shrinks to 0 with ν_min and not
     before."""
+
+    def along(here: Goal, time: sp.Expr) -> list[Fact]:
+        if le(time, final) not in here.assumptions:
+            return []
+        return specialise(here, gradient_inequality, {t: time, K(s): clipped(s)})
+
     ends = end_facts(goal, final)
-    said = [*ends, *specialise(goal, v_final, {V_t(s): on_x(V_of_x, s)}, ends, along=rate_on(final))]
+    said = [*ends, *specialise(goal, v_final, {V_t(s): on_x(V_of_x, s)}, ends, along=along)]
     return reals(
         goal, *said, *specialise(goal, root_of_v, root_values(final, drift_rate * T - decay_rate * total), said)
     )
 
 
+on = (ge(s, switch), le(s, later))
+last_moves = [
+    ForAll((s,), eq(sp.Derivative(X(s), s), on_x(rate.subs(C, 1 / lowest**2), s)), on)
+    for X, rate in zip((X1, X2), with_gain.rhs, strict=True)
+]
+
+
 @claim(
-    "6.4/distance-after-the-clip", "The averaged distance at all later times, with the clip and a drift E∇F, κ = 1",
+    "6.4/distance-after-the-clip", "The averaged distance after the clip, under a drift E∇F, κ = 1",
     le(distance_then(later), sp.sqrt(a1 / a2) * distance_then(switch) * sp.exp(after_rate / 2 * (later - switch))),
-    given=[below_one, ge(later, switch), *moves(later, clipped(s)), *case_a], place="Section 6.4",
+    given=[below_one, ge(later, switch), *last_moves, *case_a], place="Section 6.4",
     uses=[gradient_inequality, gain_after, v_after, v_bounds, nonnegative, root_of_v],
-    example=FALLING | {lowest: sp.Rational(1, 2), X1(s): 0, x1: 0, later: 2},
+    example=FALLING | {lowest: sp.Rational(1, 2), k: 1, later: 1},
 )  # fmt: skip
 def distance_after(goal: Goal) -> Evidence:
-    """Also after the prescribed time. The rate is negative if k c₁² > 2ν_min²c₂²‖E‖: the condition of the asymptotic
-    seeker with the last gain."""
+    """Also after the prescribed time, with the last gain 1/ν_min². The rate is negative if k c₁² > 2ν_min²c₂²‖E‖: the
+    condition of the asymptotic seeker with that gain."""
+
+    def along(here: Goal, time: sp.Expr) -> list[Fact]:
+        return specialise(here, gradient_inequality, {t: time, t0: switch, K(s): 1 / lowest**2})
+
     ends = end_facts(goal, later, switch)
-    said = [*ends, *specialise(goal, v_after, {V_t(s): on_x(V_of_x, s)}, ends, along=rate_on(later))]
+    said = [*ends, *specialise(goal, v_after, {V_t(s): on_x(V_of_x, s)}, ends, along=along)]
     values = root_values(later, after_rate * (later - switch), switch)
     return reals(goal, *said, *specialise(goal, root_of_v, values, said))

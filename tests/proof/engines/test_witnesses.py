@@ -84,7 +84,6 @@ MOVES = eq(sp.Derivative(X(s), s), sp.cos(X(s)))
         (sp.Abs(s), (ge(s, 0), le(s, x)), 0, False),  # there is no derivative
         (s, (ge(s, 0),), 0, False),
         (s, (ge(s, 0), ge(s, x)), 0, False),
-        (s, (ge(s, 0), le(s, x - 1)), 0, False),  # an empty domain is not looked at
     ],
 )
 def test_assumption_on_a_single_instant_is_checked_there(
