@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 import sympy as sp
 
-from ptproof.proof import Exists, claim, eq, exact, ge, gt, le, reals
+from ptproof.proof import Exists, ForAll, claim, eq, exact, ge, gt, le, reals
 from ptproof.proof.mutation.haste import in_haste
 from ptproof.proof.mutation.judging import Patience, judge
 from ptproof.proof.mutation.mutant import Mutant
@@ -95,3 +95,23 @@ def test_haste_ends():
     with in_haste(0.1):
         assert (module.SECONDS, module._follows) != usual
     assert (module.SECONDS, module._follows) == usual
+
+
+s = sp.Symbol("s", real=True)
+X = sp.Function("X", nonnegative=True)
+FALLS = ForAll((s,), eq(sp.Derivative(X(s), s), -X(s)), (ge(s, 0),))
+
+
+@pytest.mark.parametrize(
+    ("new", "example", "refuted"),
+    [
+        (ge(X(1), X(0)), sp.exp(-s), True),
+        (ge(X(1), X(0)), sp.exp(-2 * s), False),  # no solution
+        (ge(X(1), X(0)), None, False),  # the attacker finds the solution 0 only
+        (le(2 * X(1), X(0)), sp.exp(-s), False),  # it holds there
+    ],
+)
+def test_the_example_of_the_claim_is_tried(new, example, refuted):
+    said = () if example is None else ((X(s), example),)
+    found = outcome(le(X(1), X(0)), new, before=[FALLS], example=said)
+    assert (found.word is Word.REFUTED) is refuted, found.why
