@@ -1,6 +1,7 @@
 """What comes of one mutant, and that an engine which proves what is false is found out."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import pytest
 import sympy as sp
@@ -98,20 +99,21 @@ def test_haste_ends():
 
 
 s = sp.Symbol("s", real=True)
-X = sp.Function("X", nonnegative=True)
-FALLS = ForAll((s,), eq(sp.Derivative(X(s), s), -X(s)), (ge(s, 0),))
+X = sp.Function("X", real=True)
+GROWS = ForAll((s,), eq(sp.Derivative(X(s), s), X(s) ** 2), (ge(s, 0), le(s, 1)))
 
 
 @pytest.mark.parametrize(
     ("new", "example", "refuted"),
     [
-        (ge(X(1), X(0)), sp.exp(-s), True),
-        (ge(X(1), X(0)), sp.exp(-2 * s), False),  # no solution
-        (ge(X(1), X(0)), None, False),  # the attacker finds the solution 0 only
-        (le(2 * X(1), X(0)), sp.exp(-s), False),  # it holds there
+        (ge(X(0), X(1)), 1 / (2 - s), True),
+        (ge(X(0), X(1)), 2 / (2 - s), False),  # no solution
+        (ge(X(0), X(1)), None, False),
+        (le(X(0), X(1) + 1), 1 / (2 - s), False),  # it holds there
     ],
 )
-def test_the_example_of_the_claim_is_tried(new, example, refuted):
+def test_the_example_of_the_claim_is_tried_where_the_attacker_meets_nothing(new, example, refuted, monkeypatch):
+    monkeypatch.setattr("ptproof.proof.mutation.attacking.attack", lambda goal, **limits: SimpleNamespace(hit=None))
     said = () if example is None else ((X(s), example),)
-    found = outcome(le(X(1), X(0)), new, before=[FALLS], example=said)
+    found = outcome(le(X(0), X(1)), new, before=[GROWS], example=said)
     assert (found.word is Word.REFUTED) is refuted, found.why
