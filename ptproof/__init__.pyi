@@ -3,8 +3,10 @@ from . import testing as testing
 from .averaging import average as average
 from .averaging import split_dithers as split_dithers
 from .certify import certify_field as certify_field
+from .certify import certify_loop as certify_loop
 from .certify.trajectory import Enclosure as Enclosure
 from .certify.trajectory import enclose as enclose
+from .design import design as design
 from .errors import InputError as InputError
 from .gains import GainData as GainData
 from .gains import gains as gains

@@ -12,7 +12,8 @@ import pytest
 import ptproof
 
 ROOMS = [
-    "averaging", "certify", "gains", "problem", "proof", "simulation", "testing", "transforms", "transforms.clocks",
+    "averaging", "certify", "design", "gains", "problem", "proof", "simulation", "testing", "transforms",
+    "transforms.clocks",
 ]  # fmt: skip
 
 

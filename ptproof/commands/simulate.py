@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ptproof.commands import options
+from ptproof.commands.theorems import Theorems
 from ptproof.errors import InputError
 from ptproof.simulation.engines import names
 
 if TYPE_CHECKING:
-    from ptproof.certify.trajectory import Enclosure
     from ptproof.problem import Problem
     from ptproof.simulation import Ensemble, Trajectory
 
@@ -77,25 +77,25 @@ def _table(context: click.Context, option: click.Parameter, name: str | None) ->
 @click.option("--workers", type=click.IntRange(1, 1024), default=1, show_default=True, help="Threads for an ensemble.")
 @options.cluster
 @click.option("--time-limit", type=float, default=60.0, show_default=True, help="Seconds for each run.")
-@click.option("--enclose", "enclosing", is_flag=True, help="Enclose the run as well: a theorem about this trajectory.")
+@click.option("--enclose", is_flag=True, help="Enclose the run as well: a theorem about this trajectory.")
 @click.option(
     "--enclose-width", default="1e-6", show_default=True, metavar="NUMBER", help="How closely, in each state."
 )
+@click.option("--certify", "certifying", is_flag=True, help="Certify a bound for every such vehicle beside the run.")
 @options.plot("the run, or the distances of an ensemble,")
 @options.as_json
 def simulate(
     problem: str, seeker: str | None, ensemble: int | None, vary: tuple[str, ...], seed: int, workers: int,
-    cluster: str | None, plot: str | None, save_as: str | None, c_code: str | None, as_json: bool, enclosing: bool,
-    enclose_width: str, **how: Any,
+    cluster: str | None, plot: str | None, save_as: str | None, c_code: str | None, as_json: bool, enclose: bool,
+    enclose_width: str, certifying: bool, **how: Any,
 ) -> int:  # fmt: skip
     """Integrate a seeker to its prescribed time: the vehicle, and its average beside it.
 
     NAME is vanishing, nonvanishing or saturated, the paper's examples; anything else is read as a problem file.
-    The status is 0 if T was reached (by all members of an ensemble) and the run is enclosed where that is asked for, 1
+    The status is 0 if T was reached (by all members of an ensemble) and what is asked to be proved beside it is, 1
     if not or if the field was larger on the way than at the stated source, 2 for bad input, such as a stated source
     that certainly is no maximum of the field.
     """
-    from ptproof.commands import enclosing as enclosures
     from ptproof.commands.terminal import progress
     from ptproof.problem import example, load
     from ptproof.problem.doubts import run_doubt, source_doubt
@@ -105,9 +105,7 @@ def simulate(
     target = load(problem) if _is_file(problem) else example(problem)
     how["seeker"] = seeker or target.default_seeker
     result: Trajectory | Ensemble
-    enclosure: Enclosure | None = None
-    if enclosing:
-        enclosures.check(ensemble, how)
+    theorems = Theorems.asked(enclose_width if enclose else None, certifying, ensemble, how)
     with _naming(problem):
         if (certain := source_doubt(target)) is not None:
             raise InputError(certain)
@@ -121,40 +119,33 @@ def simulate(
             raise InputError("--vary, --cluster: need --ensemble N, the number of members")
         else:
             result = run.simulate(target, **how)
-            if enclosing:
-                enclosure = enclosures.enclosed(target, enclose_width, how)
+            theorems = theorems.about(target, how)
         beside = None if isinstance(result, Ensemble) else run.average_beside(target, result, **how)
         if c_code is not None:
             _write_code(c_code, feedback_code(target, how["seeker"]))
     if save_as is not None:
         result.save(save_as)
     if plot is not None:
-        _draw(target, result, beside, enclosure, plot)
+        _draw(target, result, beside, theorems, plot)
     doubt = run_doubt(target, _measured(target, result))
-    data = as_data(result, problem, beside) | {"doubt": doubt}
-    if enclosure is not None:
-        data["enclosure"] = enclosure.to_json()
+    data = as_data(result, problem, beside) | {"doubt": doubt} | theorems.data
     if as_json:
         options.print_json(data)
     else:
-        click.echo("\n".join([_text(data, result), *(enclosures.words(enclosure) if enclosure is not None else [])]))
-    if enclosure is not None and str(enclosure.verdict) != "proved":
-        return 1
+        click.echo("\n".join([_text(data, result), *theorems.words]))
     outcomes = result.outcomes if isinstance(result, Ensemble) else (result.outcome,)
-    return 0 if doubt is None and all(outcome.complete for outcome in outcomes) else 1
+    return 0 if doubt is None and theorems.proved and all(outcome.complete for outcome in outcomes) else 1
 
 
 def _draw(
-    target: Problem, result: Trajectory | Ensemble, beside: Trajectory | None, enclosure: Enclosure | None, file: str
+    target: Problem, result: Trajectory | Ensemble, beside: Trajectory | None, theorems: Theorems, file: str
 ) -> None:
-    from ptproof.commands.enclosing import draw
     from ptproof.simulation import Ensemble
     from ptproof.simulation.drawing import save
     from ptproof.simulation.figures import overview
 
     figure = result.plot().figure if isinstance(result, Ensemble) else overview(target, result, beside)
-    if enclosure is not None:
-        draw(figure, enclosure)
+    theorems.draw(figure)
     save(figure, file)
 
 

@@ -3,12 +3,14 @@
 import json
 import subprocess
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import pytest
 
+from ptproof.certify.loop.certificate import LoopCertificate
 from ptproof.commands.cli import main
 from ptproof.problem.seekers import seekers_of
+from ptproof.proof.verdict import Verdict
 from ptproof.simulation import simulate
 from ptproof.simulation.drawing import BLUE
 from tests.pictures import lines_shown, shown
@@ -308,3 +310,32 @@ def test_the_picture_of_a_run_shows_its_enclosure(call, tmp_path):
     result = call("vanishing", "--enclose", "--until", "0.01", "--time-limit", "600", "--plot", str(files[1]))
     assert result.exit_code == 0
     assert files[0].read_bytes() != files[1].read_bytes()
+
+
+def test_the_certificate_stands_beside_the_run_and_says_of_whom_it_is(call, monkeypatch, tmp_path):
+    found = LoopCertificate(Verdict.PROVED, 30.0, 0.001, 2.83, 0.0, (0.0, 1.0), (3.5, 0.5), None, "", 0.0)
+    monkeypatch.setattr("ptproof.certify.certify_loop", lambda problem: found)
+    result = call("vanishing", "--certify", "--plot", str(tmp_path / "run.png"))
+    assert result.exit_code == 0
+    assert (
+        "certified for every vehicle that starts within 2.83, from every heading: distance at most 0.5" in result.stdout
+    )
+    assert json.loads(call("vanishing", "--certify", "--json").stdout)["certificate"]["final"] == 0.5
+    monkeypatch.setattr("ptproof.certify.certify_loop", lambda problem: replace(found, verdict=Verdict.UNDECIDED))
+    assert call("vanishing", "--certify").exit_code == 1
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (("vanishing", "--ensemble", "3"), "leave out --ensemble"),
+        (("vanishing", "--until", "0.5"), "leave out --until"),
+        (("vanishing", "--noise", "0.1"), "leave out --noise"),
+        (("saturated",), "closed loop of the seeker pt"),
+        (("vanishing", "--model", "average"), "closed loop of the seeker pt"),
+    ],
+)
+def test_what_no_certificate_speaks_of_is_refused(call, arguments, message):
+    result = call(*arguments, "--certify")
+    assert (result.exit_code, result.stdout) == (2, "")
+    assert message in result.stderr

@@ -1,0 +1,254 @@
+"""Guarantees for the vehicle in closed loop: a bound of its distance for every start, heading and filter state.
+
+Theorem. Let F and the drift be smooth where they are enclosed, and let the seeker be the prescribed-time one with the
+gain K(t), clipped or not. Let W(y, s, q, τ) be any polynomial in the letters of :mod:`ptproof.certify.loop.flow`,
+c₀ < … < c_n levels, and B = [−h, h]², Q > 0 such that W > c_n on the boundary of B × {|q| ≤ Q}. On a stretch of time
+let dW/dτ ≤ R_j wherever y ∈ B, |q| ≤ Q and W ∈ [c_j, c_(j+1)]. If a vehicle starts with y ∈ B, |q| ≤ Q and
+W ≤ w₀ ≤ c_n, and the solution w of the comparison (:func:`ptproof.certify.loop.levels.fallen`) stays below c_n, then it
+exists on the whole stretch and W ≤ w. Its distance from the source is at most δ + max{|y| : y ∈ B, W(y, ·) ≤ w}.
+
+Proof. As long as (y, q) stays inside, W ≤ w by comparison; W < c_n keeps it from the boundary; F and the drift are
+smooth on a neighbourhood of B, so a solution that stays in a compact set exists. And x − x* = y + δn, |n| = 1. ∎
+
+W is a corrected V (:mod:`ptproof.certify.loop.lyapunov`), but nothing rests on where it came from. The hypotheses are
+checked in ball arithmetic on covers of B, for all headings and all |q| ≤ Q.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+import time as clock
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+import sympy as sp
+
+from ptproof.balls.arithmetic import Undefined
+from ptproof.balls.arrays import Array
+from ptproof.balls.ball import ball_from, precision
+from ptproof.balls.rounding import up
+from ptproof.certify.loop.certificate import LoopCertificate
+from ptproof.certify.loop.cover import farthest, guide, rates
+from ptproof.certify.loop.levels import Levels, Slice, fallen
+from ptproof.certify.loop.model import Model
+from ptproof.certify.loop.setup import Unfit, models, phases, slices
+from ptproof.certify.loop.stage import NoCertificate, Stage, set_stage
+from ptproof.errors import InputError
+from ptproof.problem import Problem
+from ptproof.problem.model import number
+from ptproof.proof.verdict import Verdict
+
+_ORDERS = 3, 1, 3
+_NEAR = 6  # radii of the circle: a bound above that and above the start's distance is none
+_ROUNDING = 1e-9  # covers that times are shown as floats
+_WEIGHT = 0.06
+SHAPES = "distance", "field"
+_NAMES = {"distance": "half the squared distance", "field": "the field below its peak"}
+
+
+def certify_loop(
+    problem: Problem, radius: Any = None, *, filter_gap: Any = 0, tolerance: float = 0.12, workers: int | None = None,
+    client: Any = None, shapes: Sequence[str] = SHAPES,
+) -> LoopCertificate:  # fmt: skip
+    """Bound the distance of the prescribed-time seeker from the source over [t₀, t₀ + T], whatever its heading.
+
+    Parameters
+    ----------
+    problem
+        With its own ω, μ, k, T, clip, clock, field and drift.
+    radius
+        |x(t₀) − x*| is at most this, an exact number; that of the problem's start if left out.
+    filter_gap
+        |F(x(t₀)) − z(t₀)| is at most this.
+    tolerance
+        How much of a rate may be given away to save time.
+    shapes
+        What V is tried: half the squared distance from the source, F(x*) − F; the first that leads to a proof counts.
+    workers, client
+        Threads (left out: one per processor), or a ``distributed.Client``.
+
+    Returns
+    -------
+    LoopCertificate
+        ``proved`` with its curve, or ``undecided`` with the reason.
+
+    Raises
+    ------
+    InputError
+        For bad input, such as a negative radius or a field that is not smooth.
+
+    Examples
+    --------
+    >>> import ptproof
+    >>> found = certify_loop(ptproof.example("saturated"), tolerance=0.5)
+    >>> str(found.verdict), found.final < 0.7
+    ('proved', True)
+    """
+    begin = clock.perf_counter()
+    size = _distance(problem) if radius is None else number(sp.sympify(radius), "radius")
+    gap = number(sp.sympify(filter_gap), "filter_gap")
+    for where, value in (("radius", size), ("filter_gap", gap)):
+        if not value >= 0:
+            raise InputError(f"{where}: must not be negative, got {value}")
+    times: tuple[float, ...] = ()
+    distances: tuple[float, ...] = ()
+    hover = None
+    verdict, reasons = Verdict.UNDECIDED, []
+    for shape in shapes:
+        try:
+            with precision(128):
+                times, distances, hover, detail = _curve(problem, size, gap, shape, tolerance, workers, client)
+            verdict = Verdict.PROVED
+            break
+        except (NoCertificate, Unfit, Undefined) as error:
+            reasons.append(f"with V {_NAMES[shape]}: {error}")
+            detail = "; ".join(reasons)
+    tuning = problem.tuning
+    return LoopCertificate(
+        verdict, float(tuning.omega), float(tuning.mu), float(size), float(gap), times, distances, hover, detail,
+        clock.perf_counter() - begin,
+    )  # fmt: skip
+
+
+def _distance(problem: Problem) -> sp.Expr:
+    squares = [(a - b) ** 2 for a, b in zip(problem.initial.x, problem.source, strict=True)]
+    return sp.sqrt(sum(squares))
+
+
+def _curve(
+    problem: Problem, radius: sp.Expr, gap: sp.Expr, shape: str, tolerance: float, workers: int | None, client: Any
+) -> tuple[tuple[float, ...], tuple[float, ...], float | None, str]:
+    spans = phases(problem)
+    tuning = problem.tuning
+    omega = ball_from(tuning.omega)
+    reach = up(ball_from(radius) + 1 / omega.sqrt())
+    filter_start = up(ball_from(gap) / (ball_from(tuning.mu) * omega.sqrt()))
+    tallest, steepest = _sizes(problem, reach, shape)
+    m = float(tuning.mu * tuning.omega)
+    typical = float(tuning.k) / (2 * (1 + m**2)) * steepest / tallest  # of −(dW/dτ)/W
+    prepared = models(problem, spans, shape, _ORDERS, _WEIGHT * tallest / steepest, typical)
+    stage = set_stage(prepared, spans, reach, filter_start)
+    work = [(model, part) for model, span in zip(prepared, spans, strict=True) for part in slices(problem, span)]
+    bounds = _all_rates(stage, work, tolerance * typical, workers, client)
+    level = stage.start
+    times, reached = [work[0][1].start], [level]
+    for (_, part), found in zip(work, bounds, strict=True):
+        for piece in part.parts or (part,):
+            level = fallen(level, found, stage.levels, piece.shortest, piece.longest)
+            if not level < stage.levels.edges[-1]:
+                raise NoCertificate(
+                    f"W is not shown to stay below {stage.levels.edges[-1]:.4g} at t = {piece.end:.4g}: "
+                    "a larger omega or a smaller start would help, or a weaker drift"
+                )
+            times.append(piece.end)
+            reached.append(level)
+    if level > stage.start and not _held(stage.levels, bounds[-1], level):
+        raise NoCertificate(
+            "no level of W is shown to decrease at the end: a larger omega or a smaller start would help"
+        )
+    steady = work[-1][1].steady
+    hover_level = _hover(stage.levels, bounds[-1], level) if steady else None
+    asked = np.array(sorted({*reached, *([] if hover_level is None else [hover_level])}))
+    found = np.zeros(len(asked))
+    for model, span in zip(prepared, spans, strict=True):
+        found = np.maximum(found, farthest(model, asked, stage.filter_bands, stage.half, span.interval(), 0.005))
+    distance = dict(zip(asked.tolist(), ((found + prepared[0].reach) * (1 + _ROUNDING)).tolist(), strict=True))
+    near = max(up(ball_from(radius)), _NEAR * prepared[0].reach)
+    if distance[reached[-1]] > near:
+        raise NoCertificate(
+            f"the vehicle is shown to stay within {max(distance[item] for item in reached):.4g}, but not to come "
+            f"closer than {near:.4g}: a larger omega, k or T would help"
+        )
+    detail = (
+        f"V is {_NAMES[shape]}, corrected to order {_ORDERS[0]} in 1/sqrt(omega); rates proved on {stage.levels.bands} "
+        f"bands of levels, all headings and filter states, over {len(work)} stretches of time"
+    )
+    return tuple(times), tuple(distance[item] for item in reached), hover_level and distance[hover_level], detail
+
+
+def _sizes(problem: Problem, reach: float, shape: str) -> tuple[float, float]:
+    """About how large V and ‖∇F‖² are at a distance from the source; any positive numbers would do."""
+    angles = np.linspace(0, 2 * np.pi, 64, endpoint=False)
+    field = sp.lambdify(problem.variables, [problem.peak - problem.field.expression, *problem.field.gradient], "numpy")
+    around = (float(c) + reach * f(angles) for c, f in zip(problem.source, (np.cos, np.sin), strict=True))
+    with np.errstate(all="ignore"):
+        height, first, second = (np.broadcast_to(item, angles.shape) for item in field(*around))
+        tallest, steepest = float(np.max(np.abs(height))), float(np.max(first**2 + second**2))
+    if not (0 < tallest < math.inf and 0 < steepest < math.inf):
+        raise NoCertificate("the field has no slope or no value around the start")
+    return (tallest, steepest) if shape == "field" else (reach**2 / 2, reach * math.sqrt(steepest))
+
+
+@dataclass(frozen=True, eq=False)
+class _Task:
+    """The rates of one stretch of time, to be bounded apart from the others."""
+
+    model: Model
+    part: Slice
+    stage: Stage
+    window: tuple[float, float] = (0.0, math.inf)
+    seen: Array | None = None
+    slack: float = math.inf
+
+    def expected(self) -> Array:
+        """About what the rates are."""
+        return guide(self.model, self.stage.levels, self.stage.half, self.part.interval)
+
+    def bounds(self) -> Array:
+        """Bounds of the rates."""
+        stage, seen = self.stage, self.expected() if self.seen is None else self.seen
+        return rates(
+            self.model, stage.levels, stage.filter_bands, stage.half, self.part.interval, self.window, seen, self.slack
+        )
+
+
+def _all_rates(
+    stage: Stage, work: Sequence[tuple[Model, Slice]], slack: float, workers: int | None, client: Any
+) -> list[Array]:
+    """Bounds of the rates on all stretches, sharp about the levels at which W is expected there."""
+    if len({id(model) for model, _ in work}) == 1 and all(part.steady for _, part in work):
+        task = _Task(*work[0], stage, slack=slack)
+        seen = task.expected()
+        rest = _hover(stage.levels, seen + 2 * slack * stage.levels.edges[1:], stage.start)
+        return [replace(task, seen=seen, window=(rest or 0.0, 1.05 * stage.start)).bounds()] * len(work)
+    level, passed, tasks = stage.start, 0.0, []
+    for model, part in work:
+        task = _Task(model, part, stage, slack=slack)
+        seen = task.expected()
+        after = min(fallen(level, seen, stage.levels, part.shortest, part.longest), float(stage.levels.edges[-1]))
+        passed += min(part.longest, 1e6)
+        if part.steady:
+            after = max(after, _hover(stage.levels, seen + 2 * slack * stage.levels.edges[1:], level) or 0.0)
+        worse = math.exp(min(slack * passed, 5.0))
+        tasks.append(replace(task, seen=seen, window=(0.7 * min(level, after), 1.5 * worse * max(level, after))))
+        if not after < stage.levels.edges[-1]:
+            raise NoCertificate(
+                f"nothing keeps W from leaving its largest level at t = {part.end:.4g}: a larger omega, a smaller "
+                "start or a weaker drift would help"
+            )
+        level = after
+    if client is not None:
+        return list(client.gather(client.map(_Task.bounds, tasks, pure=False)))
+    with ThreadPoolExecutor(workers or os.cpu_count() or 1) as pool:
+        return list(pool.map(_Task.bounds, tasks))
+
+
+def _held(levels: Levels, found: Array, level: float) -> bool:
+    """Whether W is kept from rising at a level: it falls in the band below or above."""
+    at = int(np.searchsorted(levels.edges, level, side="left"))
+    return bool((found[max(at - 1, 0) : at + 1] < 0).any())
+
+
+def _hover(levels: Levels, found: Array, level: float) -> float | None:
+    """The level to which W falls from ``level`` in the end if a stretch goes on; None where it does not fall."""
+    falling = found < 0
+    band = min(int(np.searchsorted(levels.edges, level, side="left")) - 1, levels.bands - 1)
+    if band < 0 or not falling[band]:
+        return None
+    while band > 0 and falling[band - 1]:
+        band -= 1
+    return float(levels.edges[band])

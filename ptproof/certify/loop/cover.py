@@ -1,0 +1,159 @@
+"""A cover of the plane by boxes, refined where that sharpens a bound: rates on bands of levels, and distances.
+
+All levels are treated at once. A box and a band of |q| touch the bands of levels in their range of W, and what they
+bound counts for each of these. A box is quartered as long as it says more than the middles do (within a tolerance);
+whatever is left at the end counts as it is, so that the result holds in any case.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from ptproof.balls.arrays import Array, Intervals
+from ptproof.certify.loop.boxes import Boxes, Mask
+from ptproof.certify.loop.levels import Indices, Levels, largest_over, smallest_within
+from ptproof.certify.loop.model import Model
+
+_CHUNK = 2048
+_CLASS = 1 / 16  # the slopes κ are multiples of this part of the typical one
+_MOST = 150_000  # boxes, after which nothing is refined any more
+_SLACK = 2.0**-44
+_RADII, _ANGLES = 64, 24
+_FINEST = 1 / 32  # of δ: half the side of boxes that are not quartered any more
+
+
+def guide(model: Model, levels: Levels, half: float, time: Intervals) -> Array:
+    """Per band about the largest rate at q = 0, from points alone: where to look closely, and never a bound."""
+    radii = np.geomspace(model.reach / 10, half, _RADII)
+    angles = np.linspace(0, 2 * np.pi, _ANGLES, endpoint=False)
+    points = Boxes(np.outer(radii, np.cos(angles)).ravel(), np.outer(radii, np.sin(angles)).ravel(), 0.0)
+    look = _Look.at(model, points, levels, np.zeros(2), time)
+    seen = np.full(levels.bands, -np.inf)
+    np.maximum.at(seen, look.place, look.value)
+    filled = np.isfinite(seen)
+    at = np.arange(levels.bands)
+    return np.asarray(np.interp(at, at[filled], seen[filled]))
+
+
+def rates(
+    model: Model, levels: Levels, filter_bands: Array, half: float, time: Intervals, window: tuple[float, float],
+    seen: Array, slack: float,
+) -> Array:  # fmt: skip
+    """Per band of levels a bound of dW/dτ over [−half, half]², all headings and all |q| ≤ the last of ``filter_bands``.
+
+    It is −∞ where W has no such level.
+
+    Parameters
+    ----------
+    window
+        The levels about which sharp bounds are wanted; others get what comes for nothing.
+    seen, slack
+        What :func:`guide` says, and by how much a bound may be above it without refinement, as a part of the level.
+    """
+    found = np.full(levels.bands, -np.inf)
+    wanted = (levels.edges[1:] >= window[0]) & (levels.edges[:-1] <= window[1])
+    count, seen, boxes, unit = 0, seen.copy(), Boxes.square(half), model.typical * _CLASS
+    while len(boxes):
+        looks = [(part, _Look.at(model, part, levels, filter_bands, time)) for part in boxes.parts(_CHUNK)]
+        for _, look in looks:
+            np.maximum.at(seen, look.place, look.value)
+        enough = np.where(wanted, seen + slack * levels.edges[1:], np.inf)
+        count += len(boxes)
+        fine = boxes.half < model.reach * _FINEST or count > _MOST
+        rest = []
+        for part, look in looks:
+            split = np.zeros(len(part), bool) if fine else look.above(enough, levels, unit)
+            np.maximum(found, look.largest(~split, levels, unit), out=found)
+            rest.append(part.chosen(split).quarters())
+        boxes = Boxes.joined(rest)
+    return found
+
+
+def farthest(model: Model, wanted: Array, filter_bands: Array, half: float, time: Intervals, tolerance: float) -> Array:
+    """For each of the increasing levels ``wanted`` a bound of |y| where W is not above it, for y in [−half, half]²."""
+    found, seen = np.zeros((2, len(wanted)))
+    count, boxes = 0, Boxes.square(half)
+    while len(boxes):
+        looks = []
+        for part in boxes.parts(_CHUNK):
+            function, there = model.function.bounds(model.values(model.function_columns, part, time))
+            low = np.min([function.within(*pair)[0] for pair in pairwise(filter_bands)], axis=0)
+            looks.append((part, np.searchsorted(wanted, low, side="left"), part.farthest()))
+            _raise(seen, np.searchsorted(wanted, there.low[0], side="left"), np.hypot(part.first, part.second))
+        enough = np.append(np.maximum.accumulate(seen) * (1 + tolerance), np.inf)
+        count += len(boxes)
+        fine = boxes.half < model.reach * _FINEST / 4 or count > _MOST
+        rest = []
+        for part, edge, reach in looks:
+            split = np.zeros(len(part), bool) if fine else reach > enough[edge]
+            _raise(found, edge[~split], reach[~split])
+            rest.append(part.chosen(split).quarters())
+        boxes = Boxes.joined(rest)
+    return np.asarray(np.maximum.accumulate(found))
+
+
+def _raise(found: Array, at: Indices, values: Array) -> None:
+    inside = at < len(found)
+    np.maximum.at(found, at[inside], values[inside])
+
+
+@dataclass(frozen=True, eq=False)
+class _Look:
+    """What boxes say: per band of |q| and box the bands of levels touched and ``rates`` r, and per box ``slopes`` κ.
+
+    On level c the rate is at most r − κc: both depend on where a box is cut by the level, and the difference hardly.
+    """
+
+    first: Indices
+    last: Indices
+    rates: Array
+    slopes: Indices
+    place: Indices
+    value: Array
+
+    @staticmethod
+    def at(model: Model, boxes: Boxes, levels: Levels, filter_bands: Array, time: Intervals) -> _Look:
+        values = model.values(model.columns, boxes, time)
+        (function, there), (rate, rate_there) = model.function_rest.bounds(values), model.rate_rest.bounds(values)
+        centred = model.centred(boxes, time)
+        slopes = centred.slopes(model.typical * _CLASS)
+        kappa: Array = np.asarray(slopes * (model.typical * _CLASS), dtype=np.float64)
+        rows = []
+        for pair in pairwise(filter_bands):
+            low, high = function.within(*pair)
+            rest = np.maximum(kappa * low, kappa * high)
+            main, other = centred.combined(kappa), rate.within(*pair)[1]
+            found = main + rest + other + (np.abs(main) + np.abs(rest) + np.abs(other)) * _SLACK
+            size = (np.abs(centred.low) + np.abs(centred.high) + np.abs(low) + np.abs(high)) * _SLACK
+            rows.append((*levels.touched(centred.low + low - size, centred.high + high + size), found))
+        first, last, found = (np.stack(column) for column in zip(*rows, strict=True))
+        at_rest = centred.start.middle + 0.5 * (there.low[0] + there.high[0])
+        place = np.clip(np.searchsorted(levels.edges, at_rest) - 1, 0, levels.bands - 1)
+        # The same level is met at other places for other headings.
+        elsewhere = np.abs(kappa) * 0.5 * (there.high[0] - there.low[0])
+        return _Look(first, last, found, slopes, place, centred.main.middle + rate_there.high[0] + elsewhere)
+
+    def above(self, enough: Array, levels: Levels, unit: float) -> Mask:
+        """The boxes that say more than ``enough`` on some band that they touch."""
+        found = np.zeros(self.slopes.shape, bool)
+        for slope in np.unique(self.slopes):
+            at = self.slopes == slope
+            allowed = enough + levels.shift(slope * unit)
+            found[at] = (self.rates[:, at] > smallest_within(self.first[:, at], self.last[:, at], allowed)).any(axis=0)
+        return found
+
+    def largest(self, keep: Mask, levels: Levels, unit: float) -> Array:
+        """Per band of levels the largest rate on the kept boxes."""
+        found = np.full(levels.bands, -np.inf)
+        for slope in np.unique(self.slopes[keep]):
+            at = keep & (self.slopes == slope)
+            first, last, values = self.first[:, at].ravel(), self.last[:, at].ravel(), self.rates[:, at].ravel()
+            most = largest_over(first, last, values, levels.bands)
+            some = np.isfinite(most)
+            shift = levels.shift(slope * unit)[some]
+            value = most[some] - shift + (np.abs(most[some]) + np.abs(shift)) * _SLACK
+            found[some] = np.maximum(found[some], value)
+        return found

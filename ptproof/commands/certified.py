@@ -1,0 +1,55 @@
+"""``ptproof simulate --certify``: what is certain of every such vehicle, beside the run of one."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from ptproof.errors import InputError
+
+if TYPE_CHECKING:
+    from ptproof.certify import LoopCertificate
+    from ptproof.problem import Problem
+
+_OTHER = ("sample_time", "noise", "motion", "until")
+
+
+def check(ensemble: int | None, how: Mapping[str, Any]) -> None:
+    """Refuse what a certificate does not speak of."""
+    if ensemble is not None:
+        raise InputError("--certify: stands beside one run; leave out --ensemble")
+    if how["seeker"] != "pt" or how["model"] != "closed loop":
+        raise InputError("--certify: a certificate is for the closed loop of the seeker pt")
+    for name in _OTHER:
+        if how.get(name) is not None:
+            option = name.replace("_", "-")
+            raise InputError(f"--certify: is about the closed loop itself, up to T; leave out --{option}")
+
+
+def certified(problem: Problem) -> LoopCertificate:
+    """The certificate for every start that is as near as the problem's."""
+    from ptproof.certify import certify_loop
+
+    return certify_loop(problem)
+
+
+def words(certificate: LoopCertificate) -> list[str]:
+    """The lines for people."""
+    starts = f"every vehicle that starts within {certificate.start_radius:.6g}, from every heading"
+    if certificate.final is None:
+        return [f"no certificate for {starts}: {certificate.detail}"]
+    return [f"certified for {starts}: distance at most {certificate.final:.6g} at T"]
+
+
+def draw(figure: Any, certificate: LoopCertificate) -> None:
+    """The bound over the distance, in the picture of a run."""
+    import numpy as np
+
+    from ptproof.simulation.drawing import RED
+
+    if certificate.final is None:
+        return
+    axes = figure.axes[2]
+    grid = np.unique(np.append(np.linspace(certificate.times[0], certificate.times[-1], 1001), certificate.times))
+    axes.plot(grid, certificate.bound(grid), color=RED, lw=1.2, label="certified for every such vehicle")
+    axes.legend(fontsize=7)

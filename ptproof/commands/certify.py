@@ -1,0 +1,135 @@
+"""``ptproof certify``: prove how close a vehicle comes to the source, for every start within a radius."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from ptproof.commands import options
+from ptproof.errors import InputError
+
+if TYPE_CHECKING:
+    from ptproof.certify import LoopCertificate
+    from ptproof.problem import Problem
+
+_VEHICLES = 1000
+
+
+@click.command()
+@click.argument("problem", metavar="NAME|PROBLEM.toml")
+@click.option(
+    "--radius", metavar="R", help="The start is within this distance of the source; the problem's own if left out."
+)
+@click.option("--filter-gap", default="0", show_default=True, metavar="G", help="|F(x) - z| at the start, at most.")
+@click.option("--omega", metavar="NUMBER", help="Another frequency than the problem's.")
+@click.option("--mu", metavar="NUMBER", help="Another filter constant.")
+@click.option("--k", metavar="NUMBER", help="Another gain.")
+@click.option("--T", "horizon", metavar="NUMBER", help="Another prescribed time.")
+@click.option("--nu-min", metavar="NUMBER", help="Another clip of the gain, in (0, 1].")
+@click.option("--seeker", metavar="NAME", help="Only pt has a certificate; a problem meant for another one is refused.")
+@click.option(
+    "--tolerance", type=click.FloatRange(0.001, 10), default=0.12, show_default=True, help="Smaller: sharper, slower."
+)
+@options.jobs
+@options.cluster
+@options.plot("the bound over a thousand simulated vehicles")
+@options.as_json
+def certify(
+    problem: str, radius: str | None, filter_gap: str, seeker: str | None, tolerance: float, jobs: int | None,
+    cluster: str | None, plot: str | None, as_json: bool, **numbers: str | None,
+) -> int:  # fmt: skip
+    """Prove a bound of the distance between the vehicle and the source, at every time up to the prescribed one.
+
+    It holds for every start within the radius, every heading and every filter state within the gap, for the closed loop
+    as it is integrated: this omega, this mu, clip and drift included. Nothing is sampled. The status is 0 if a bound is
+    proved, 1 if not, 2 for bad input.
+    """
+    from ptproof.certify import certify_loop
+    from ptproof.problem import EXAMPLES, example, load
+    from ptproof.proof.verdict import Verdict
+    from ptproof.reading.expressions import parse
+
+    target = example(problem) if problem in EXAMPLES else load(problem)
+    if (seeker or target.default_seeker) != "pt":
+        raise InputError(
+            f"certify: a certificate is for the seeker pt, and {problem} is meant for "
+            f"{seeker or target.default_seeker}; with --seeker pt its loop without that is certified"
+        )
+    target = retuned(target, numbers)
+    with options.connected(cluster) as client:
+        found = certify_loop(
+            target, None if radius is None else parse(radius, where="--radius"),
+            filter_gap=parse(filter_gap, where="--filter-gap"), tolerance=tolerance, workers=jobs, client=client,
+        )  # fmt: skip
+    outside = _draw(target, found, plot) if plot is not None and found.verdict is Verdict.PROVED else 0
+    if as_json:
+        options.print_json(found.to_json())
+    else:
+        click.echo(_text(problem, found))
+    return 0 if found.verdict is Verdict.PROVED and not outside else 1
+
+
+def retuned(problem: Problem, numbers: dict[str, str | None]) -> Problem:
+    """The problem with other numbers, given as text."""
+    from dataclasses import replace
+
+    from ptproof.reading.expressions import parse
+
+    given = {name: parse(text, where=f"--{name}") for name, text in numbers.items() if text is not None}
+    if "horizon" in given:
+        given["T"] = given.pop("horizon")
+    return replace(problem, tuning=replace(problem.tuning, **given)) if given else problem
+
+
+def _text(name: str, found: LoopCertificate) -> str:
+    head = f"{name}, the vehicle in closed loop, omega = {found.omega:.6g}, mu = {found.mu:.6g}"
+    starts = f"every start within {found.start_radius:.6g}, every heading, a filter within {found.filter_gap:.6g} of F"
+    if found.final is None:
+        return f"{head}\n{starts}\nundecided: {found.detail}"
+    marks = sorted({round(i * (len(found.times) - 1) / 8) for i in range(9)})
+    rows = [f"  t = {found.times[i]:<10.4g} distance at most {found.distances[i]:.4g}" for i in marks]
+    rest = [] if found.hover is None else [f"in the long run at most {found.hover:.4g}, if the last gain went on"]
+    last = f"proved: within {found.final:.4g} of the source at t = {found.times[-1]:.6g}"
+    return "\n".join([head, starts, last, *rest, *rows, found.detail])
+
+
+def _draw(problem: Problem, found: LoopCertificate, path: str) -> int:
+    """The bound over simulated vehicles; how many are outside, which would be an error of our own, and is said."""
+    import numpy as np
+
+    from ptproof.simulation.drawing import save
+    from ptproof.simulation.fleet import fleet
+
+    share = 1.0 if problem.tuning.nu_min is not None else 0.9
+    many = fleet(problem, _VEHICLES, radius=found.start_radius, filter_gap=found.filter_gap, share=share)
+    worst = many.distances.max(axis=0)
+    outside = int((many.distances > found.bound(many.times) + 1e-6).any(axis=1).sum())
+    save(_figure(found, many.times, np.asarray(worst), many.distances, outside), path)
+    if outside:
+        click.echo(f"ptproof: {outside} simulated vehicles are outside the bound: please report this", err=True)
+    return outside
+
+
+def _figure(found: LoopCertificate, times: Any, worst: Any, distances: Any, outside: int) -> Any:
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(7, 4.2), layout="constrained")
+    axes = figure.subplots()
+    axes.plot(times, distances[:60].T, color="0.75", linewidth=0.4)
+    axes.plot(
+        times, worst, color="tab:blue", label=f"the farthest of {len(distances)} simulated vehicles, {outside} outside"
+    )
+    grid = _grid(found)
+    axes.plot(grid, found.bound(grid), color="tab:red", label="proved bound for the vehicle")
+    axes.set(xlabel="t", ylabel="distance from the source", title=f"ω = {found.omega:g}, μ = {found.mu:.4g}")
+    axes.set_ylim(bottom=0)
+    axes.legend()
+    return figure
+
+
+def _grid(found: LoopCertificate) -> Any:
+    """Times close enough to show the steps of the bound."""
+    import numpy as np
+
+    return np.unique(np.concatenate([np.linspace(found.times[0], found.times[-1], 1001), found.times]))
