@@ -145,8 +145,24 @@ def _holds(assumption: Assumption, values: Substitution) -> bool:
             # A bound variable may carry the name of a free one: its value at the witness is not meant here.
             free = {key: value for key, value in values.values.items() if key not in variables}
             there = Substitution(free, elsewhere=values.elsewhere).quantified(assumption)
+            only = _only_value(there)
+            if only is not None:
+                numbers = _at(there.relation, Substitution({there.variables[0]: only}))
+                return numbers is not None and holds(numbers)
             return follows(there.relation.map(differentiated), there.domain, seconds=2.0).shown
     return False
+
+
+def _only_value(quantified: ForAll) -> sp.Expr | None:
+    """The one value that the domain leaves to the variable: it is between a number and the same number."""
+    if len(quantified.variables) != 1:
+        return None
+    variable = quantified.variables[0]
+    low, high = (
+        {part.right for part in quantified.domain if (part.left, part.sign) == (variable, sign)}
+        for sign in (">=", "<=")
+    )
+    return next((value for value in low & high if value.is_number and value.is_real), None)
 
 
 def _sides(relation: Relation) -> tuple[str, str]:

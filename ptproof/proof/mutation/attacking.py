@@ -44,7 +44,15 @@ def falsity(mutant: Mutant, seconds: float) -> Falsity | None:
                 if hit is not None:
                     return _looked_at(goal, hit, seconds)
     hit = attack(goal, points=_POINTS, seconds=seconds).hit
-    return None if hit is None else _looked_at(goal, hit, seconds)
+    return _at_the_example(goal) if hit is None else _looked_at(goal, hit, seconds)
+
+
+def _at_the_example(goal: Goal) -> Falsity | None:
+    """The example of the original, where what the mutant assumes holds there, and what it says does not."""
+    if not goal.example:
+        return None
+    witness, _ = check_witness(goal, dict(goal.example))
+    return None if witness is None else Falsity(witness, "the two sides differ at the example of the claim")
 
 
 def _looked_at(goal: Goal, hit: Hit, seconds: float) -> Falsity:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import pytest
 import sympy as sp
 
 from ptproof.proof.claim import Goal
 from ptproof.proof.engines.exact import exact
 from ptproof.proof.engines.witnesses import check_witness, refute
 from ptproof.proof.settling import settle
-from ptproof.proof.statement import ForAll, eq, ge, gt, le
+from ptproof.proof.statement import ForAll, Relation, eq, ge, gt, le
 from ptproof.proof.verdict import Verdict
 
 x, y, s = sp.symbols("x y s", real=True)
@@ -68,3 +69,25 @@ def test_values_that_are_too_close_are_told_apart_or_not_at_all() -> None:
     tiny = sp.Rational(1, 10**60)
     assert refute(Goal("t", eq(sp.sin(x) ** 2 + sp.cos(x) ** 2, 1 + y)), {x: 1, y: tiny}).verdict is Verdict.REFUTED
     assert refute(Goal("t", eq(sp.sin(x) ** 2 + sp.cos(x) ** 2, 1 + y)), {x: 1, y: 0}).verdict is Verdict.UNDECIDED
+
+
+X = sp.Function("X", real=True)
+MOVES = eq(sp.Derivative(X(s), s), sp.cos(X(s)))
+
+
+@pytest.mark.parametrize(
+    ("path", "domain", "end", "accepted"),
+    [
+        (s, (ge(s, 0), le(s, x)), 0, True),
+        (s, (ge(s, 0), le(s, x)), 1, False),  # on the rest of the interval it does not move like this
+        (2 * s, (ge(s, 0), le(s, x)), 0, False),  # the derivative is another one
+        (sp.Abs(s), (ge(s, 0), le(s, x)), 0, False),  # there is no derivative
+        (s, (ge(s, 0),), 0, False),
+        (s, (ge(s, 0), ge(s, x)), 0, False),
+    ],
+)
+def test_assumption_on_a_single_instant_is_checked_there(
+    path: sp.Expr, domain: tuple[Relation, ...], end: int, accepted: bool
+) -> None:
+    goal = Goal("t", le(X(x), -1), (ForAll((s,), MOVES, domain),))
+    assert (check_witness(goal, {X(s): path, x: end})[0] is not None) is accepted

@@ -1,11 +1,12 @@
 """What comes of one mutant, and that an engine which proves what is false is found out."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import pytest
 import sympy as sp
 
-from ptproof.proof import Exists, claim, eq, exact, ge, gt, le, reals
+from ptproof.proof import Exists, ForAll, claim, eq, exact, ge, gt, le, reals
 from ptproof.proof.mutation.haste import in_haste
 from ptproof.proof.mutation.judging import Patience, judge
 from ptproof.proof.mutation.mutant import Mutant
@@ -95,3 +96,24 @@ def test_haste_ends():
     with in_haste(0.1):
         assert (module.SECONDS, module._follows) != usual
     assert (module.SECONDS, module._follows) == usual
+
+
+s = sp.Symbol("s", real=True)
+X = sp.Function("X", real=True)
+GROWS = ForAll((s,), eq(sp.Derivative(X(s), s), X(s) ** 2), (ge(s, 0), le(s, 1)))
+
+
+@pytest.mark.parametrize(
+    ("new", "example", "refuted"),
+    [
+        (ge(X(0), X(1)), 1 / (2 - s), True),
+        (ge(X(0), X(1)), 2 / (2 - s), False),  # no solution
+        (ge(X(0), X(1)), None, False),
+        (le(X(0), X(1) + 1), 1 / (2 - s), False),  # it holds there
+    ],
+)
+def test_the_example_of_the_claim_is_tried_where_the_attacker_meets_nothing(new, example, refuted, monkeypatch):
+    monkeypatch.setattr("ptproof.proof.mutation.attacking.attack", lambda goal, **limits: SimpleNamespace(hit=None))
+    said = () if example is None else ((X(s), example),)
+    found = outcome(le(X(0), X(1)), new, before=[GROWS], example=said)
+    assert (found.word is Word.REFUTED) is refuted, found.why
