@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import importlib.machinery
 import importlib.util
@@ -15,6 +16,8 @@ from ptproof.errors import InputError
 from ptproof.proof.claim import Claim, Definition
 from ptproof.proof.shipped import shipped as shipped
 from ptproof.reading.outcomes import in_words
+
+_YOUNG = 2.0  # seconds
 
 
 class NoClaims(InputError):
@@ -95,6 +98,7 @@ def load(paths: Sequence[str | Path] = (), only: Collection[Path] | None = None)
     """
     chosen = [Path(path) for path in paths] or [shipped()]
     names = {file: _module_name(file, chosen) for file in files_of(chosen)}
+    _distrust_compiled({file.parent for file in names})
     modules = [_module(file, name) for file, name in names.items() if only is None or file in only]
     if only is not None:  # what they import holds claims as well
         modules = [sys.modules[name] for name in names.values() if name in sys.modules]
@@ -122,6 +126,20 @@ def load(paths: Sequence[str | Path] = (), only: Collection[Path] | None = None)
         tuple(sys.modules[p] for p in packages),
         homes,
     )
+
+
+def _distrust_compiled(folders: Iterable[Path]) -> None:
+    """Remove what Python has compiled of files that were young then.
+
+    Python takes a compiled file for that of the present text if the text has the same size and the same second of
+    change; what is decided has to be what is written.
+    """
+    for folder in folders:
+        for file in folder.rglob("*.py"):
+            with contextlib.suppress(OSError, NotImplementedError):
+                compiled = Path(importlib.util.cache_from_source(str(file)))
+                if compiled.stat().st_mtime < file.stat().st_mtime + _YOUNG:
+                    compiled.unlink()
 
 
 def homes_of(claims: Iterable[Claim]) -> dict[str, str]:

@@ -22,7 +22,7 @@ import time as clock
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 import sympy as sp
@@ -48,6 +48,10 @@ _ROUNDING = 1e-9  # covers that times are shown as floats
 _WEIGHT = 0.06
 SHAPES = "distance", "field"
 _NAMES = {"distance": "half the squared distance", "field": "the field below its peak"}
+
+
+# Times, distances, the distance in the long run where there is one, and how it was proved.
+_Curve: TypeAlias = tuple[tuple[float, ...], tuple[float, ...], float | None, str]
 
 
 def certify_loop(
@@ -94,20 +98,17 @@ def certify_loop(
     for where, value in (("radius", size), ("filter_gap", gap)):
         if not value >= 0:
             raise InputError(f"{where}: must not be negative, got {value}")
-    times: tuple[float, ...] = ()
-    distances: tuple[float, ...] = ()
-    hover = None
-    verdict, reasons = Verdict.UNDECIDED, []
+    reasons, tuning = [], problem.tuning
+    found: _Curve | None = None
     for shape in shapes:
         try:
             with precision(128):
-                times, distances, hover, detail = _curve(problem, size, gap, shape, tolerance, workers, client)
-            verdict = Verdict.PROVED
+                found = _curve(problem, size, gap, shape, tolerance, workers, client)
             break
         except (NoCertificate, Unfit, Undefined) as error:
             reasons.append(f"with V {_NAMES[shape]}: {error}")
-            detail = "; ".join(reasons)
-    tuning = problem.tuning
+    verdict = Verdict.UNDECIDED if found is None else Verdict.PROVED
+    times, distances, hover, detail = ((), (), None, "; ".join(reasons)) if found is None else found
     return LoopCertificate(
         verdict, float(tuning.omega), float(tuning.mu), float(size), float(gap), times, distances, hover, detail,
         clock.perf_counter() - begin,
@@ -121,7 +122,7 @@ def _distance(problem: Problem) -> sp.Expr:
 
 def _curve(
     problem: Problem, radius: sp.Expr, gap: sp.Expr, shape: str, tolerance: float, workers: int | None, client: Any
-) -> tuple[tuple[float, ...], tuple[float, ...], float | None, str]:
+) -> _Curve:
     spans = phases(problem)
     tuning = problem.tuning
     omega = ball_from(tuning.omega)
