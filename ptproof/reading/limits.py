@@ -5,7 +5,8 @@ from __future__ import annotations
 import ctypes
 import threading
 from collections.abc import Callable, Iterator, Mapping
-from typing import Any, TypeVar
+from contextlib import contextmanager, suppress
+from typing import Any, Generic, TypeVar
 
 from ptproof.reading.copies import Copies, possible
 from ptproof.reading.outcomes import Answered as Answered
@@ -35,29 +36,94 @@ def within(seconds: float, work: Callable[[], Answer]) -> Answer:
     sent to another process, and a signal would be in the way of a test runner's own time limit.
     """
     check_seconds(seconds)
-    answers: list[Answer] = []
-    errors: list[BaseException] = []
+    working = _Working(work)
+    working.thread.join(min(seconds, threading.TIMEOUT_MAX))
+    if not working.over_or_told():
+        raise OutOfTime
+    return working.answer()
 
-    def run() -> None:
+
+def unbroken(work: Callable[[], Answer]) -> Answer:
+    """The answer of ``work``, which no time limit breaks off in the middle: it ends the thread afterwards.
+
+    For a library whose objects must not be left half made, since a limit's exception may come between any two steps.
+    """
+    working: _Working[Any] | None = getattr(_here, "working", None)
+    if working is None:
+        return work()
+    with working.unbroken():
+        return work()
+
+
+_here = threading.local()
+
+
+class _Working(Generic[Answer]):
+    """Work in a thread of its own, and what has come of it."""
+
+    def __init__(self, work: Callable[[], Answer]) -> None:
+        self._work = work
+        self._answers: list[Answer] = []
+        self._errors: list[BaseException] = []
+        self._guard = threading.Lock()
+        self._told = self._over = False
+        self._inside = 0
+        self.thread = threading.Thread(target=self._run, daemon=True, name="ptproof time limit")
+        usual = threading.stack_size(_STACK)  # expressions are deep, and some systems give a thread very little
         try:
-            answers.append(work())
-        except BaseException as error:  # handed over to the thread that waits
-            errors.append(error)
+            self.thread.start()
+        finally:
+            threading.stack_size(usual)
 
-    thread = threading.Thread(target=run, daemon=True, name="ptproof time limit")
-    usual = threading.stack_size(_STACK)  # expressions are deep, and some systems give a thread very little
-    try:
-        thread.start()
-    finally:
-        threading.stack_size(usual)
-    thread.join(min(seconds, threading.TIMEOUT_MAX))
-    if answers:
-        return answers[0]
-    if errors:
-        raise errors[0]
-    if thread.ident is not None:
-        ctypes.pythonapi.PyThreadState_SetAsyncExc(ctypes.c_ulong(thread.ident), ctypes.py_object(Stop))
-    raise OutOfTime
+    def answer(self) -> Answer:
+        """The answer, once the work is over; or its error."""
+        if self._errors:
+            raise self._errors[0]
+        return self._answers[0]
+
+    def over_or_told(self) -> bool:
+        """Whether the work is over; if not, it is told to stop."""
+        with self._guard:  # the thread cannot end meanwhile: its number might become another's
+            if self._over:
+                return True
+            self._told = True
+            if not self._inside:
+                _raise_in(self.thread, Stop)
+            return False
+
+    @contextmanager
+    def unbroken(self) -> Iterator[None]:
+        """Within, the thread is not told to stop; it stops at the end if it would have been, or before it begins."""
+        with self._guard:
+            if self._told:
+                raise Stop
+            self._inside += 1
+        try:
+            yield
+        finally:
+            with self._guard:
+                self._inside -= 1
+                told = self._told
+            if told:
+                raise Stop
+
+    def _run(self) -> None:
+        _here.working = self
+        with suppress(Stop):  # told in the last moment
+            try:
+                self._answers.append(self._work())
+            except BaseException as error:  # handed over to the thread that waits
+                self._errors.append(error)
+            with self._guard:
+                self._over = True
+                _raise_in(self.thread, None)  # not in the steps by which a thread ends
+
+
+def _raise_in(thread: threading.Thread, error: type[BaseException] | None) -> None:
+    """Have the error raised in the thread at its next step; or take back what has not been raised."""
+    assert thread.ident is not None
+    raised = None if error is None else ctypes.py_object(error)
+    ctypes.pythonapi.PyThreadState_SetAsyncExc(ctypes.c_ulong(thread.ident), raised)
 
 
 def apart(seconds: float, work: Callable[..., Answer], *arguments: Any) -> Answered[Answer] | Unanswered:

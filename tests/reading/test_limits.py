@@ -4,11 +4,12 @@ import mmap
 import os
 import threading
 import time
+from contextlib import suppress
 
 import pytest
 
 from ptproof.errors import InputError
-from ptproof.reading.limits import Answered, OutOfTime, Unanswered, Why, Workers, apart, within
+from ptproof.reading.limits import Answered, OutOfTime, Unanswered, Why, Workers, apart, unbroken, within
 
 
 def test_the_answer_comes_back():
@@ -27,11 +28,66 @@ def test_work_without_end_is_stopped_and_does_not_go_on():
 
     with pytest.raises(OutOfTime):
         within(0.05, forever)
+    _wait_until_all_have_ended()
+
+
+def _wait_until_all_have_ended():
     for _ in range(1000):
         if all(thread.name != "ptproof time limit" for thread in threading.enumerate()):
             return
         time.sleep(0.01)
     pytest.fail("the thread still runs")
+
+
+def test_what_must_not_be_broken_off_runs_to_its_end_and_nothing_after_it():
+    begun, ended, after = [], [], []
+
+    def steps():
+        until = time.monotonic() + 0.3
+        while time.monotonic() < until:
+            begun.append(1)
+            ended.append(1)
+
+    def work():
+        unbroken(steps)
+        after.append(1)
+
+    with pytest.raises(OutOfTime):
+        within(0.05, work)
+    _wait_until_all_have_ended()
+    assert begun
+    assert len(begun) == len(ended)
+    assert not after
+
+
+def test_what_has_been_told_to_stop_begins_nothing_that_must_not_be_broken_off():
+    begun, told = [], threading.Event()
+
+    def work():
+        told.wait()  # the exception comes only after this step, which is not Python's
+        unbroken(lambda: begun.append(1))
+
+    with pytest.raises(OutOfTime):
+        within(0.05, work)
+    told.set()
+    _wait_until_all_have_ended()
+    assert not begun
+
+
+def test_without_a_limit_it_is_an_ordinary_call():
+    assert unbroken(lambda: 3) == 3
+    with pytest.raises(KeyError, match="lost"):
+        unbroken(lambda: {}["lost"])
+    assert within(10, lambda: unbroken(lambda: unbroken(lambda: 3))) == 3
+
+
+def test_a_limit_stops_nobody_else():
+    """The numbers of threads are used again: a work that ends at its limit must not hand its exception to the next."""
+    for _ in range(300):
+        with suppress(OutOfTime):
+            within(0.002, lambda: time.sleep(0.002))
+        assert within(10, lambda: sum(range(100))) == 4950
+    _wait_until_all_have_ended()
 
 
 @pytest.mark.parametrize("seconds", [0, -1, float("nan"), float("inf"), "1", True, None])

@@ -17,7 +17,7 @@ import sympy as sp
 from ptproof.proof.algebra import Generators, NotAlgebraic
 from ptproof.proof.claim import Goal, engine
 from ptproof.proof.definedness import Obligation, domain_of
-from ptproof.proof.engines.terms import known_of, library, one_at_a_time, term, variable_of
+from ptproof.proof.engines.terms import asked, known_of, library, term, variable_of
 from ptproof.proof.facts import Fact, is_said, usable
 from ptproof.proof.statement import MEANING, Implication, Relation, free_symbols, relations_of, undefined_functions
 from ptproof.proof.verdict import Evidence, Verdict
@@ -131,8 +131,7 @@ def _answered(
         problem = _Problem(conclusion, assumptions, facts)
     except NotAlgebraic as error:
         return Answer(False, str(error))
-    with one_at_a_time:
-        return _asked(problem, bool(facts), seconds)
+    return asked(lambda: _asked(problem, bool(facts), seconds))
 
 
 def _asked(problem: _Problem, told_facts: bool, seconds: float) -> Answer:

@@ -3,15 +3,32 @@
 from __future__ import annotations
 
 import threading
+from collections.abc import Callable
 from functools import cache, lru_cache
-from typing import Any
+from typing import Any, TypeVar
 
 import sympy as sp
 
 from ptproof.proof.algebra import NotAlgebraic
+from ptproof.reading.limits import unbroken
 
+Answer = TypeVar("Answer")
 # z3's terms live in one context, which is not made for two threads, and a proof that has run out of time may still ask.
-one_at_a_time = threading.Lock()
+_one_at_a_time = threading.Lock()
+
+
+def asked(question: Callable[[], Answer]) -> Answer:
+    """What comes of a question to z3, asked alone and to its end.
+
+    z3 counts the uses of each of its objects: one that a time limit leaves half made gives back a use that it never
+    took, and the process ends in some later question.
+    """
+
+    def alone() -> Answer:
+        with _one_at_a_time:
+            return question()
+
+    return unbroken(alone)
 
 
 @cache
