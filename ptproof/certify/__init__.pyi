@@ -5,3 +5,5 @@ from .domain import Domain as Domain
 from .loop import LoopCertificate as LoopCertificate
 from .loop import certify_loop as certify_loop
 from .search import certify_field as certify_field
+from .trajectory.engine import enclosed as enclosed
+from .vehicles import certified as certified

@@ -41,6 +41,7 @@ from .result import Result as Result
 from .result import Verification as Verification
 from .run import decide as decide
 from .run import verify as verify
+from .runs import Runs as Runs
 from .settling import settle as settle
 from .statement import All as All
 from .statement import Assumption as Assumption

@@ -27,6 +27,7 @@ from ptproof.proof.statement import (
     Implication,
     Prose,
     Relation,
+    Runs,
     Smooth,
     Statement,
     plain,
@@ -135,6 +136,8 @@ class Claim:
                 return "existence"
             case Smooth():
                 return "smoothness"
+            case Runs():
+                return "runs"
             case Relation() | All():
                 parts = relations_of(self.statement)
                 if any(part.has(sp.Limit) for part in parts):
@@ -230,7 +233,7 @@ def facts_of(used: Claim) -> tuple[Fact, ...]:
     At other values it is :func:`ptproof.proof.engines.quantified.specialise` that says it. A claim that speaks only
     of where it is defined says nothing elsewhere.
     """
-    if isinstance(used.statement, Prose | Smooth | Exists):
+    if isinstance(used.statement, Prose | Smooth | Exists | Runs):
         return ()
     if any(not isinstance(item, Relation) for item in used.assumptions):
         return ()
@@ -240,6 +243,7 @@ def facts_of(used: Claim) -> tuple[Fact, ...]:
 
 
 _SEAL = object()
+_ENGINES = "ptproof.proof.", "ptproof.certify."
 
 
 @dataclass(frozen=True)
@@ -261,13 +265,13 @@ def engine(proof: Callable[Concatenate[Goal, P], Evidence]) -> Callable[Concaten
 
     A claim takes evidence about nothing but its own goal (:func:`ptproof.proof.deciding.run_one`), so that a proof
     that changes the statement, adds an assumption or rewrites what the engine said shows nothing. An engine that stands
-    outside of this package may observe and cite; it proves and refutes nothing.
+    outside of these packages may observe and cite; it proves and refutes nothing.
     """
 
     @wraps(proof)
     def certified(goal: Goal, *arguments: P.args, **options: P.kwargs) -> Evidence:
         found = proof(goal, *arguments, **options)
-        if found.verdict in (Verdict.PROVED, Verdict.REFUTED) and not proof.__module__.startswith("ptproof.proof."):
+        if found.verdict in (Verdict.PROVED, Verdict.REFUTED) and not proof.__module__.startswith(_ENGINES):
             reason = f"{proof.__module__}.{proof.__name__} is no engine of ptproof, which said {found.verdict}"
             found = replace(found, verdict=Verdict.UNDECIDED, detail=f"{reason}: {found.detail}", witness=None)
         says = replace(found, certifies=None, besides=())

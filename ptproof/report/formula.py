@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import html
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
@@ -21,6 +21,7 @@ from ptproof.proof.statement import (
     ForAll,
     Prose,
     Relation,
+    Runs,
     Smooth,
     Statement,
     free_symbols,
@@ -112,9 +113,24 @@ def statement_lines(statement: Statement | Assumption, names: Names) -> tuple[Li
             if sum(width(line.latex) for line in lines) + width(tail) < _ROOM and len(lines) == 1:
                 return (Line(rf"{lines[0].latex} \quad {tail}"),)
             return (*lines, Line(tail, 1))
+        case Runs():
+            return tuple(_runs_lines(statement, names))
         case Prose():
             return ()
     return (Line(str(statement.latex(symbol_names=dict(names)))),)  # a kind of statement that is newer than this page
+
+
+def _runs_lines(said: Runs, names: Names) -> Iterator[Line]:
+    time, (first, last) = latex(said.time, names), said.during
+    for x, rate in zip(said.state, said.rates, strict=True):
+        yield from _relation_lines(Relation(sp.Derivative(x, said.time), "=", rate), names)
+    during = f"= {latex(last, names)}" if said.at_once else rf"\in [{latex(first, names)}, {latex(last, names)}]"
+    for when, parts in (
+        (rf"\text{{where, at}}\ {time} = {latex(said.span[0], names)}:", said.starts),
+        (rf"\text{{exists until}}\ {latex(said.span[1], names)}\text{{, and at}}\ {time} {during}:", said.parts),
+    ):  # fmt: skip
+        yield Line(when)
+        yield from (Line(line.latex, line.indent + 1) for part in parts for line in _relation_lines(part, names))
 
 
 def domain_of(

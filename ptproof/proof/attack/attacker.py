@@ -20,10 +20,11 @@ from ptproof.proof.attack.numbers import NotReal, Undefined, Unsure, undisturbed
 from ptproof.proof.attack.preparation import Prepared, prepared
 from ptproof.proof.attack.quantified import satisfied
 from ptproof.proof.attack.roughness import rough
+from ptproof.proof.attack.runs import tried
 from ptproof.proof.attack.sampling import MISSES, Point, Sampler, open_in
 from ptproof.proof.attack.worth import text
 from ptproof.proof.claim import Goal
-from ptproof.proof.statement import Exists, Prose, Relation, Smooth, expressions_of
+from ptproof.proof.statement import Exists, Prose, Relation, Runs, Smooth, expressions_of
 
 FAILS = "the relation fails"
 UNDEFINED = "a side is undefined"
@@ -90,6 +91,10 @@ def attack(goal: Goal, *, seed: int = 0, points: int = POINTS, seconds: float = 
             return Attack(0, 0, None, "not attacked: a statement in words")
         case Exists():
             return Attack(0, 0, None, "not attacked: no choice can be shown to be the wrong one by trying")
+        case Runs() as said:
+            found = tried(said, seed, seconds)
+            hit = found.failure and Hit(*found.failure, FAILS)
+            return Attack(found.runs, found.runs, hit, str(hit or f"attacked on {found.runs} runs in floats"))
     with undisturbed():
         return _attacked(goal, prepared(goal), seed, points, time.process_time() + seconds)
 

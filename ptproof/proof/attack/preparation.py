@@ -22,6 +22,7 @@ from ptproof.proof.statement import (
     ForAll,
     Prose,
     Relation,
+    Runs,
     Smooth,
     Statement,
     expressions_of,
@@ -137,7 +138,7 @@ def _limited(statement: Statement) -> tuple[tuple[Any, Callable[[Random], Concre
 
 
 def _parts(statement: Statement) -> tuple[Relation, ...]:
-    return () if isinstance(statement, Prose | Smooth | Exists) else relations_of(statement)
+    return () if isinstance(statement, Prose | Smooth | Exists | Runs) else relations_of(statement)
 
 
 def _places(statement: Statement) -> tuple[Relation, ...]:

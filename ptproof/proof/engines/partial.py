@@ -19,7 +19,7 @@ from ptproof.proof.claim import Goal
 from ptproof.proof.declarations import declared, everywhere
 from ptproof.proof.definedness import obligations
 from ptproof.proof.engines.reals import are_met, follows
-from ptproof.proof.statement import Exists, ForAll, Prose, Relation, Smooth, eq, expressions_of, gt, lt
+from ptproof.proof.statement import Exists, ForAll, Prose, Relation, Runs, Smooth, eq, expressions_of, gt, lt
 from ptproof.proof.substitution import BINDERS, NotOfKind, Substitution
 
 _CATCHING = tuple(binder for binder in BINDERS if binder not in (sp.Derivative, sp.Lambda))
@@ -62,7 +62,7 @@ def _unfit(goal: Goal, letter: AppliedUndef, value: sp.Expr, numbers: Mapping[An
     """Why the value does not serve for the function in this goal; empty if it does."""
     if not value.free_symbols <= set(letter.args) or value.has(*BINDERS, AppliedUndef):
         return "it has other letters than its argument, or is not written out"
-    if isinstance(goal.statement, Prose | Smooth | Exists):
+    if isinstance(goal.statement, Prose | Smooth | Exists | Runs):
         return "nobody can tell where the statement takes it"
     place = sp.Dummy("place", real=True)
     there = value.xreplace({letter.args[0]: place})
@@ -97,7 +97,7 @@ def _uses(goal: Goal, function: Any, numbers: Mapping[Any, Any], place: sp.Symbo
     """For each argument at which the function is taken what is known of ``place`` there; a text where nothing is."""
     put_in = Substitution(numbers)
     for item in (goal.statement, *goal.assumptions):
-        assert not isinstance(item, Prose | Smooth | Exists)
+        assert not isinstance(item, Prose | Smooth | Exists | Runs)
         variables = item.variables if isinstance(item, ForAll) else ()
         domain = [*_closed(put_in.quantified(item))] if isinstance(item, ForAll) else []
         letters = {variable: sp.Dummy(variable.name, real=True) for variable in variables}

@@ -25,6 +25,7 @@ from ptproof.proof.statement import (
     Prose,
     Relation,
     RelationSign,
+    Runs,
     Smooth,
     gt,
     plain,
@@ -114,7 +115,7 @@ def specialise(
     """
     if used.content not in {other.content for other in goal.uses}:
         raise InputError(f"{goal.id}: {used.id} is specialised, but is not among the claims used")
-    if isinstance(used.statement, Prose | Smooth | Exists):
+    if isinstance(used.statement, Prose | Smooth | Exists | Runs):
         raise InputError(f"{goal.id}: {used.id} is not a conjunction of relations")
     known, said = goal.relations, usable(goal, facts)
     try:

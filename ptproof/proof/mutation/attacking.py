@@ -13,7 +13,7 @@ from ptproof.proof.engines.existence import defeats_every_choice
 from ptproof.proof.engines.witnesses import candidates, check_witness, search
 from ptproof.proof.mutation.mutant import Mutant
 from ptproof.proof.signs import holds
-from ptproof.proof.statement import All, Exists, Relation, eq, free_symbols
+from ptproof.proof.statement import All, Exists, Relation, Runs, eq, free_symbols
 from ptproof.proof.substitution import Substitution
 from ptproof.proof.verdict import Witness
 
@@ -34,6 +34,9 @@ def falsity(mutant: Mutant, seconds: float) -> Falsity | None:
     goal = mutant.claim.goal()
     if isinstance(goal.statement, Exists):
         return _against_every_choice(goal, goal.statement, seconds)
+    if isinstance(goal.statement, Runs):
+        hit = attack(goal, seconds=seconds).hit
+        return None if hit is None else Falsity(None, f"by the attacker: {hit}")
     if not isinstance(goal.statement, Relation | All):
         return None
     for given in mutant.original.assumptions:

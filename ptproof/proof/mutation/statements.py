@@ -13,7 +13,7 @@ from ptproof.proof.claim import Claim
 from ptproof.proof.mutation.edits import Edit, Letters, edits
 from ptproof.proof.mutation.mutant import Candidate, Place, letters_of
 from ptproof.proof.mutation.smoothness import changed_smoothness
-from ptproof.proof.statement import All, Exists, Relation, RelationSign, Smooth, free_symbols
+from ptproof.proof.statement import All, Exists, Relation, RelationSign, Runs, Smooth, free_symbols
 
 _STRICTNESS: dict[str, RelationSign] = {"<=": "<", "<": "<=", ">=": ">", ">": ">="}
 _DIRECTION: dict[str, RelationSign] = {"<=": ">=", "<": ">", ">=": "<=", ">": "<", "=": "!=", "!=": "="}
@@ -32,6 +32,29 @@ def changed_statements(claim: Claim) -> Iterator[Candidate]:
             yield from _quantifiers(claim, statement)
         case Smooth() as statement:
             yield from changed_smoothness(claim, statement, letters)
+        case Runs() as statement:
+            yield from _runs(claim, statement)
+
+
+def _runs(claim: Claim, statement: Runs) -> Iterator[Candidate]:
+    """Changes of what is said of runs; those of starts and of rates, which mean new runs, are one kind each."""
+
+    def whole(name: str) -> Callable[[tuple[Relation, ...]], Claim]:
+        return lambda parts: replace(claim, statement=replace(statement, **{name: parts}))
+
+    def moving(rates: tuple[Relation, ...]) -> Claim:
+        return replace(claim, statement=replace(statement, rates=tuple(rate.right for rate in rates)))
+
+    letters = statement.letters
+    yield from _of_parts(statement.parts, whole("parts"), letters)
+    rates = tuple(Relation(x, "=", rate) for x, rate in zip(statement.state, statement.rates, strict=True))
+    for name, rows, put in (("start", statement.starts, whole("starts")), ("rate", rates, moving)):
+        for item in _of_parts(rows, put, letters):
+            yield replace(item, kind=name, row=(name,), words=partial(_of, name, item.words))
+
+
+def _of(name: str, words: Callable[[], str]) -> str:
+    return f"{name}: {words()}"
 
 
 def _with_body(claim: Claim, statement: Exists, body: tuple[Relation, ...]) -> Claim:
