@@ -5,7 +5,7 @@ from xml.etree import ElementTree
 import pytest
 import sympy as sp
 
-from ptproof.proof.statement import All, Exists, ForAll, Prose, Relation, Smooth, eq, every, ge, gt, le, lt
+from ptproof.proof.statement import All, Exists, ForAll, Prose, Relation, Runs, Smooth, eq, every, ge, gt, le, lt
 from ptproof.report.formula import domain_of, latex, mathml, statement_lines, width
 
 x, y = sp.symbols("x y", real=True)
@@ -47,6 +47,15 @@ def test_powers_with_symbolic_exponents_keep_their_places():
     n = sp.Symbol("n", positive=True)
     assert latex(k ** (-n) * x * sp.exp(-n * k), {}) == r"x k^{- n} e^{- k n}"
     assert latex(x * k ** (-2), {}) == r"\frac{x}{k^{2}}"
+
+
+def test_runs_are_a_system_with_its_starts_and_what_follows():
+    t = sp.Symbol("t", real=True)
+    said = Runs(t, (x, y), (-y, x), (0, 3), (eq(x, 1), eq(y, 0)), (lt(x, 0),), (2, 3))
+    assert lines(said) == [
+        r"\frac{d}{d t} x = - y", r"\frac{d}{d t} y = x", r"\text{where, at}\ t = 0:", "x = 1", "y = 0",
+        r"\text{exists until}\ 3\text{, and at}\ t \in [2, 3]:", "x < 0",
+    ]  # fmt: skip
 
 
 def test_every_part_has_its_line():

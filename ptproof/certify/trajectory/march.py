@@ -26,7 +26,12 @@ from ptproof.certify.trajectory.modes import Choices, Mode
 Progress = Callable[[float], None]
 _ORDER = DEGREE - 1
 _ADDED, _SHARE = 300.0, 1e-3  # a step may add so many tolerances, and that share of the errors that there are
+_CAREFUL = (
+    1e-6  # of the former, where the right-hand side has kinks: each makes of errors a time in which it is in doubt
+)
 _SHORTEST = 1e-13  # of the length of the run
+# A step across a kink is of first order: many short ones add less to the errors than a long one.
+_PARTS, _GROWING, _RETREAT = 16, 1.2, 1e-12
 
 
 class Stopped(Exception):
@@ -81,11 +86,11 @@ class _Walk:
         self.last: tuple[Trial, Any, float] | None = None
         self.mode: Mode | None = None
         self.scale: Any = None
-        self.retreat = 1e-11 * self.whole
+        self.retreat = _RETREAT * self.whole
         self.event: float | None = None
         self.done, self.tries = False, 0
         self.bridge: tuple[arb, tuple[int, ...]] | None = None
-        self.bridging = 1e-12 * self.whole
+        self.bridging, self.past = 1e-12 * self.whole, -np.inf
 
     @property
     def state(self) -> Any:
@@ -93,7 +98,7 @@ class _Walk:
 
     def step(self) -> None:
         """Enclose one more step, of whatever kind."""
-        if self.mode is None and not self.settled():
+        if self.mode is None and (float(self.now) < self.past or not self.settled()):
             return self.hull(self.bridging)
         assert self.mode is not None
         remaining = float(self.end - self.now)
@@ -125,7 +130,7 @@ class _Walk:
                 return False
         except Undefined:
             return False
-        self.mode, self.retreat, self.event = mode, 1e-11 * self.whole, None
+        self.mode, self.retreat, self.event = mode, _RETREAT * self.whole, None
         if self.bridge is not None:
             start, before = self.bridge
             if before != mode.choice:
@@ -157,7 +162,7 @@ class _Walk:
         if self.bridge is None:
             self.bridge = self.now, self.choices.choice(float(self.now), self.state)
         self.accept(piece, region, after)
-        self.last, self.bridging = None, 2 * length
+        self.last, self.bridging = None, _GROWING * length
 
     def smooth(self, length: float) -> None:
         """One step with the present mode; a shorter one is asked for where that is not good enough."""
@@ -175,8 +180,8 @@ class _Walk:
         away = np.inf if self.event is None else self.event - now
         if length > away - self.retreat / 2:
             if away < 2 * self.retreat:
-                self.mode, self.event = None, None
-                return self.hull(max(away, 0.0) + self.retreat)
+                self.mode, self.past, self.event = None, now + max(away, 0.0) + self.retreat, None
+                return self.hull((max(away, 0.0) + self.retreat) / _PARTS)
             return self.shorten(away - self.retreat, "a switch")
         closing = length >= float(self.end - self.now) * (1 - 1e-12)
         after = self.end if closing else arb(now + length)
@@ -193,9 +198,8 @@ class _Walk:
     def worst(self, piece: Piece, state: Any) -> float:
         """The errors that a step adds, as a share of those that it may add."""
         scale = np.maximum(np.abs(state), 1e-6 * np.abs(state).max())
-        allowed = _ADDED * self.march.tolerance * scale + _SHARE * np.array(
-            [float(e) for e in self.march.region.errors]
-        )
+        added = _ADDED * (_CAREFUL if self.choices.nodes else 1.0)
+        allowed = added * self.march.tolerance * scale + _SHARE * np.array([float(e) for e in self.march.region.errors])
         return float((np.array([float(entry) for entry in piece.added]) / np.maximum(allowed, 1e-300)).max())
 
     def solve(self, mode: Mode, now: float, length: float, begin: Any) -> Trial | None:

@@ -1,0 +1,88 @@
+"""What is certified of the vehicle in the paper's examples: ``python -m benchmarks.guarantees [ROW …]``.
+
+Each row is a call of ``ptproof certify``; ROW is its number in ``ROWS``, all of them where left out. What is found
+replaces those rows of ``derivations/pt_seeker/guarantees.json``, from which the report takes its table.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+import time
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import sympy as sp
+
+from ptproof.certify import certify_loop
+from ptproof.problem import example
+
+FILE = Path(__file__).resolve().parents[1] / "derivations" / "pt_seeker" / "guarantees.json"
+
+
+@dataclass(frozen=True)
+class Row:
+    """One certificate that is asked for; the problem's own ω, μ and start where they are left out."""
+
+    example: str
+    omega: str = ""
+    mu: str = ""
+    radius: str = ""
+    tolerance: float = 0.12
+
+    @property
+    def command(self) -> str:
+        """What repeats it."""
+        options = {"seeker": "pt" if self.example == "saturated" else "", "omega": self.omega, "mu": self.mu}
+        options |= {"radius": self.radius, "tolerance": "" if self.tolerance == 0.12 else str(self.tolerance)}
+        return f"ptproof certify {self.example}" + "".join(
+            f" --{key} {value}" for key, value in options.items() if value
+        )
+
+    def found(self) -> dict[str, Any]:
+        """The certificate, or why there is none."""
+        problem, begin = example(self.example), time.process_time()
+        given = {name: sp.Rational(text) for name, text in (("omega", self.omega), ("mu", self.mu)) if text}
+        radius = sp.sympify(sp.Rational(self.radius)) if self.radius else None
+        certificate = certify_loop(
+            replace(problem, tuning=replace(problem.tuning, **given)), radius, tolerance=self.tolerance
+        )
+        data = certificate.to_json()
+        kept = ("verdict", "omega", "mu", "start_radius", "final", "hover", "detail")
+        seconds = round(time.process_time() - begin, 1)
+        return {"command": self.command, **{name: data[name] for name in kept}, "seconds": seconds}
+
+
+ROWS = (
+    Row("saturated", tolerance=0.5),
+    Row("saturated", omega="300", tolerance=0.5),
+    Row("vanishing", omega="300", mu="1/9900", radius="1", tolerance=0.5),
+    Row("vanishing", omega="3000", mu="1/99000", tolerance=0.5),
+    Row("vanishing", omega="3000", mu="1/99000"),
+    Row("vanishing", omega="300", mu="1/9900"),
+    Row("vanishing", omega="100", mu="1/3300"),
+    Row("vanishing", tolerance=0.5),
+    Row("vanishing", radius="1", tolerance=0.5),
+    Row("nonvanishing", omega="3000", mu="1/99000", tolerance=0.5),
+    Row("nonvanishing", omega="3000", mu="1/99000"),
+    Row("nonvanishing", tolerance=0.5),
+)
+
+
+def main(chosen: list[int]) -> None:
+    """Ask for the rows, and keep each as soon as it is found."""
+    for number in chosen or range(len(ROWS)):
+        row = ROWS[number]
+        found = row.found()
+        print(f"{row.command}: {found['verdict']}, final {found['final']}, {found['seconds']} s", flush=True)
+        rows = {item["command"]: item for item in json.loads(FILE.read_text("utf-8"))["rows"]} if FILE.exists() else {}
+        rows[row.command] = found
+        ordered = [rows[item.command] for item in ROWS if item.command in rows]
+        FILE.write_text(
+            json.dumps({"command": "python -m benchmarks.guarantees", "rows": ordered}, indent=1) + "\n", "utf-8"
+        )
+
+
+if __name__ == "__main__":
+    main([int(argument) for argument in sys.argv[1:]])
