@@ -36,7 +36,7 @@ def run(
     own = dict(zip(problem.variables, problem.initial.x, strict=True))
     own |= {letters.heading: problem.initial.theta, letters.filter: problem.measured}
     own |= {letters.angular_velocity: problem.initial.u2}
-    starts = [eq(state, own[state]) for state in loop.state]
+    starts = tuple(eq(state, own[state]) for state in loop.state)
     return Runs(loop.time, loop.state, loop.rhs, (problem.tuning.t0, end), starts, tuple(parts), during or (end, end))
 
 

@@ -112,7 +112,7 @@ def _run(said: Runs, rates: Any, start: Any, tolerance: float) -> Any:
 
 
 def _failure(said: Runs, start: Any, first: Any, second: Any) -> Failure | None:
-    instants = np.linspace(*map(float, said.during), first.shape[1])
+    instants = np.linspace(float(said.during[0]), float(said.during[1]), first.shape[1])
     for part in said.parts:
         sides = sp.lambdify(said.letters, [part.left, part.right], modules="numpy")
         values = []

@@ -39,16 +39,19 @@ def changed_statements(claim: Claim) -> Iterator[Candidate]:
 def _runs(claim: Claim, statement: Runs) -> Iterator[Candidate]:
     """Changes of what is said of runs; those of starts and of rates, which mean new runs, are one kind each."""
 
-    def whole(name: str) -> Callable[[tuple[Relation, ...]], Claim]:
-        return lambda parts: replace(claim, statement=replace(statement, **{name: parts}))
+    def said(parts: tuple[Relation, ...]) -> Claim:
+        return replace(claim, statement=replace(statement, parts=parts))
+
+    def starting(starts: tuple[Relation, ...]) -> Claim:
+        return replace(claim, statement=replace(statement, starts=starts))
 
     def moving(rates: tuple[Relation, ...]) -> Claim:
         return replace(claim, statement=replace(statement, rates=tuple(rate.right for rate in rates)))
 
     letters = statement.letters
-    yield from _of_parts(statement.parts, whole("parts"), letters)
+    yield from _of_parts(statement.parts, said, letters)
     rates = tuple(Relation(x, "=", rate) for x, rate in zip(statement.state, statement.rates, strict=True))
-    for name, rows, put in (("start", statement.starts, whole("starts")), ("rate", rates, moving)):
+    for name, rows, put in (("start", statement.starts, starting), ("rate", rates, moving)):
         for item in _of_parts(rows, put, letters):
             yield replace(item, kind=name, row=(name,), words=partial(_of, name, item.words))
 
