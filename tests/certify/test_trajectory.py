@@ -1,6 +1,7 @@
 """Enclosed runs against exact solutions, independent integrators and saboteurs; what can't be enclosed is not."""
 
 import dataclasses
+import math
 
 import flint
 import numpy as np
@@ -45,6 +46,7 @@ EXACT = {
     ),
     "a kink": ((sp.Max(y, 0) - 1, sp.Integer(1)), (0, -1), (0, 2), (-R(3, 2), 1)),
     "a kink at the start": ((sp.Abs(y), sp.Integer(1)), (0, 0), (0, 2), (2, 2)),
+    "a saturation": ((sp.Min(1, sp.Max(-1, 3 * sp.cos(y))), sp.Integer(1)), (0, 0), (0, 6 * sp.pi), (0, 6 * sp.pi)),
     "both sides of a kink": ((-sp.Min(x, y), sp.Integer(0)), (2, 1), (0, 2), (sp.exp(-1), 1)),
 }  # fmt: skip
 
@@ -66,6 +68,19 @@ def test_another_value_is_not_enclosed(name):
     run = enclose(system, initial=wrong, span=span, width="1e-8", seconds=600)
     moved = name != "stiff"  # where the start is forgotten
     assert within(run, "x", exact[0]) is not moved
+
+
+def test_each_switch_of_a_saturation_is_enclosed():
+    rates, initial, span, _ = EXACT["a saturation"]
+    run = enclose(System(t, (x, y), rates), initial=initial, span=span, width="1e-8", seconds=600)
+    instants = sorted(
+        float(turn * 2 * sp.pi + sign * sp.acos(level)) % (6 * math.pi)
+        for turn in (0, 1, 2) for sign in (1, -1) for level in (R(1, 3), -R(1, 3))
+    )  # fmt: skip
+    assert len(run.switches) == len(instants)
+    for switch, instant in zip(run.switches, instants, strict=True):
+        assert float(switch.start) <= instant + 1e-14
+        assert instant - 1e-14 <= float(switch.end) <= float(switch.start) + 1e-8
 
 
 def test_lorenz_at_the_value_of_an_independent_run():
