@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from functools import lru_cache
 
 import sympy as sp
@@ -51,12 +52,12 @@ def certified(goal: Goal, problem: Problem, *, tolerance: float = 0.12) -> Evide
         radius = _radius(said, problem)
         limits = [_limit(said, part, problem) for part in said.parts]
         found = _certificate(problem, radius, tolerance)
+        bound = _bound(said, found) if found.verdict is Verdict.PROVED else math.inf
     except (InputError, Undefined) as error:
         return _undecided(str(error))
     if found.verdict is not Verdict.PROVED:
         return _undecided(found.detail)
     with precision(96):
-        bound = _bound(said, found)
         for limit, part in zip(limits, said.parts, strict=True):
             square, asked = arb(bound) ** 2, ball_from(limit)
             if not (square < asked or (part.sign == "<=" and square <= asked)):

@@ -31,7 +31,7 @@ _CAREFUL = (
 )
 _SHORTEST = 1e-13  # of the length of the run
 # A step across a kink is of first order: many short ones add less to the errors than a long one.
-_PARTS, _GROWING, _RETREAT = 16, 1.2, 1e-12
+_PARTS, _GROWING, _RETREAT = 4, 1.4, 1e-12
 
 
 class Stopped(Exception):
