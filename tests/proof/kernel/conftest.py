@@ -5,14 +5,55 @@ from __future__ import annotations
 import os
 import pickle
 import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
 
-from ptproof.proof.kernel import Confirmation, check
+from ptproof.proof.kernel import Confirmation, check, coq, missing
 from ptproof.proof.kernel.check import Effort
 
-_PATIENCE = 240  # seconds: for a worker that died while it asked
+_PATIENCE = 240  # seconds: for a worker that died while it made what others wait for
+
+
+def _once(factory: pytest.TempPathFactory, name: str, make: Callable[[Path], Any]) -> Any:
+    """What ``make(folder)`` gives, made by one of pytest's workers for all of them."""
+    base = factory.getbasetemp()
+    if "PYTEST_XDIST_WORKER" in os.environ:
+        base = base.parent
+    folder, found = base / f"{name}.folder", base / f"{name}.made"
+    try:
+        folder.mkdir()
+    except FileExistsError:
+        for _ in range(_PATIENCE):
+            if found.exists():
+                return pickle.loads(found.read_bytes())
+            time.sleep(1)
+        folder = factory.mktemp(name)
+    made = make(folder)
+    draft = base / f"{name}.{os.getpid()}"
+    draft.write_bytes(pickle.dumps(made))
+    draft.replace(found)
+    return made
+
+
+@pytest.fixture(scope="session", autouse=True)
+def library(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """The library of tactics, compiled once for all workers: Coq takes twenty seconds for it."""
+    if missing():
+        yield
+        return
+    place = _once(tmp_path_factory, "library", _compiled)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(coq, "_compiled", lambda: SimpleNamespace(name=place))
+        yield
+
+
+def _compiled(folder: Path) -> str:
+    coq.prepare(folder)
+    return str(folder)
 
 
 @pytest.fixture(scope="module")
@@ -21,24 +62,9 @@ def answers(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFac
 
     Coq is asked once, however many of pytest's workers share the module's tests.
     """
-    folder = tmp_path_factory.getbasetemp()
-    if "PYTEST_XDIST_WORKER" in os.environ:
-        folder = folder.parent
     name = request.module.__name__.rpartition(".")[2]
-    place, found = folder / f"{name}.asked", folder / f"{name}.answers"
-    try:
-        place.mkdir()
-    except FileExistsError:
-        for _ in range(_PATIENCE):
-            if found.exists():
-                answers: dict[str, Confirmation] = pickle.loads(found.read_bytes())
-                return answers
-            time.sleep(1)
-    asked = _asked(request.module)
-    draft = place / "draft"
-    draft.write_bytes(pickle.dumps(asked))
-    draft.replace(found)
-    return asked
+    answers: dict[str, Confirmation] = _once(tmp_path_factory, name, lambda folder: _asked(request.module))
+    return answers
 
 
 def _asked(module: Any) -> dict[str, Confirmation]:
