@@ -13,7 +13,7 @@ from typing import Any
 
 import pytest
 
-from ptproof.proof.kernel import Confirmation, check, coq, missing
+from ptproof.proof.kernel import Confirmation, check, coq
 from ptproof.proof.kernel.check import Effort
 
 _PATIENCE = 240  # seconds: for a worker that died while it made what others wait for
@@ -40,12 +40,9 @@ def _once(factory: pytest.TempPathFactory, name: str, make: Callable[[Path], Any
     return made
 
 
-@pytest.fixture(scope="session", autouse=True)
+@pytest.fixture(scope="session")
 def library(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
     """The library of tactics, compiled once for all workers: Coq takes twenty seconds for it."""
-    if missing():
-        yield
-        return
     place = _once(tmp_path_factory, "library", _compiled)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(coq, "_compiled", lambda: SimpleNamespace(name=place))
@@ -58,7 +55,9 @@ def _compiled(folder: Path) -> str:
 
 
 @pytest.fixture(scope="module")
-def answers(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> dict[str, Confirmation]:
+def answers(
+    request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory, library: None
+) -> dict[str, Confirmation]:
     """Of the module's ``TRUE`` and ``NOT_CONFIRMED`` with its ``EFFORT``; the latter have three seconds each.
 
     Coq is asked once, however many of pytest's workers share the module's tests.
