@@ -10,7 +10,7 @@ import sympy as sp
 
 from ptproof.averaging.brackets import SparseField, Vector, sparse_bracket, tidy
 from ptproof.averaging.coefficients import Coefficients, v_matrix
-from ptproof.averaging.refusal import AveragingRefused
+from ptproof.averaging.form import check_form
 from ptproof.system import DitherSystem, System
 
 Pair = tuple[int, int]
@@ -90,26 +90,3 @@ def derive(system: DitherSystem) -> Derived:
     rhs = tuple(map(operator.add, system.drift, added))
     averaged = System(system.time, system.state, rhs, name=f"average of {system.name}")
     return Derived(system, averaged, v, brackets)
-
-
-def parts(system: DitherSystem) -> list[tuple[str, Vector]]:
-    """The drift and the fields, with what people call them."""
-    return [("drift", system.drift), *((f"field {i}", entries) for i, entries in enumerate(system.fields, start=1))]
-
-
-def check_form(system: DitherSystem) -> None:
-    """Refuse what is not of the form drift + √ω Σ field · dither with the frequency in √ω and the phase only."""
-    dithers = [(f"dither {i}", (entry,)) for i, entry in enumerate(system.dithers, start=1)]
-    for place, entries in [*parts(system), *dithers]:
-        free = set().union(*(entry.free_symbols for entry in entries))
-        if system.omega in free:
-            raise AveragingRefused(
-                "form",
-                place,
-                f"it contains the frequency {system.omega}; the theorem is for the amplitude "
-                f"sqrt({system.omega}) exactly, with fields, drift and signals that do not depend on it",
-            )
-        if place == "drift" and system.phase in free:
-            raise AveragingRefused(
-                "form", place, f"it depends on the phase {system.phase}; the theorem's drift b0 varies slowly only"
-            )

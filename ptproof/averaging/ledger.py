@@ -10,12 +10,12 @@ from typing import Any
 
 import sympy as sp
 
-from ptproof.averaging.average import check_form, parts
 from ptproof.averaging.boundary import boundary_layer_stability
 from ptproof.averaging.bounded import bounded_in_time
 from ptproof.averaging.brackets import Vector
 from ptproof.averaging.coefficients import signals
 from ptproof.averaging.fast import quasi_steady_state
+from ptproof.averaging.form import check_form, parts
 from ptproof.averaging.problem import DitherProblem, FastStates
 from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided
 from ptproof.errors import InputError
