@@ -11,6 +11,8 @@ import sympy as sp
 from ptproof.averaging.brackets import SparseField, Vector, sparse_bracket, tidy
 from ptproof.averaging.coefficients import Coefficients, v_matrix
 from ptproof.averaging.form import check_form
+from ptproof.averaging.powers import PoweredSystem
+from ptproof.averaging.second import derive_powered
 from ptproof.system import DitherSystem, System
 
 Pair = tuple[int, int]
@@ -29,8 +31,11 @@ class Derived:
         return self.system._repr_latex_()
 
 
-def average(system: DitherSystem) -> System:
+def average(system: DitherSystem | PoweredSystem) -> System:
     """The Lie bracket system dx/dτ = b₀ + Σ_{i<j} [b_i, b_j] v_ji, in readable form.
+
+    Of a :class:`~ptproof.averaging.powers.PoweredSystem` it is the one of second order
+    (:func:`~ptproof.averaging.second.derive_powered`).
 
     Parameters
     ----------
@@ -59,7 +64,7 @@ def average(system: DitherSystem) -> System:
     >>> average(seeker).rhs
     (Derivative(F(x), x)/2,)
     """
-    return derive(system).system
+    return derive_powered(system).system if isinstance(system, PoweredSystem) else derive(system).system
 
 
 def derive(system: DitherSystem) -> Derived:
