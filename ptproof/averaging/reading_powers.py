@@ -53,8 +53,12 @@ def with_order(
         return problem
     if problem.fast is not None:
         raise InputError("system.fast: fast states are for dithers of the power 1/2 and for order = 1")
+    try:
+        powered = PoweredSystem(problem.system, tuple(powers), conditions)
+    except InputError as error:
+        raise InputError(f"system.dither: {str(error).removeprefix(f'{problem.system.name}: ')}") from None
     return PoweredProblem(
-        PoweredSystem(problem.system, tuple(powers), conditions),
+        powered,
         order,
         problem.functions,
         dict(problem.region),

@@ -106,7 +106,7 @@ def derive_powered(system: PoweredSystem, order: int = 2) -> PoweredAverage:
 def check_powered_form(system: PoweredSystem) -> None:
     """As :func:`ptproof.averaging.form.check_form`; a dither depends on the phase alone."""
     plain = system.plain
-    check_form(plain, "amplitudes that are a power of omega")
+    check_form(plain, "the amplitude omega^power")
     for i, dither in enumerate(plain.dithers, start=1):
         if plain.time in dither.free_symbols:
             reason = f"it depends on the time {plain.time}; put that into its field"
