@@ -22,7 +22,7 @@ from ptproof.averaging.signal import Signal
 from ptproof.proof.statement import Relation
 
 Word = tuple[int, ...]
-_LONGEST = 12
+_LONGEST = 10
 _MOST = 1000
 
 
