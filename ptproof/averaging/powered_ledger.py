@@ -21,12 +21,15 @@ from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided
 from ptproof.averaging.second import PoweredAverage, check_powered_form, derive_powered
 from ptproof.proof.claim import Goal
 from ptproof.proof.engines.exact import exact
+from ptproof.proof.kinks import KINKS
 from ptproof.proof.settling import settle
 from ptproof.proof.signs import vanishes
 from ptproof.proof.statement import Relation
 from ptproof.proof.verdict import Evidence, Verdict
 
+CONDITIONS = ("2.1", "2.2", "2.3")
 _LIMIT = "limit"
+_ORDERS = (3, 4, 6, 10, 20, 50, 100, 1000)
 
 
 def examine_powered(problem: PoweredProblem) -> tuple[Ledger, PoweredAverage | None]:
@@ -35,6 +38,7 @@ def examine_powered(problem: PoweredProblem) -> tuple[Ledger, PoweredAverage | N
     ``form``; ``1.1`` smooth fields; ``1.2`` bounded dithers; ``1.3`` period and mean; ``2.1``, ``2.2``, ``2.3`` the
     conditions on two, three and four fields; ``bounded``, where fields depend on time; and ``limit``: that the average
     is the limit for all allowed powers, which is shown from the system itself and does not rest on ``2.1`` to ``2.3``.
+    Where one of these is not shown, it needs more derivatives, and ``smooth`` says whether the fields have them.
     """
     plain = problem.plain
     entries = {
@@ -59,7 +63,28 @@ def examine_powered(problem: PoweredProblem) -> tuple[Ledger, PoweredAverage | N
         entries["2.1"] = judged(_pairs, problem, found)
         entries["2.2"] = judged(_triples, problem, found)
         entries["2.3"] = judged(_quadruples, problem)
+        if any(entries[letter].verdict is not Verdict.PROVED for letter in CONDITIONS):
+            entries["smooth"] = judged(_smooth_enough, problem)
     return Ledger({**entries, _LIMIT: limit}, None), found
+
+
+def _smooth_enough(problem: PoweredProblem) -> Evidence:
+    """Whether the fields are C^N with N/(N + 1) above all powers, which the limit needs: that many words count at most.
+
+    Where powers come as near to 1 as one likes, no N serves all of them; without kinks what is C^1000 here is smooth.
+    """
+    system = problem.system
+
+    def enough(order: int) -> bool:
+        bound = sp.Rational(order, order + 1)
+        return all(system.exponents.always(Relation(power, "<", bound)) for power in system.powers)
+
+    order = next(filter(enough, _ORDERS), None)
+    if order is not None:
+        return smooth_fields(problem.plain, order)
+    if any(entry.has(*KINKS) for entry in _entries(problem)):
+        return Evidence("smoothness", Verdict.UNDECIDED, "powers may be near to 1, and whether fields are smooth is open")
+    return smooth_fields(problem.plain, _ORDERS[-1])
 
 
 def _for(problem: PoweredProblem) -> str:

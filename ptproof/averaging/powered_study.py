@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import sympy as sp
+
 from ptproof.averaging.answer import Average, compare
-from ptproof.averaging.powered_ledger import examine_powered
+from ptproof.averaging.attack import attack_powered
+from ptproof.averaging.powered_ledger import CONDITIONS, examine_powered
 from ptproof.averaging.powers import PoweredProblem
+from ptproof.averaging.second import PoweredAverage
 from ptproof.proof.verdict import Evidence, Verdict
 
 
@@ -15,10 +19,18 @@ def study_powered(problem: PoweredProblem) -> Average:
     shown all the same, the average is that limit.
     """
     ledger, found = examine_powered(problem)
-    broken = [letter for letter in ledger.with_verdict(Verdict.REFUTED) if letter not in ("2.1", "2.2", "2.3")]
+    broken = [letter for letter in ledger.with_verdict(Verdict.REFUTED) if letter not in CONDITIONS]
     if found is None or broken:
         reason = "there is no average to compare with"
         expected = None if problem.expected is None else Evidence("average", Verdict.UNDECIDED, reason)
         return Average(problem, None, {} if found is None else found.v, {}, ledger, expected)
-    expected = None if problem.expected is None else compare(found.system, problem.expected, problem.plain.domain)
+    attack_powered(found, points=2)
+    domain = problem.plain.domain
+    if any(power.free_symbols & _free(problem, found) for power in problem.system.powers):
+        domain = (*domain, *problem.system.exponents.relations)
+    expected = None if problem.expected is None else compare(found.system, problem.expected, domain)
     return Average(problem, found.system, found.v, found.brackets, ledger, expected, powered=found)
+
+
+def _free(problem: PoweredProblem, found: PoweredAverage) -> set[sp.Symbol]:
+    return set().union(*(entry.free_symbols for entry in (*found.system.rhs, *(problem.expected or ()))))

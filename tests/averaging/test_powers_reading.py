@@ -210,8 +210,11 @@ def test_without_the_sign_they_are_not(declared: str) -> None:
     text = SIGNED.replace('{ of = ["x"], sign = "positive" }', declared)
     text = text.replace("FIRST", "sin(log(J(x)))/sqrt(J(x))").replace("SECOND", "cos(log(J(x)))/sqrt(J(x))")
     found = study(read_dither_system(text))
-    assert found.system is None
-    assert found.refusals[0].startswith("A: field 1, entry 1: not C^2")
+    assert found.ledger.entries["A"].verdict is not Verdict.PROVED
+    assert found.refusals or found.caveats
+    if "nonzero" not in declared:
+        assert found.system is None
+        assert found.refusals[0].startswith("A: field 1, entry 1: not C^2")
 
 
 def test_the_wrong_half_of_a_signed_average_is_refuted() -> None:
