@@ -9,13 +9,14 @@ from typing import Any
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from ptproof.averaging.average import Pair
 from ptproof.averaging.brackets import Vector
 from ptproof.averaging.coefficients import Coefficients
 from ptproof.averaging.ledger import Ledger
 from ptproof.averaging.orders import Orders
 from ptproof.averaging.powers import PoweredProblem
 from ptproof.averaging.problem import DitherProblem
-from ptproof.averaging.second import PoweredAverage
+from ptproof.averaging.second import Letters, PoweredAverage
 from ptproof.proof.claim import Goal
 from ptproof.proof.engines.exact import exact
 from ptproof.proof.settling import settle
@@ -54,7 +55,7 @@ class Average:
     problem: DitherProblem | PoweredProblem
     system: System | None
     v: Coefficients
-    brackets: Mapping[tuple[int, ...], Vector]
+    brackets: Mapping[Pair, Vector] | Mapping[Letters, Vector]
     ledger: Ledger
     expected: Evidence | None = None
     orders: Orders | None = None

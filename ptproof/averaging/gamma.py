@@ -35,9 +35,11 @@ class Gamma:
         """What the limit rests on, in words."""
         if self.mean == 0:
             return "it vanishes for every omega"
-        return {(-1,): f"{self.exponent} < 0", (0,): "it does not depend on omega"}.get(
-            tuple(sorted(self.signs)), f"it tends to 0 where {self.exponent} < 0 only"
-        )
+        if self.signs.keys() == {-1}:
+            return f"{self.exponent} < 0"
+        if self.signs.keys() == {0}:
+            return "it does not depend on omega"
+        return f"it tends to 0 where {self.exponent} < 0 only"
 
     def to_json(self, omega: sp.Symbol) -> dict[str, Any]:
         limit = self.limit

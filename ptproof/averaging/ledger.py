@@ -172,7 +172,9 @@ def smooth_fields(problem: DitherProblem, order: int = 2) -> Evidence:
         if evidence.witness is not None:
             evidence = replace(evidence, detail=evidence.detail + _dilation_hint(problem, entry, evidence.witness))
         found.append((place, evidence))
-    return _worst(found, "smoothness", f"{_TIMES.get(order, f'{order} times')} continuously differentiable" + _where(problem))
+    return _worst(
+        found, "smoothness", f"{_TIMES.get(order, f'{order} times')} continuously differentiable" + _where(problem)
+    )
 
 
 def _dilation_hint(problem: DitherProblem, entry: sp.Expr, witness: Witness) -> str:

@@ -83,7 +83,9 @@ def _smooth_enough(problem: PoweredProblem) -> Evidence:
     if order is not None:
         return smooth_fields(problem.plain, order)
     if any(entry.has(*KINKS) for entry in _entries(problem)):
-        return Evidence("smoothness", Verdict.UNDECIDED, "powers may be near to 1, and whether fields are smooth is open")
+        return Evidence(
+            "smoothness", Verdict.UNDECIDED, "powers may be near to 1, and whether fields are smooth is open"
+        )
     return smooth_fields(problem.plain, _ORDERS[-1])
 
 
@@ -144,7 +146,9 @@ def _brackets(problem: PoweredProblem, found: PoweredAverage, length: int) -> Ev
     sums = f"powers of {length} dithers add up to more than {length - 1}"
     if not count:
         return Evidence("brackets", Verdict.PROVED, f"no {sums}")
-    return Evidence("brackets", Verdict.PROVED, f"where {sums} ({_cases(count)}), the coefficient or the bracket vanishes")
+    return Evidence(
+        "brackets", Verdict.PROVED, f"where {sums} ({_cases(count)}), the coefficient or the bracket vanishes"
+    )
 
 
 def _nested(fields: list[SparseField], letters: tuple[int, ...]) -> Vector:

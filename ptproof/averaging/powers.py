@@ -1,4 +1,4 @@
-"""Dithered systems whose amplitudes are powers of the frequency of their own, and whose dithers have several frequencies."""
+"""Dithered systems whose amplitudes are powers of the frequency, each its own, and dithers of several frequencies."""
 
 from __future__ import annotations
 
@@ -139,7 +139,7 @@ class PoweredProblem:
 
     @property
     def plain(self) -> DitherProblem:
-        """The same about the system in which each power is 1/2: what it says of fields, dithers and times holds here."""
+        """The same about the system in which each power is 1/2: what it says of fields and dithers holds here."""
         return DitherProblem(
             self.system.plain, None, self.functions, self.region, self.start, self.bounded, self.expected
         )

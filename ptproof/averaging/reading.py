@@ -62,16 +62,19 @@ def load_dither_system(path: str | Path) -> DitherProblem | PoweredProblem:
 
     The table ``[system]`` has ``state``, ``drift``, ``period`` and one ``[[system.dither]]`` (``field``,
     ``signal``) per dither, and may have ``parameters`` (positive), ``functions`` (unknown smooth functions with
-    their arguments, ``F = ["x"]``, or with a sign too, ``J = { of = ["x"], sign = "positive" }``), ``bounded`` (those functions of ``tau`` that are assumed bounded in it, with their
-    derivatives), ``start`` (the earliest τ asked about, 0 if left out), ``name`` and ``[system.fast]``
-    (``state``, ``rate``, and ``quasi_steady_state`` where the author knows it). With fast states there may be
-    ``mu_omega``, the product μω where it is held fixed: a positive number, or a name for one. A dither may have a
-    ``frequency`` (rational; its signal is taken at that many times the phase) and a ``power`` of ω ("1/2" if left out;
-    linear in parameters), the system ``conditions`` on the powers' parameters (``["1/2 < p"]``) and an ``order``, 1 or
-    2: with 2, or with other powers, the problem is a :class:`PoweredProblem`. ``[region]`` gives the
-    interval of a state (``x1 = ["-1", "1"]``), ``[expected]`` the ``average`` that the author claims. In expressions
-    ``tau`` is the slow time, ``theta`` the phase ωτ and ``omega`` the frequency. An example stands at
-    :func:`read_dither_system`, which reads the same from text.
+    their arguments, ``F = ["x"]``, or with a sign too, ``J = { of = ["x"], sign = "positive" }``), ``bounded`` (those
+    functions of ``tau`` that are assumed bounded in it, with their derivatives), ``start`` (the earliest τ asked
+    about, 0 if left out), ``name`` and ``[system.fast]`` (``state``, ``rate``, and ``quasi_steady_state`` where the
+    author knows it). With fast states there may be ``mu_omega``, the product μω where it is held fixed: a positive
+    number, or a name for one.
+
+    A dither may have a ``frequency`` (rational; its signal is taken at that many times the phase) and a ``power`` of ω
+    (1/2 if left out; linear in parameters), the system ``conditions`` on the powers' parameters (``["1/2 < p < 1"]``)
+    and an ``order``, 1 or 2. With 2, or with other powers, the problem is a :class:`PoweredProblem`.
+
+    ``[region]`` gives the interval of a state (``x1 = ["-1", "1"]``), ``[expected]`` the ``average`` that the author
+    claims. In expressions ``tau`` is the slow time, ``theta`` the phase ωτ and ``omega`` the frequency. An example
+    stands at :func:`read_dither_system`, which reads the same from text.
 
     Raises
     ------

@@ -16,8 +16,8 @@ from ptproof.averaging.gamma import Gamma
 from ptproof.averaging.means import triple_means
 from ptproof.averaging.powers import PoweredSystem
 from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided
-from ptproof.averaging.wordwise import long_words
 from ptproof.averaging.words import Word, Words, frequencies_of, letters_of, word_of
+from ptproof.averaging.wordwise import long_words
 from ptproof.proof.claim import Goal
 from ptproof.proof.engines.exact import exact
 from ptproof.proof.settling import settle
@@ -150,7 +150,7 @@ class _Derivation:
 
     def gammas(self) -> dict[Letters, Gamma]:
         """All γ_ij and γ_ijm with i < j."""
-        result = {}
+        result: dict[Letters, Gamma] = {}
         for i, j in itertools.combinations(range(1, self.count + 1), 2):
             result[i, j] = self._gamma((i, j), self.v[j, i])
             for m in range(1, self.count + 1):
@@ -256,8 +256,8 @@ class _Derivation:
             "limit",
             str(group),
             f"the average has {power} times brackets that do not vanish ({where}), which is left for "
-            f"{told(group.signs[0])} and tends to 0 for {told(group.signs[-1])}; add the condition {group.exponent} < 0, "
-            "or = 0",
+            f"{told(group.signs[0])} and tends to 0 for {told(group.signs[-1])}; add the condition "
+            f"{group.exponent} < 0, or = 0",
         )
 
     def _not_zero(self, total: Vector) -> str | None:

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-import sympy as sp
-
 from ptproof.averaging.answer import Average, compare
 from ptproof.averaging.attack import unshaken
 from ptproof.averaging.average import derive
@@ -22,9 +20,7 @@ from ptproof.proof.verdict import Evidence, Verdict
 from ptproof.system import DitherSystem
 
 
-def study(
-    problem: DitherProblem | DitherSystem | PoweredProblem | PoweredSystem, order: int | None = None
-) -> Average:
+def study(problem: DitherProblem | DitherSystem | PoweredProblem | PoweredSystem, order: int | None = None) -> Average:
     """Average a dither system and say which hypotheses of the theorem hold (thm:SPLBave, ass:singular_ass).
 
     Parameters
@@ -44,6 +40,7 @@ def study(
 
     Examples
     --------
+    >>> import sympy as sp
     >>> tau, theta, x = sp.symbols("tau theta x", real=True)
     >>> omega, F = sp.Symbol("omega", positive=True), sp.Function("F", real=True)(x)
     >>> seeker = DitherSystem(tau, theta, omega, (x,), (0,), ((1,), (F,)), (sp.cos(theta), sp.sin(theta)))

@@ -1,4 +1,4 @@
-"""Which brackets may count as ω → ∞: the words of dithers whose power of ω is not negative and whose frequencies resonate.
+"""Which brackets may count as ω → ∞: words of dithers that resonate and whose power of ω is not negative.
 
 A bracket of n fields, of which n_i are f_i, comes with ω^E, E = Σ n_i p_i − (n − 1) = 1 − Σ n_i (1 − p_i). Since each
 p_i is less than 1, E falls with every field that is added, also with the drift. The coefficient of a word is a mean of

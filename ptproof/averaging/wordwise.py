@@ -29,9 +29,7 @@ def long_words(system: DitherSystem, words: Sequence[Word]) -> dict[Word, Vector
         used = sorted({letter - 1 for letter in letters_of(word)})
         marks = [sp.Symbol(f"lambda_{letter}_", real=True) for letter in used]
         rates = tuple(
-            sp.Add(
-                *(mark * system.fields[i][row] * system.dithers[i] for mark, i in zip(marks, used, strict=True))
-            )
+            sp.Add(*(mark * system.fields[i][row] * system.dithers[i] for mark, i in zip(marks, used, strict=True)))
             for row in range(len(system.state))
         )
         length = sum(word)

@@ -44,7 +44,7 @@ def _from_zero(terms: Sums) -> Sums:
 
 
 def iterated(dithers: list[Sums], period: sp.Expr) -> sp.Expr:
-    """∫₀^P u_1(s_1) ∫₀^{s_1} u_2(s_2) … for the dithers u_1, u_2, …; each frequency has a whole number of turns in P."""
+    """∫₀^P u_1(s_1) ∫₀^{s_1} u_2(s_2) … for dithers that make whole numbers of turns in P."""
     inner: Sums = {(0, sp.S.Zero): sp.S.One}
     for dither in reversed(dithers):
         inner = _from_zero(_product(dither, inner))

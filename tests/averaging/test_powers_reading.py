@@ -1,4 +1,4 @@
-"""Powers, frequencies, order, conditions and signs of functions from TOML, and what ``ptproof average`` says of them."""
+"""Powers, frequencies, order and signs of functions from TOML, and what ``ptproof average`` says of them."""
 
 import json
 from pathlib import Path
@@ -13,7 +13,7 @@ from ptproof.proof.verdict import Verdict
 from tests.averaging.test_command import TEXT as PLAIN
 from tests.averaging.test_command import run
 
-TEXT = """
+TEXT = '''
 [system]
 state      = ["x"]
 parameters = ["p", "q"]
@@ -31,8 +31,9 @@ signal = "cos(theta)"
 power  = "2 - 2*p"
 frequency = "2"
 [expected]
-average = ["-x + (Derivative(F(x),x)*(F(x)*Derivative(G(x),x) - G(x)*Derivative(F(x),x)) - F(x)*(F(x)*Derivative(G(x),x,x) - G(x)*Derivative(F(x),x,x)))/8"]
-"""
+average = ["""-x + (Derivative(F(x),x)*(F(x)*Derivative(G(x),x) - G(x)*Derivative(F(x),x))
+               - F(x)*(F(x)*Derivative(G(x),x,x) - G(x)*Derivative(F(x),x,x)))/8"""]
+'''
 NEWTON = """
 [system]
 state      = ["z1", "z2", "d", "nu"]
@@ -165,12 +166,12 @@ def test_orders_in_the_root_are_for_plain_powers(tmp_path: Path, capsys: pytest.
         ('"2"', '"q"', "system.dither[2].frequency: unknown name 'q'"),
         ("order      = 2", "order      = 3", "system.order: expected 1 or 2, got 3"),
         ("order      = 2", "order      = true", "system.order: expected 1 or 2, got True"),
-        ("order      = 2", 'order = 2\nconditions = ["p"]', 'system.conditions[1]: expected a relation such as "1/2 < p"'),
+        ("order      = 2", 'order = 2\nconditions = ["p"]', "system.conditions[1]: expected a relation such as"),
         ("order      = 2", 'order = 2\nconditions = ["p*q < 1"]', "system.conditions[1]: p*q is not linear"),
         ("order      = 2", 'order = 2\nconditions = ["p < 2"]', "which the conditions allow; add p < 1"),
         ("order      = 2", 'order = 2\nconditions = ["q < 1"]', "is not about parameters of the powers"),
         ("order      = 2", 'order = 2\nconditions = ["p > 1"]', "the power of dither 1 is p, not between 0 and 1"),
-        ("[expected]", '[system.fast]\nstate = ["z"]\nrate = ["F(x) - z"]\n[expected]', "system.fast: fast states are for"),
+        ("[expected]", '[system.fast]\nstate = ["z"]\nrate = ["F(x) - z"]\n[expected]', "system.fast: fast states are"),
         ("{ F = [", '{ F = { sign = "positive" }, K = [', "system.functions.F.of is missing"),
         ('F = ["x"]', 'F = { of = ["x"], sign = "plus" }', "system.functions.F.sign: 'plus' is not one of positive"),
         ('F = ["x"]', 'F = { of = ["x"], sgn = "positive" }', "'sgn' (did you mean 'sign'?)"),
