@@ -30,7 +30,8 @@ def assert_average(
     ----------
     system
         A :class:`~ptproof.system.DitherSystem`; a :class:`~ptproof.averaging.DitherProblem`, which may have fast
-        states; or a :class:`~ptproof.system.System` together with ``omega``.
+        states; a :class:`~ptproof.averaging.PoweredSystem` or a :class:`~ptproof.averaging.PoweredProblem`; or a
+        :class:`~ptproof.system.System` together with ``omega``.
     expected
         The averaged right-hand side: a System in the same states, or n expressions, each SymPy or text. Text may
         use the names of the system's symbols and undefined functions, and ``Derivative(F(x), x)``.
@@ -59,8 +60,15 @@ def assert_average(
     >>> rate = sp.sqrt(omega) * (sp.cos(omega * tau) + k * F * sp.sin(omega * tau))
     >>> assert_average(System(tau, (x,), (rate,)), ["k/2*Derivative(F(x), x)"], omega=omega)
     """
-    from ptproof.averaging import AveragingRefused, AveragingUndecided, split_dithers, study
-    from ptproof.averaging.problem import DitherProblem
+    from ptproof.averaging import (
+        AveragingRefused,
+        AveragingUndecided,
+        DitherProblem,
+        PoweredProblem,
+        PoweredSystem,
+        split_dithers,
+        study,
+    )
 
     if isinstance(assuming, str):
         assuming = (assuming,)
@@ -68,7 +76,9 @@ def assert_average(
 
     def work() -> Any:
         dithered = split_dithers(system, omega) if isinstance(system, System) and omega is not None else system
-        problem = dithered if isinstance(dithered, DitherProblem) else DitherProblem(dithered)
+        if isinstance(dithered, PoweredSystem):
+            dithered = PoweredProblem(dithered)
+        problem = dithered if isinstance(dithered, DitherProblem | PoweredProblem) else DitherProblem(dithered)
         return study(replace(problem, expected=tuple(wanted)))
 
     try:
@@ -128,8 +138,12 @@ def _differs(system: System, wanted: Sequence[sp.Expr], evidence: Any) -> str:
 
 def _plain(system: Any, omega: sp.Symbol | None) -> Any:
     """The object whose time, states and symbols the expected average may use; bad use is refused here."""
-    from ptproof.averaging.problem import DitherProblem
+    from ptproof.averaging import DitherProblem, PoweredProblem, PoweredSystem
 
+    if isinstance(system, PoweredProblem):
+        system = system.system
+    if isinstance(system, PoweredSystem):
+        return system.plain
     if isinstance(system, DitherProblem):
         return system.system
     if isinstance(system, DitherSystem):

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -10,12 +11,16 @@ import sympy as sp
 
 import ptproof
 from ptproof.averaging import AveragingRefused, AveragingUndecided, average_to_order, derive_powered, with_powers
+from ptproof.averaging.attack import attack_powered
 from ptproof.averaging.problem import OMEGA, PHASE, TIME
 from ptproof.averaging.wordwise import long_words
 from ptproof.errors import InputError
+from ptproof.proof.attack import WrongPromise
+from ptproof.proof.signs import vanishes
 from ptproof.proof.statement import Relation
 from ptproof.system import DitherSystem, lie_bracket
 from tests.averaging.flows import displacement, of_cosine, of_sine
+from tests.averaging.test_seekers import SEEKERS as PUBLISHED
 
 x, z1, z2, d, nu = sp.symbols("x z1 z2 d nu", real=True)
 alpha, H, h, w0, wd, p, q = sp.symbols("alpha H h omega_0 omega_d p q", positive=True)
@@ -230,3 +235,33 @@ def test_dithers_with_jumps_at_another_frequency() -> None:
     one, two = (ptproof.average(with_powers(plain, (p, 1 - p), (k, k))).rhs[0] for k in (1, 2))
     assert one != 0
     assert sp.expand(one - 2 * two) == 0
+
+
+def test_the_average_in_the_fixed_frame() -> None:
+    """The gradient seeker as it drives, with fields that turn in time: its average, put into the turning frame."""
+    turn = w0 * TIME
+    ahead = (sp.cos(turn), sp.sin(turn), 0)
+    fields = [tuple((F - nu) * entry for entry in ahead), tuple(alpha * entry for entry in ahead)]
+    plain = system((z1, z2, nu), (0, 0, h * (F - nu)), fields, (s, c))
+    rates = sp.Matrix(ptproof.average(with_powers(plain, (1 - p, p))).rhs[:2])
+    frame = sp.Matrix([[sp.sin(turn), sp.cos(turn)], [-sp.cos(turn), sp.sin(turn)]])
+    there = dict(zip((z1, z2), frame * sp.Matrix([z1, z2]), strict=True))
+    moved = (sp.diff(frame.T, TIME) * sp.Matrix([z1, z2]) + frame.T * rates).subs(there, simultaneous=True)
+    assert [vanishes(a - b) for a, b in zip(moved, SEEKERS[0][1], strict=False)] == [True, True]
+    assert not vanishes(moved[1] + alpha * H / 2 * z2)
+
+
+@pytest.mark.parametrize("published", PUBLISHED[:4], ids=lambda seeker: seeker.name)
+def test_published_averages_of_first_order(published: Any) -> None:
+    """With each power 1/2 the second order has what the first has."""
+    found = ptproof.average(with_powers(published.system, [HALF] * len(published.dithers)))
+    assert all(vanishes(a - b) for a, b in zip(found.rhs, published.average, strict=True))
+    assert not all(vanishes(a + b) for a, b in zip(found.rhs, published.average, strict=True))
+
+
+def test_the_average_is_attacked() -> None:
+    true = derive_powered(newton_seeker())
+    assert attack_powered(true) > 3
+    wrong = [entry * sp.Rational(101, 100) for entry in true.system.rhs]
+    with pytest.raises(WrongPromise):
+        attack_powered(replace(true, system=replace(true.system, rhs=tuple(wrong))))
