@@ -19,6 +19,7 @@ from ptproof.averaging.ledger import Ledger, bounded_fields, judged, period_and_
 from ptproof.averaging.powers import PoweredProblem
 from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided
 from ptproof.averaging.second import PoweredAverage, check_powered_form, derive_powered
+from ptproof.averaging.signal import read_signal
 from ptproof.proof.claim import Goal
 from ptproof.proof.engines.exact import exact
 from ptproof.proof.kinks import KINKS
@@ -110,6 +111,12 @@ def _form(problem: PoweredProblem) -> Evidence:
 
 
 def _bounded_dithers(problem: PoweredProblem) -> Evidence:
+    plain = problem.system.plain
+    for i, dither in enumerate(plain.dithers, start=1):
+        try:
+            read_signal(dither, plain.phase, plain.period, f"dither {i}")
+        except (AveragingRefused, AveragingUndecided) as error:
+            return Evidence("dithers", Verdict.UNDECIDED, str(error))
     detail = "piecewise smooth and periodic, so bounded; a bound beyond 1 counts as part of the field"
     return Evidence("dithers", Verdict.PROVED, detail)
 

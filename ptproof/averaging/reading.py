@@ -130,7 +130,7 @@ def _problem(data: Mapping[str, Any], name: str) -> DitherProblem | PoweredProbl
         fast=FastStates(fast_state, **rates) if fast else None,
         functions=tuple(function(*arguments) for function, arguments in functions.values()),
         bounded=_bounded(system.get("bounded", []), functions),
-        region=_region(data.get("region", {}), {symbol.name: symbol for symbol in (*state, *fast_state)}),
+        region=_region(data.get("region", {}), {symbol.name: symbol for symbol in (*state, *fast_state)}, parameters),
         start=finite(system.get("start", 0), "system.start"),
         expected=vector(data["expected"], "average", "expected") if "expected" in data else None,
         mu_omega=finite_rate,
@@ -217,7 +217,11 @@ def _period(value: Any, parameters: Sequence[sp.Symbol]) -> sp.Expr:
     return period
 
 
-def _region(value: Mapping[str, Any], states: Mapping[str, sp.Symbol]) -> dict[sp.Symbol, tuple[sp.Expr, sp.Expr]]:
+def _region(
+    value: Mapping[str, Any], states: Mapping[str, sp.Symbol], parameters: Sequence[sp.Symbol]
+) -> dict[sp.Symbol, tuple[sp.Expr, sp.Expr]]:
+    for name in value.keys() & {symbol.name for symbol in parameters}:
+        raise InputError(f"region.{name}: a region is of states; what a power may be says system.conditions")
     check_known(value, tuple(states), "state in [region]")
     result = {}
     for name, interval in value.items():

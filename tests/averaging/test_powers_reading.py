@@ -146,6 +146,28 @@ def test_no_limit_no_average(tmp_path: Path, capsys: pytest.CaptureFixture[str])
     assert "grows without bound" in err
 
 
+@pytest.mark.parametrize(
+    ("signal", "verdicts"),
+    [
+        ("cos(theta) + 1", ("proved", "refuted")),
+        ("theta", ("undecided", "refuted")),
+        ("cos(theta/2)", ("undecided", "refuted")),
+        ("tan(theta)", ("undecided", "undecided")),
+    ],
+)
+def test_dithers_that_are_none(signal: str, verdicts: tuple[str, str]) -> None:
+    found = study(read_dither_system(TEXT.replace('signal = "cos(theta)"', f'signal = "{signal}"', 1)))
+    assert found.system is None
+    assert tuple(str(found.ledger.entries[letter].verdict) for letter in ("1.2", "1.3")) == verdicts
+
+
+def test_one_dither_alone_leaves_the_drift() -> None:
+    first = TEXT.split("[[system.dither]]")
+    found = study(read_dither_system("[[system.dither]]".join(first[:2])))
+    assert found.system is not None
+    assert [str(entry) for entry in found.system.rhs] == ["-x"]
+
+
 def test_orders_in_the_root_are_for_plain_powers(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     status, out, err = run(tmp_path, capsys, TEXT, "--order", "2", "--json")
     assert (status, out) == (2, "")
@@ -173,6 +195,7 @@ def test_orders_in_the_root_are_for_plain_powers(tmp_path: Path, capsys: pytest.
         ("order      = 2", 'order = 2\nconditions = ["p > 1"]', "the power of dither 1 is p, not between 0 and 1"),
         ("[expected]", '[system.fast]\nstate = ["z"]\nrate = ["F(x) - z"]\n[expected]', "system.fast: fast states are"),
         ("{ F = [", '{ F = { sign = "positive" }, K = [', "system.functions.F.of is missing"),
+        ("[expected]", '[region]\np = ["1/2", "1"]\n[expected]', "region.p: a region is of states"),
         ('F = ["x"]', 'F = { of = ["x"], sign = "plus" }', "system.functions.F.sign: 'plus' is not one of positive"),
         ('F = ["x"]', 'F = { of = ["x"], sgn = "positive" }', "'sgn' (did you mean 'sign'?)"),
         ('F = ["x"]', 'F = { of = ["y"], sign = "positive" }', "system.functions.F: 'y' is not a state"),
