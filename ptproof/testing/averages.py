@@ -60,15 +60,7 @@ def assert_average(
     >>> rate = sp.sqrt(omega) * (sp.cos(omega * tau) + k * F * sp.sin(omega * tau))
     >>> assert_average(System(tau, (x,), (rate,)), ["k/2*Derivative(F(x), x)"], omega=omega)
     """
-    from ptproof.averaging import (
-        AveragingRefused,
-        AveragingUndecided,
-        DitherProblem,
-        PoweredProblem,
-        PoweredSystem,
-        split_dithers,
-        study,
-    )
+    from ptproof.averaging import AveragingRefused, AveragingUndecided, split_dithers, study
 
     if isinstance(assuming, str):
         assuming = (assuming,)
@@ -76,10 +68,7 @@ def assert_average(
 
     def work() -> Any:
         dithered = split_dithers(system, omega) if isinstance(system, System) and omega is not None else system
-        if isinstance(dithered, PoweredSystem):
-            dithered = PoweredProblem(dithered)
-        problem = dithered if isinstance(dithered, DitherProblem | PoweredProblem) else DitherProblem(dithered)
-        return study(replace(problem, expected=tuple(wanted)))
+        return study(replace(_asked(dithered), expected=tuple(wanted)))
 
     try:
         found = within(seconds, work)
@@ -134,6 +123,15 @@ def _differs(system: System, wanted: Sequence[sp.Expr], evidence: Any) -> str:
     if not refuted:
         rows.append(("tried", f"{evidence.engine}: {evidence.detail}"))
     return lines(f"{title}: {evidence.verdict}", rows)
+
+
+def _asked(system: Any) -> Any:
+    """The problem without a claimed average."""
+    from ptproof.averaging import DitherProblem, PoweredProblem, PoweredSystem
+
+    if isinstance(system, PoweredSystem):
+        return PoweredProblem(system)
+    return system if isinstance(system, DitherProblem | PoweredProblem) else DitherProblem(system)
 
 
 def _plain(system: Any, omega: sp.Symbol | None) -> Any:
