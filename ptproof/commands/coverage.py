@@ -22,8 +22,9 @@ def coverage(paper: str, paths: tuple[str, ...], as_json: bool) -> int:
     Exit status 1 if a label of an equation is not covered, or a claim names a label that the paper does not have.
     """
     from ptproof.errors import InputError
+    from ptproof.reading.latex.source import read_paper
     from ptproof.report.coverage import coverage as match
-    from ptproof.report.labels import all_labels, equation_labels, read_paper
+    from ptproof.report.labels import all_labels, equation_labels
 
     source = read_paper(paper)
     labels = equation_labels(source)
