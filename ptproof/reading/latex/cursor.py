@@ -8,14 +8,16 @@ from ptproof.reading.latex.tokens import NotUnderstood, Token, argument
 
 END = Token("", 0)
 RELATIONS = {
-    "=": "=", "<": "<", ">": ">", r"\lt": "<", r"\gt": ">", r"\le": "<=", r"\leq": "<=", r"\leqslant": "<=", r"\ge": ">=",
-    r"\geq": ">=", r"\geqslant": ">=", r"\ne": "!=", r"\neq": "!=", r"\equiv": "=",
+    "=": "=", "<": "<", ">": ">", r"\lt": "<", r"\gt": ">", r"\le": "<=", r"\leq": "<=", r"\leqslant": "<=",
+    r"\ge": ">=", r"\geq": ">=", r"\geqslant": ">=", r"\ne": "!=", r"\neq": "!=", r"\equiv": "=",
 }  # fmt: skip
 OTHER_RELATIONS = {
-    r"\in": "membership", r"\subset": "sets", r"\subseteq": "sets", r"\approx": "approximation", r"\ll": "“much less”", r"\gg": "“much greater”",
-    r"\rightarrow": "an arrow", r"\to": "an arrow", r"\implies": "an implication", r"\Rightarrow": "an implication", r"\sim": "“as large as”",
-    r"\Leftrightarrow": "an equivalence", r"\iff": "an equivalence", r"\mapsto": "an arrow", r"\pm": "two signs at once", r"\mp": "two signs at once",
-    r"\exists": "“there is”", r"\prec": "an order of matrices", r"\succ": "an order of matrices", ":": "a colon", r"\ldots": "dots", r"\dots": "dots", r"\cdots": "dots",
+    r"\in": "membership", r"\subset": "sets", r"\subseteq": "sets", r"\approx": "approximation",
+    r"\ll": "“much less”", r"\gg": "“much greater”", r"\sim": "“as large as”", r"\exists": "“there is”",
+    r"\rightarrow": "an arrow", r"\to": "an arrow", r"\mapsto": "an arrow", r"\implies": "an implication",
+    r"\Rightarrow": "an implication", r"\Leftrightarrow": "an equivalence", r"\iff": "an equivalence",
+    r"\pm": "two signs at once", r"\mp": "two signs at once", r"\prec": "an order of matrices",
+    r"\succ": "an order of matrices", ":": "a colon", r"\ldots": "dots", r"\dots": "dots", r"\cdots": "dots",
 }  # fmt: skip
 CLOSING = frozenset({")", "]", "}", r"\}", r"\rVert", r"\rvert", r"\at", "&", "\\\\", ",", ";", ".", r"\rangle", ""})
 

@@ -19,9 +19,10 @@ _MARK = re.compile(
 _LABEL = re.compile(r"\\label\s*(?:\[[^\]]*\]\s*)?\{([^{}]*)\}")
 _NO_NUMBER = re.compile(r"\\(nonumber|notag)(?![a-zA-Z])")
 _RELATION = re.compile(r"=|<|>|\\(le|leq|leqslant|ge|geq|geqslant|ne|neq|equiv|ll|gg|approx|lt|gt)(?![a-zA-Z])")
-# A row that begins with a relation goes on with the row before it, and so does one that begins with a sign and has none.
-_RELATION_FIRST = re.compile(r"^[\s&{}]*(?:[=<>]|\\(?:le|leq|ge|geq|ne|neq)(?![a-zA-Z]))")
-_SIGN_FIRST = re.compile(r"^[\s&{}]*(?:[-+/)\]]|\\(?:times|cdot|pm|right)(?![a-zA-Z]))")
+# A row that begins with a relation goes on with the row before it; so does one that begins with a sign and has none.
+_BEFORE = r"^(?:[\s&{}]|\\(?:q?quad(?![a-zA-Z])|[,;:!]|hspace\*?\{[^{}]*\}))*"
+_RELATION_FIRST = re.compile(_BEFORE + r"(?:[=<>]|\\(?:le|leq|ge|geq|ne|neq)(?![a-zA-Z]))")
+_SIGN_FIRST = re.compile(_BEFORE + r"(?:[-+/)\]]|\\(?:times|cdot|pm|right)(?![a-zA-Z]))")
 _UNFINISHED = re.compile(r"(?:[-+=<>(\[]|\\(?:le|leq|ge|geq|times|cdot|implies|pm)(?![a-zA-Z]))[\s&{}]*$")
 _NESTED = re.compile(r"\\(?:begin|end)\s*\{[^{}]*\}|\\\\(?:\*?\[[^\]]*\])?|(?<!\\)[{}]|\\[{}]")
 
@@ -158,7 +159,7 @@ class _Scan:
         end = match.start() if match else len(self.text)
         for other in (
             r"\n[ \t]*\n",
-            r"\\begin\s*\{(?:%s)\*?\}" % "|".join(DISPLAYS),
+            r"\\begin\s*\{{(?:{})\*?\}}".format("|".join(DISPLAYS)),
             r"\\(?:sub)?section\b",
             r"\\end\s*\{document\}",
         ):
@@ -170,16 +171,18 @@ class _Scan:
         return end, match.end(), ""
 
     def foreign(self, position: int, end: int) -> bool:
-        """Whether a second display begins before this one ends: a blank line alone is mended by many authors' editors."""
+        """Whether a second display begins before this one ends; a blank line alone does not break one."""
         return bool(
-            re.search(r"\\(?:begin\s*\{(?:%s)\*?\}|(?:sub)?section\b)" % "|".join(DISPLAYS), self.text[position:end])
+            re.search(
+                r"\\(?:begin\s*\{{(?:{})\*?\}}|(?:sub)?section\b)".format("|".join(DISPLAYS)), self.text[position:end]
+            )
         )
 
     def display(self, name: str, full: str, position: int) -> int:
         if name in ("alignat", "xalignat", "xxalignat", "IEEEeqnarray"):
             given = re.compile(r"\s*\{[^{}]*\}").match(self.text, position)
             position = given.end() if given else position
-        end, after, broken = self.end_of(re.compile(r"\\end\s*\{%s\}" % re.escape(full)), position)
+        end, after, broken = self.end_of(re.compile(rf"\\end\s*\{{{re.escape(full)}\}}"), position)
         for start, text, ended in self.rows(position, end, name in ROWS):
             self.add(start, text, broken if ended else "")
         return after

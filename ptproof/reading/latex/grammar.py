@@ -1,4 +1,4 @@
-"""The grammar of formulas: sums, products, powers, fractions, norms, matrices, derivatives, integrals, sums over an index.
+"""The grammar of formulas: sums, products, powers, fractions, norms, matrices, functions and braces.
 
 Values are SymPy expressions or matrices. Nothing is guessed: what has two readings, or a letter of which the notation
 says nothing, is not read, and the place is named.
@@ -11,30 +11,23 @@ from typing import Any
 
 import sympy as sp
 
+from ptproof.reading.latex.calculus import Calculus
 from ptproof.reading.latex.cursor import CLOSING, OTHER_RELATIONS, RELATIONS, differential
-from ptproof.reading.latex.letters import Letters
-from ptproof.reading.latex.notation import Notation
-from ptproof.reading.latex.rewrite import RATE
-from ptproof.reading.latex.tokens import NotUnderstood, Token
+from ptproof.reading.latex.tokens import Token
 from ptproof.reading.latex.values import add, multiply, negate, norm, power
 
 _DELIMITERS = {"(": ")", "[": "]", r"\{": r"\}", "{": "}"}
 _BARS = {r"\lVert": r"\rVert", r"\lvert": r"\rvert", "|": "|", r"\|": r"\|"}
 _FUNCTIONS: dict[str, Callable[..., sp.Expr]] = {
-    r"\sin": sp.sin, r"\cos": sp.cos, r"\tan": sp.tan, r"\exp": sp.exp, r"\ln": sp.log, r"\log": sp.log, r"\sinh": sp.sinh,
-    r"\cosh": sp.cosh, r"\tanh": sp.tanh, r"\arctan": sp.atan, r"\min": sp.Min, r"\max": sp.Max,
+    r"\sin": sp.sin, r"\cos": sp.cos, r"\tan": sp.tan, r"\exp": sp.exp, r"\ln": sp.log, r"\log": sp.log,
+    r"\sinh": sp.sinh, r"\cosh": sp.cosh, r"\tanh": sp.tanh, r"\arctan": sp.atan, r"\min": sp.Min, r"\max": sp.Max,
 }  # fmt: skip
 _MATRICES = frozenset({"bmatrix", "pmatrix", "matrix", "array", "smallmatrix", "vmatrix"})
 _TRANSPOSE = frozenset({r"\top", "T", r"\intercal", r"\text{T}"})
 
 
-class Grammar(Letters):
+class Grammar(Calculus):
     """Reads one formula, or a piece of one, by a notation."""
-
-    def __init__(self, tokens: Sequence[Token], notation: Notation) -> None:
-        super().__init__(tokens, notation)
-        self.bars: list[str] = []
-        self.braces: list[tuple[list[Token], list[Token]]] = []
 
     def inner(self, tokens: Sequence[Token]) -> Any:
         """The value of a piece that has to be one expression."""
@@ -261,56 +254,6 @@ class Grammar(Letters):
 
     read_tfrac = read_dfrac = read_frac
 
-    def derivative(self, above: list[Token], below: list[Token], at: Token) -> Any:
-        if any(token.text == "^" for token in [*above[:1], *below[-2:]]) or any(
-            differential(below[i:]) for i in range(1, len(below))
-        ):
-            raise self.refuse("derivative", "a derivative of second order is not read", at)
-        variable = self.inner(below)
-        if not above:
-            return self.differentiated(self.factor(), variable, at)
-        return self.differentiated(self.inner(above), variable, at)
-
-    def differentiated(self, value: Any, variable: Any, at: Token) -> Any:
-        """The derivative by a symbol, a rate where that is a time; by a column, the gradient as a row or the Jacobian."""
-        if isinstance(variable, sp.MatrixBase):
-            entries = list(value) if isinstance(value, sp.MatrixBase) else [value]
-            return sp.ImmutableDenseMatrix([[sp.diff(entry, symbol) for symbol in variable] for entry in entries])
-        if not isinstance(variable, sp.Symbol):
-            raise self.refuse("derivative", f"{variable} is no variable", at)
-        if variable.name in self.notation.vocabulary.times:
-            return self.along(value, variable)
-        return (
-            value.applyfunc(lambda e: sp.diff(e, variable))
-            if isinstance(value, sp.MatrixBase)
-            else sp.diff(value, variable)
-        )
-
-    def along(self, value: Any, time: sp.Symbol) -> Any:
-        if isinstance(value, sp.MatrixBase):
-            return value.applyfunc(lambda entry: RATE(entry, time))
-        return RATE(value, time)
-
-    def read_dot(self, at: Token) -> Any:
-        tokens = self.argument(at)
-        if not self.notation.dot:
-            raise self.refuse("derivative", "the notation does not say along what a dot is taken", at)
-        # An index, and what the letter is applied to, stand behind the dot.
-        return self.along(self.dotted(tokens, at), self.notation.vocabulary.symbol(self.notation.dot))
-
-    def read_nabla(self, at: Token) -> Any:
-        if self.text == "^":
-            raise self.refuse("derivative", "a derivative of second order is not read", at)
-        value = self.base()
-        arguments = getattr(value, "args", ())
-        if (
-            not arguments
-            or not all(isinstance(item, sp.Symbol) for item in arguments)
-            or not isinstance(value, sp.Expr)
-        ):
-            raise self.refuse("derivative", "the gradient is read only of a function at a point", at)
-        return sp.ImmutableDenseMatrix([sp.Derivative(value, item) for item in arguments])
-
     def read_underbrace(self, at: Token) -> Any:
         above = self.argument(at)
         value = self.inner(above)
@@ -319,86 +262,12 @@ class Grammar(Letters):
             self.braces.append((self.argument(at), above))
         return value
 
-    def read_int(self, at: Token) -> Any:
-        lower, upper = self.limits(at)
-        body = self.product()
-        found = differential(self.tokens[self.position : self.position + 4])
-        if found is None:
-            raise self.refuse("integral", "the integral has no differential", at)
-        self.position += 4
-        variable = self.base()
-        if not isinstance(variable, sp.Symbol):
-            raise self.refuse("integral", f"{variable} is no variable of integration", at)
-        return sp.Integral(body, (variable, self.inner(lower), self.inner(upper)))
-
-    def limits(self, at: Token) -> tuple[list[Token], list[Token]]:
-        lower: list[Token] = []
-        upper: list[Token] = []
-        while self.text in ("_", "^"):
-            if self.take().text == "_":
-                lower = self.argument(at)
-            else:
-                upper = self.argument(at)
-        if not lower or not upper:
-            raise self.refuse("integral", f"{at.text} without its two limits is not read", at)
-        return lower, upper
-
-    def read_sum(self, at: Token) -> Any:
-        lower, upper = self.limits(at)
-        if any(token.text == r"\substack" for token in lower) or len(lower) < 3 or lower[1].text != "=":
-            raise self.refuse("sum", "a sum over this range is not read", at)
-        count = self.notation.counts.get("".join(token.text for token in upper))
-        last = (
-            count if count is not None else int(upper[0].text) if len(upper) == 1 and upper[0].text.isdigit() else None
-        )
-        if last is None or not lower[2].text.isdigit():
-            raise self.refuse("sum", "the notation does not say how many terms the sum has", at)
-        index, start = lower[0].text, self.position
-        total: Any = None
-        for number in range(int(lower[2].text), last + 1):
-            part = Grammar(
-                self.tokens[:start]
-                + [Token(str(number), token.line) if token.text == index else token for token in self.tokens[start:]],
-                self.notation,
-            )
-            part.position, part.bars, part.braces = start, self.bars, self.braces
-            term = part.product()
-            total = term if total is None else add(total, term, at)
-            self.position = part.position
-        return total
-
-    def read_lim(self, at: Token) -> Any:
-        if self.take().text != "_":
-            raise self.refuse("limit", "a limit without its variable", at)
-        under = self.argument(at)
-        arrow = next((i for i, token in enumerate(under) if token.text in (r"\to", r"\rightarrow")), 0)
-        variable, target = self.inner(under[:arrow]), self.inner(under[arrow + 1 :])
-        if not isinstance(variable, sp.Symbol):
-            raise self.refuse("limit", f"{variable} is no variable", at)
-        return sp.Limit(self.product(), variable, target, dir="-")
-
     def read_infty(self, at: Token) -> Any:
         return sp.oo
 
     def read_pi(self, at: Token) -> Any:
         return sp.pi
 
-    def read_evaluate(self, at: Token) -> Any:
-        value = self.expression()
-        self.expect(r"\at", at)
-        if self.text != "_":
-            raise self.refuse("grammar", "it is not said where this is taken", at)
-        self.take()
-        where = self.argument(at)
-        equal = next((i for i, token in enumerate(where) if token.text == "="), 0)
-        variable, point = self.inner(where[:equal]), self.inner(where[equal + 1 :])
-        pairs = list(zip(variable, point, strict=True)) if isinstance(variable, sp.MatrixBase) else [(variable, point)]
-        change: Callable[[Any], Any] = lambda entry: sp.Subs(entry, *map(tuple, zip(*pairs, strict=True)))  # noqa: E731
-        return value.applyfunc(change) if isinstance(value, sp.MatrixBase) else change(value)
-
 
 def _block(entry: Any) -> sp.MatrixBase:
     return sp.Matrix(entry) if isinstance(entry, sp.MatrixBase) else sp.Matrix([[entry]])
-
-
-__all__ = ["Grammar", "NotUnderstood"]

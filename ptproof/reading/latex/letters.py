@@ -11,10 +11,13 @@ import sympy as sp
 from ptproof.reading.latex.cursor import Cursor
 from ptproof.reading.latex.notation import Notation, spelling
 from ptproof.reading.latex.rewrite import function
-from ptproof.reading.latex.tokens import NotUnderstood, Token, written
+from ptproof.reading.latex.tokens import Token, written
 
 _ACCENTS = frozenset(
-    rf"\{name}" for name in ("bar", "tilde", "hat", "check", "vec", "mathbf", "mathcal", "mathbb", "mathfrak", "boldsymbol", "text", "widetilde", "overline")
+    rf"\{name}" for name in (
+        "bar", "tilde", "hat", "check", "vec", "mathbf", "mathcal", "mathbb", "mathfrak", "boldsymbol", "text",
+        "widetilde", "overline",
+    )
 )  # fmt: skip
 _UPRIGHT_E = ("e", r"\text{e}", r"\text e", "{e}")
 
@@ -25,6 +28,8 @@ class Letters(Cursor):
     def __init__(self, tokens: Sequence[Token], notation: Notation) -> None:
         super().__init__(tokens)
         self.notation = notation
+        self.bars: list[str] = []
+        self.braces: list[tuple[list[Token], list[Token]]] = []
 
     @abstractmethod
     def inner(self, tokens: Sequence[Token]) -> Any: ...
@@ -54,13 +59,11 @@ class Letters(Cursor):
     def looked_up(self, base: list[Token], start: Token) -> Any:
         low: list[Token] = []
         high: list[Token] = []
-        after_low = self.position
         while self.text in ("_", "^") and not (low if self.text == "_" else high):
             if self.take().text == "_":
                 low = self.argument(start)
             else:
                 high = self.argument(start)
-        del after_low
         for index, exponent, rest in ((low, high, []), (low, [], high)):
             key = spelling([*base, *_script("_", index), *_script("^", exponent)])
             if key in self.notation.functions and (self.text == "(" or key not in self.notation.letters):
@@ -93,13 +96,12 @@ class Letters(Cursor):
     def arguments(self) -> list[Any]:
         """What stands in parentheses, or in a group, separated by commas."""
         opened = self.take()
-        bars, outer = getattr(self, "bars", []), self
-        outer.bars = []  # type: ignore[attr-defined]
+        bars, self.bars = self.bars, []
         values = [self.expression()]
         while self.text == ",":
             self.take()
             values.append(self.expression())
-        outer.bars = bars  # type: ignore[attr-defined]
+        self.bars = bars
         self.expect(")" if opened.text == "(" else "}", opened)
         return values
 
@@ -132,7 +134,36 @@ def low_letter(text: str) -> bool:
 
 
 _GREEK = frozenset(
-    ["alpha", "beta", "gamma", "delta", "epsilon", "varepsilon", "zeta", "eta", "theta", "vartheta", "iota", "kappa", "lambda", "mu", "nu", "xi", "pi", "varpi", "rho", "varrho", "sigma", "varsigma", "tau", "upsilon", "phi", "varphi", "chi", "psi", "omega", "ell"]
+    [
+        "alpha",
+        "beta",
+        "gamma",
+        "delta",
+        "epsilon",
+        "varepsilon",
+        "zeta",
+        "eta",
+        "theta",
+        "vartheta",
+        "iota",
+        "kappa",
+        "lambda",
+        "mu",
+        "nu",
+        "xi",
+        "pi",
+        "varpi",
+        "rho",
+        "varrho",
+        "sigma",
+        "varsigma",
+        "tau",
+        "upsilon",
+        "phi",
+        "varphi",
+        "chi",
+        "psi",
+        "omega",
+        "ell",
+    ]
 )
-
-__all__ = ["Letters", "NotUnderstood", "low_letter"]

@@ -36,8 +36,9 @@ class Where:
 class Says:
     """What claims mean: ``has`` explains their letters, ``takes`` what they take for letters of the paper.
 
-    ``left`` says, in LaTeX, what the left sides of its relations are printed as, where a claim gives the printed side
-    alone: one for each relation, a column for several, nothing where it is left out. ``right`` says so of its right sides.
+    ``left`` says, in LaTeX, what the left sides of its relations are printed as, where a claim gives the printed
+    side alone: one for each relation, a column for several, nothing where it is left out. ``right`` says so of its
+    right sides.
     With ``inside`` the printed side is what the claim differentiates, takes the limit of or puts a value in.
     """
 
@@ -59,7 +60,7 @@ class Table:
         LaTeX of a letter, with its accents, index and star, and the expression that it means; a list for a column, a
         list of lists for a matrix.
     functions
-        Letters that are applied to what stands behind them in parentheses: the function's name, or several for a column.
+        Letters that are applied to what stands behind them in parentheses: the function's name, several for a column.
     norms
         What the norms mean that are not computed, such as that of an unknown matrix.
     means
@@ -157,7 +158,13 @@ def _bare(text: str) -> str:
 
 def vocabulary(table: Table, symbols: Mapping[str, sp.Symbol]) -> Vocabulary:
     """The names that occur, those of the derivation with what it knows of them."""
-    states = {text for letters in (table.letters, *(item.letters for item in table.where)) for value in letters.values() for text in _texts(value) if text.isidentifier()}
+    states = {
+        text
+        for letters in (table.letters, *(item.letters for item in table.where))
+        for value in letters.values()
+        for text in _texts(value)
+        if text.isidentifier()
+    }
     named = {name: symbols.get(name) or sp.Symbol(name, real=True) for name in (*table.times, *states)}
     return Vocabulary({**named, **symbols}, frozenset(table.times), frozenset(states))
 
@@ -204,7 +211,9 @@ def meanings(table: Table, names: Vocabulary, place: str, takes: Mapping[str, st
     """What names stand for in the formula at ``place``, for a claim that ``takes`` some letters for others."""
     here = [item.means for item in table.where if any(fnmatchcase(place, pattern) for pattern in item.formulas)]
     found = rules([takes, *here, table.means], names, where)
-    powers = {found(names.expression(text, where)): sp.Symbol(name, positive=True) for name, text in table.positive.items()}
+    powers = {
+        found(names.expression(text, where)): sp.Symbol(name, positive=True) for name, text in table.positive.items()
+    }
     return replace(found, positive=powers)
 
 
@@ -214,6 +223,11 @@ def says_of(table: Table, claim: str) -> Says:
     for item in table.says:
         if any(fnmatchcase(claim, pattern) for pattern in item.claims):
             found = replace(
-                found, has={**item.has, **found.has}, takes={**item.takes, **found.takes}, left=found.left or item.left, right=found.right or item.right, inside=found.inside or item.inside
+                found,
+                has={**item.has, **found.has},
+                takes={**item.takes, **found.takes},
+                left=found.left or item.left,
+                right=found.right or item.right,
+                inside=found.inside or item.inside,
             )
     return found

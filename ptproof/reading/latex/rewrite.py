@@ -162,7 +162,6 @@ class Rules:
                     inner = sp.Function("slope", real=True)(inner, along)
         return inner
 
-
     def _state(self, moved: sp.Expr, time: sp.Symbol, depth: int) -> sp.Expr:
         """The letter of a state that is written as a function of the time along which it moves."""
         if isinstance(moved, AppliedUndef) and moved.args == (time,) and moved.func.__name__ in self.vocabulary.states:

@@ -1,4 +1,4 @@
-"""What a formula says: chains of relations, with the conditions that stand beside them and the names that braces give."""
+"""What a formula says: chains of relations, with the conditions beside them and the names that braces give."""
 
 from __future__ import annotations
 

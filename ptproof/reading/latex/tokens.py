@@ -20,9 +20,9 @@ _PARAMETERS = re.compile(r"(?:#\d)*")
 # Nothing that they set changes what a formula says.
 SPACING = frozenset(
     rf"\{name}" for name in (
-        ",", ";", ":", "!", " ", ">", "quad", "qquad", "hspace", "hspace*", "vspace", "vspace*", "left", "right", "big", "Big",
-        "bigg", "Bigg", "bigl", "bigr", "Bigl", "Bigr", "biggl", "biggr", "displaystyle", "textstyle", "limits", "nolimits",
-        "nonumber", "notag", "label", "tag", "thinspace", "enspace", "noindent", "allowbreak", "/",
+        ",", ";", ":", "!", " ", ">", "/", "quad", "qquad", "hspace", "hspace*", "vspace", "vspace*", "left", "right",
+        "big", "Big", "bigg", "Bigg", "bigl", "bigr", "Bigl", "Bigr", "biggl", "biggr", "displaystyle", "textstyle",
+        "limits", "nolimits", "nonumber", "notag", "label", "tag", "thinspace", "enspace", "noindent", "allowbreak",
     )
 )  # fmt: skip
 _WITH_ARGUMENT = frozenset({r"\hspace", r"\hspace*", r"\vspace", r"\vspace*", r"\label", r"\tag"})
