@@ -47,7 +47,7 @@ class Reading:
     braces
         What braces under parts of it say: a name, and the part.
     unread
-        Why braces or conditions were not read.
+        Why braces were not read.
     """
 
     pairs: tuple[Pair, ...]
@@ -85,12 +85,7 @@ def read_tokens(tokens: Sequence[Token], notation: Notation) -> Reading:
     unread: list[str] = []
     for quantified, part in _parts(_flat(list(tokens))):
         grammar = Grammar(part, notation)
-        try:
-            (conditions if quantified else pairs).extend(_chain(grammar))
-        except NotUnderstood as error:
-            if not quantified:
-                raise
-            unread.append(f"the condition on line {error.line}: {error.reason}")
+        (conditions if quantified else pairs).extend(_chain(grammar))
         _name(grammar, notation, braces, unread)
     if not pairs:
         line = tokens[0].line if tokens else 0
