@@ -87,7 +87,7 @@ def _show_formulas(compared: Sequence[Compared], running: Mapping[str, int]) -> 
     if rows:
         console.print(plain_table(("formula", "line", "", "what was in the way"), rows))
     console.print(
-        f"{len(compared)} displayed formulas: {count['equal']} read and equal, {count['different']} read and different, "
-        f"{count['not read']} not read"
+        f"{len(compared)} displayed formulas: {count['equal']} read and equal, {count['different']} read and "
+        f"different, {count['not read']} not read"
     )
     console.print(f"{running['found']} relations in running text, {running['read']} of them can be read")

@@ -115,18 +115,26 @@ class _Comparison:
             *((p, False) for p in self.reading.pairs),
             *((p, True) for p in self.reading.conditions),
         ]:
-            found = next((says for says in self.candidates() if says.says(pair)), None)
+            found = self.saying(pair)
             if found is None:
                 return self.unsaid(pair, condition)
             used[found.id] = None
         remarks = [
             *self.reading.unread,
-            *(f"no claim says what stands at a brace, {p}" for p in self.reading.braces if not self.said(p)),
+            *(f"no claim says what stands at a brace, {p}" for p in self.reading.braces if self.saying(p) is None),
         ]  # fmt: skip
         return Compared(self.formula, tuple(used), "equal", "", "; ".join(remarks), str(self.reading))
 
-    def said(self, pair: Pair) -> bool:
-        return any(says.says(pair) for says in self.candidates())
+    def saying(self, pair: Pair) -> Stated | None:
+        """The first that has both sides of this relation, if it has them in this relation.
+
+        Later claims about the same two sides may say what else can hold between them.
+        """
+        for says in self.candidates():
+            verdict = says.says(pair)
+            if verdict is not None:
+                return says if verdict else None
+        return None
 
     def unsaid(self, pair: Pair, condition: bool) -> Compared:
         """A relation that no claim says, beside the one that comes nearest."""

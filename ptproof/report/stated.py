@@ -91,14 +91,21 @@ class Stated:
         """A relation of the paper with its letters as this claim takes them."""
         return Pair(self.meaning(pair.left), pair.sign, self.meaning(pair.right))
 
-    def says(self, wanted: Pair) -> bool:
-        """Whether the claim states or assumes this relation of the paper, its sides in either order."""
+    def says(self, wanted: Pair) -> bool | None:
+        """Whether the claim states or assumes this relation of the paper, its sides in either order.
+
+        False where it has the two sides in another relation, None where it says nothing of them.
+        """
         pair = self.spoken(wanted)
-        return any(
-            (own.sign == pair.sign and same(own.left, pair.left) and same(own.right, pair.right))
-            or (own.sign == MIRRORED[pair.sign] and same(own.left, pair.right) and same(own.right, pair.left))
-            for own in (*self.pairs, *self.given)
-        )
+        found: bool | None = None
+        for own in (*self.pairs, *self.given):
+            if same(own.left, pair.left) and same(own.right, pair.right):
+                found = own.sign == pair.sign
+            elif same(own.left, pair.right) and same(own.right, pair.left):
+                found = own.sign == MIRRORED[pair.sign]
+            if found:
+                return True
+        return found
 
     def nearness(self, own: Pair, wanted: Pair) -> int:
         """How near one relation of the claim comes to a relation of the paper."""

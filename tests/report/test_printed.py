@@ -46,6 +46,11 @@ def rate(goal):
     """Not shown."""
     return exact(goal)
 
+@claim("s/later", "What else may hold", ge(V, (x1**2 + x2**2) / 2), labels=["eq:function"], expected="undecided")
+def later(goal):
+    """Not shown."""
+    return exact(goal)
+
 @claim("s/corrected", "The rate, corrected", le(V, -3 * k * V), labels=["eq:rate"], corrects=rate, expected="undecided")
 def corrected(goal):
     """Not shown."""
@@ -64,6 +69,7 @@ left = ['\dot{x}_1', '\dot{x}_2']
 BAD_HEAD = TABLE.replace(r"\dot{x}_2'", r"\foo'")
 EQUAL = ["eq:first", "eq:system (2)", "eq:function", "eq:rate"]
 CHANGES = {
+    "the opposite, which a later claim says": ("eq:function", "V = ", r"V \ge "),
     "a sign": ("eq:first", "= -k x_1", "= k x_1"),
     "a sign between": ("eq:system (2)", "x_1 - k x_2", "x_1 + k x_2"),
     "an index": ("eq:first", "-k x_1", "-k x_2"),
