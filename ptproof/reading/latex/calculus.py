@@ -52,6 +52,15 @@ class Calculus(Letters):
             else sp.diff(value, variable)
         )
 
+    def bracket(self, first: Any, second: Any, at: Token) -> Any:
+        """The Lie bracket of two vector fields, along the state that the notation names."""
+        state = self.notation.state
+        if not state:
+            raise self.refuse("Lie bracket", "the notation does not say along which state this bracket is taken", at)
+        if any(not isinstance(field, sp.MatrixBase) or field.shape != (len(state), 1) for field in (first, second)):
+            raise self.refuse("Lie bracket", "a bracket of what are no vector fields of the state", at)
+        return sp.ImmutableDenseMatrix(second.jacobian(state) * first - first.jacobian(state) * second)
+
     def along(self, value: Any, time: sp.Symbol) -> Any:
         if isinstance(value, sp.MatrixBase):
             return value.applyfunc(lambda entry: RATE(entry, time))

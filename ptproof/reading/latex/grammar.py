@@ -138,7 +138,8 @@ class Grammar(Calculus):
         value = self.expression()
         self.bars = bars
         if self.text == "," and opened.text == "[":
-            raise self.refuse("Lie bracket", "a bracket of two things is not read", opened)
+            self.take()
+            value = self.bracket(value, self.expression(), opened)
         self.expect(_DELIMITERS[opened.text], opened)
         return value
 

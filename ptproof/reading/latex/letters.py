@@ -82,15 +82,14 @@ class Letters(Cursor):
         return "letter", f"the notation says nothing of {key}"
 
     def applied(self, key: str, exponent: list[Token], start: Token) -> Any:
-        """A function at its arguments; a column of them for a column of functions."""
+        """A function at its arguments; a column or a matrix of them where the notation says so."""
         if self.text != "(":
             raise self.refuse("letter", f"the function {key} stands without arguments", start)
         flat: list[sp.Expr] = []
         for value in self.arguments():
             flat += list(value) if isinstance(value, sp.MatrixBase) else [value]
-        names = self.notation.functions[key]
-        values = [function(name)(*flat) for name in names]
-        result: Any = values[0] if len(values) == 1 else sp.ImmutableDenseMatrix(values)
+        rows = [[function(name)(*flat) for name in row] for row in self.notation.functions[key]]
+        result: Any = rows[0][0] if rows == [rows[0][:1]] else sp.ImmutableDenseMatrix(rows)
         return self.raised(result, exponent, start) if exponent else result
 
     def arguments(self) -> list[Any]:

@@ -60,7 +60,8 @@ class Table:
         LaTeX of a letter, with its accents, index and star, and the expression that it means; a list for a column, a
         list of lists for a matrix.
     functions
-        Letters that are applied to what stands behind them in parentheses: the function's name, several for a column.
+        Letters that are applied to what stands behind them in parentheses: the function's name, several for a
+        column, rows of them for a matrix.
     norms
         What the norms mean that are not computed, such as that of an unknown matrix.
     means
@@ -73,6 +74,8 @@ class Table:
         Names of the variables along which things move: a derivative by one is a rate, whatever moves.
     dot
         The time along which a dot is taken.
+    state
+        The names by which the brackets ``[f, g]`` = (∂g/∂x) f − (∂f/∂x) g differentiate; left out, none is read.
     division
         What ``a/bc`` is divided by: ``product`` (bc) or ``factor`` (b); left out, it is not read.
     """
@@ -85,6 +88,7 @@ class Table:
     counts: dict[str, int] = field(default_factory=dict)
     times: list[str] = field(default_factory=list)
     dot: str = ""
+    state: list[str] = field(default_factory=list)
     division: str = ""
     where: list[Where] = field(default_factory=list)
     says: list[Says] = field(default_factory=list)
@@ -95,12 +99,13 @@ class Notation:
     """What the letters mean in one formula, ready to be looked up by their LaTeX in one spelling."""
 
     letters: Mapping[str, Any]
-    functions: Mapping[str, tuple[str, ...]]
+    functions: Mapping[str, tuple[tuple[str, ...], ...]]
     norms: Mapping[str, sp.Expr]
     counts: Mapping[str, int]
     vocabulary: Vocabulary
     dot: str
     division: str
+    state: tuple[sp.Symbol, ...] = ()
 
 
 def read_table(text: str, where: str) -> Table:
@@ -189,13 +194,19 @@ def notation(table: Table, names: Vocabulary, place: str, where: str) -> Notatio
         counts |= item.counts
     return Notation(
         {spelled(key, where): _value(value, names, f"{where}, {key}") for key, value in letters.items()},
-        {spelled(key, where): tuple(_texts(value)) for key, value in functions.items()},
+        {spelled(key, where): _names(value) for key, value in functions.items()},
         {spelled(key, where): names.expression(value, f"{where}, {key}") for key, value in table.norms.items()},
         {spelled(key, where): int(value) for key, value in counts.items()},
         names,
         next((item.dot for item in here if item.dot), table.dot),
         table.division,
+        tuple(names.symbol(name) for name in table.state),
     )
+
+
+def _names(value: Any) -> tuple[tuple[str, ...], ...]:
+    """The names of a function, row by row: one, a column or a matrix of them."""
+    return tuple(tuple(_texts(row)) for row in (value if isinstance(value, list) else [value]))
 
 
 def _value(value: Any, names: Vocabulary, where: str) -> Any:

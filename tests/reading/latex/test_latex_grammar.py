@@ -13,7 +13,8 @@ times = ["t"]
 dot = "t"
 division = "product"
 counts = { N = 3 }
-functions = { F = "F", f = ["f1", "f2"], '\nu' = "nu" }
+state = ["a", "b"]
+functions = { Y = [["y11", "y12"], ["y21", "y22"]], F = "F", f = ["f1", "f2"], '\nu' = "nu" }
 norms = { E = "norm_E" }
 [letters]
 a = "a"
@@ -31,6 +32,8 @@ x = ["x1", "x2"]
 'x^*' = ["s1", "s2"]
 '\bar{x}' = ["m1", "m2"]
 E = [["p", "q"], ["r", "s"]]
+'g' = ["b", "0"]
+'h' = ["0", "a"]
 """
 MACROS = r"\newcommand{\norm}[1]{\left\lVert#1\right\rVert} \def\half{\frac12}\newcommand{\R}{\mathbb{R}} "
 SAID = {
@@ -58,6 +61,8 @@ SAID = {
     r"a = \sum_{i=1}^{N} a_i k^i": "a = a1*k + a2*k**2 + a3*k**3",
     r"a = \int_{0}^{k} \sin(b) \text{d} b": "a = Integral(sin(b), (b, 0, k))",
     r"a = \max(b, k)": "a = Max(b, k)",
+    r"x = [g, h]": "x1 = -a, x2 = b",
+    r"x = Y^\top(t) x": "x1 = x1*y11(t) + x2*y21(t), x2 = x1*y12(t) + x2*y22(t)",
     r"a \leq b < k": "a <= b, b < k",
     r"a = b, \quad b = k": "a = b, b = k",
     r"\begin{aligned} a &= b \\ &\quad + k \\ b &= k \end{aligned}": "a = b + k, b = k",
@@ -65,7 +70,7 @@ SAID = {
     r"a = \underbrace{b k}_{V}": "a = b*k",
 }  # fmt: skip
 NOT_READ = {
-    r"a = g": ("letter", "g"),
+    r"a = q": ("letter", "q"),
     r"a = b_4": ("letter", "b_4"),
     r"a = \foo": ("macro", r"\foo"),
     r"a = \frac{b": ("bad LaTeX", "not closed"),
@@ -80,7 +85,7 @@ NOT_READ = {
     r"a = x": ("matrix", "shapes"),
     r"a = x x": ("matrix", "product"),
     r"x < E": ("matrix", "shapes"),
-    r"a = [b, k]": ("Lie bracket", "bracket"),
+    r"a = [b, k]": ("Lie bracket", "no vector fields"),
     r"a = \sum_{i=1}^{M} a_i": ("sum", "how many"),
     r"a = \begin{cases} 1 \end{cases}": ("cases", "cases"),
     r"a = f": ("letter", "without arguments"),
