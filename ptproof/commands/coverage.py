@@ -1,7 +1,9 @@
-"""``ptproof coverage``: show which labels of a paper the claims cover."""
+"""``ptproof coverage``: show which formulas of a paper the claims cover, and which are read and equal."""
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import click
@@ -10,6 +12,7 @@ from ptproof.commands import options
 
 if TYPE_CHECKING:
     from ptproof.report.coverage import Coverage
+    from ptproof.report.printed import Compared
 
 
 @click.command()
@@ -19,25 +22,38 @@ if TYPE_CHECKING:
 def coverage(paper: str, paths: tuple[str, ...], as_json: bool) -> int:
     """Show which equations of PAPER.tex the claims below each PATH cover (the shipped derivation where left out).
 
-    Exit status 1 if a label of an equation is not covered, or a claim names a label that the paper does not have.
+    Each displayed formula is read from the source, by the table notation.toml beside the derivation, and held against
+    what the claims that cover it say: equal, different, or not read and why.
+
+    Exit status 1 if a label of an equation is not covered, a claim names a label that the paper does not have, or a
+    formula that was read is different from what is claimed.
     """
     from ptproof.errors import InputError
+    from ptproof.reading.latex.formulas import find_formulas
+    from ptproof.reading.latex.source import read_paper
     from ptproof.report.coverage import coverage as match
-    from ptproof.report.labels import all_labels, equation_labels, read_paper
+    from ptproof.report.labels import all_labels, equation_labels
+    from ptproof.report.printed import compare_all, readable
+    from ptproof.report.stated import printed
 
     source = read_paper(paper)
-    labels = equation_labels(source)
-    if not labels:
+    labels, formulas = equation_labels(source), find_formulas(source)
+    if not labels and not formulas.displayed:
         raise InputError(rf"{paper}: no \label stands in an equation; name the LaTeX source of the paper")
     with options.loaded(paths) as derivation:
         found = match(labels, [*derivation.claims, *derivation.definitions], all_labels(source))
         for label, ids in found.stale:
             click.echo(f"ptproof: {paper} has no label {label}, which is named by {', '.join(ids)}", err=True)
+        notation = printed(derivation)
+        compared = compare_all(formulas, notation)
+        running = {"found": len(formulas.running), "read": readable(formulas, notation)}
         if as_json:
-            options.print_json(found.to_json())
+            read = {"formulas": [item.to_json() for item in compared], "running": running}
+            options.print_json({**found.to_json(), **read})
         else:
             _show(found)
-    return 0 if found.complete else 1
+            _show_formulas(compared, running)
+    return 0 if found.complete and all(item.read != "different" for item in compared) else 1
 
 
 def _show(found: Coverage) -> None:
@@ -51,3 +67,27 @@ def _show(found: Coverage) -> None:
     console.print(plain_table(("equation", "covered by"), rows))
     total = len(found.covered) + len(found.missing)
     console.print(f"{len(found.covered)} of {total} labelled equations are covered, {len(found.missing)} missing")
+
+
+def _show_formulas(compared: Sequence[Compared], running: Mapping[str, int]) -> None:
+    """How many formulas were read, and those that are not equal with what stood in the way."""
+    from rich.text import Text
+
+    from ptproof.commands.terminal import output, plain_table
+
+    console = output()
+    count = Counter(item.read for item in compared)
+    styles = {"different": "bold red", "not read": "yellow"}
+    styles = {"different": "bold red", "not read": "yellow"}
+    others = [item for item in compared if item.read != "equal"]
+    rows = [
+        (Text(item.formula.place), Text(str(item.formula.line)), Text(item.read, styles[item.read]), Text(item.detail))
+        for item in others
+    ]
+    if rows:
+        console.print(plain_table(("formula", "line", "", "what was in the way"), rows))
+    console.print(
+        f"{len(compared)} displayed formulas: {count['equal']} read and equal, {count['different']} read and "
+        f"different, {count['not read']} not read"
+    )
+    console.print(f"{running['found']} relations in running text, {running['read']} of them can be read")

@@ -3,7 +3,8 @@
 import pytest
 
 from ptproof.errors import InputError
-from ptproof.report.labels import all_labels, equation_labels, read_paper
+from ptproof.reading.latex.source import read_paper
+from ptproof.report.labels import all_labels, equation_labels
 
 EQUATION = r"\begin{equation} x \label{eq:a} \end{equation}"
 

@@ -1,0 +1,168 @@
+"""Letters of a formula with their accents, indices and arguments, looked up in the notation."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Sequence
+from typing import Any
+
+import sympy as sp
+
+from ptproof.reading.latex.cursor import Cursor
+from ptproof.reading.latex.notation import Notation, spelling
+from ptproof.reading.latex.rewrite import function
+from ptproof.reading.latex.tokens import Token, written
+
+_ACCENTS = frozenset(
+    rf"\{name}" for name in (
+        "bar", "tilde", "hat", "check", "vec", "mathbf", "mathcal", "mathbb", "mathfrak", "boldsymbol", "text",
+        "widetilde", "overline",
+    )
+)  # fmt: skip
+_UPRIGHT_E = ("e", r"\text{e}", r"\text e", "{e}")
+
+
+class Letters(Cursor):
+    """What letters mean; the rest of the grammar is given by :class:`ptproof.reading.latex.grammar.Grammar`."""
+
+    def __init__(self, tokens: Sequence[Token], notation: Notation) -> None:
+        super().__init__(tokens)
+        self.notation = notation
+        self.bars: list[str] = []
+        self.braces: list[tuple[list[Token], list[Token]]] = []
+
+    @abstractmethod
+    def inner(self, tokens: Sequence[Token]) -> Any: ...
+
+    @abstractmethod
+    def expression(self) -> Any: ...
+
+    @abstractmethod
+    def raised(self, value: Any, exponent: list[Token], at: Token) -> Any: ...
+
+    def named(self) -> list[Token]:
+        """The tokens of a letter with its accents, without index and exponent."""
+        token = self.take()
+        if token.text not in _ACCENTS:
+            known = token.text.isalpha() or (token.text.startswith("\\") and token.text[1:].isalpha())
+            if not known:
+                raise self.refuse("grammar", f"{token.text or 'the end'} is not expected here", token)
+            return [token]
+        found = self.argument(token)
+        return [token, Token("{", token.line), *found, Token("}", token.line)]
+
+    def letter(self) -> Any:
+        """A letter, or a function at its arguments, with an exponent where that is no part of the name."""
+        start = self.peek()
+        return self.looked_up(self.named(), start)
+
+    def looked_up(self, base: list[Token], start: Token) -> Any:
+        low: list[Token] = []
+        high: list[Token] = []
+        while self.text in ("_", "^") and not (low if self.text == "_" else high):
+            if self.take().text == "_":
+                low = self.argument(start)
+            else:
+                high = self.argument(start)
+        for index, exponent, rest in ((low, high, []), (low, [], high)):
+            key = spelling([*base, *_script("_", index), *_script("^", exponent)])
+            if key in self.notation.functions and (self.text == "(" or key not in self.notation.letters):
+                return self.applied(key, rest, start)
+            if key in self.notation.letters:
+                value = self.notation.letters[key]
+                return self.raised(value, rest, start) if rest else value
+        if written(base) in _UPRIGHT_E and not low and high:
+            return self.raised(sp.E, high, start)
+        key = spelling([*base, *_script("_", low)])
+        raise self.refuse(*self.unknown(base, key, start), start)
+
+    def unknown(self, base: list[Token], key: str, start: Token) -> tuple[str, str]:
+        if start.text.startswith("\\") and start.text not in _ACCENTS and len(base) == 1 and not low_letter(start.text):
+            return "macro", f"{start.text} is not known"
+        return "letter", f"the notation says nothing of {key}"
+
+    def applied(self, key: str, exponent: list[Token], start: Token) -> Any:
+        """A function at its arguments; a column or a matrix of them where the notation says so."""
+        if self.text != "(":
+            raise self.refuse("letter", f"the function {key} stands without arguments", start)
+        flat: list[sp.Expr] = []
+        for value in self.arguments():
+            flat += list(value) if isinstance(value, sp.MatrixBase) else [value]
+        rows = [[function(name)(*flat) for name in row] for row in self.notation.functions[key]]
+        result: Any = rows[0][0] if rows == [rows[0][:1]] else sp.ImmutableDenseMatrix(rows)
+        return self.raised(result, exponent, start) if exponent else result
+
+    def arguments(self) -> list[Any]:
+        """What stands in parentheses, or in a group, separated by commas."""
+        opened = self.take()
+        bars, self.bars = self.bars, []
+        values = [self.expression()]
+        while self.text == ",":
+            self.take()
+            values.append(self.expression())
+        self.bars = bars
+        self.expect(")" if opened.text == "(" else "}", opened)
+        return values
+
+    def dotted(self, tokens: list[Token], at: Token) -> Any:
+        """What a dot stands over: a letter, with the index and the arguments that stand behind it."""
+        low: list[Token] = []
+        if self.text == "_":
+            self.take()
+            low = self.argument(at)
+        key = spelling([*tokens, *_script("_", low)])
+        if key in self.notation.functions and (self.text == "(" or key not in self.notation.letters):
+            return self.applied(key, [], at)
+        return self.inner([*tokens, *_script("_", low)])
+
+    def named_norm(self, inside: list[Token], low: list[Token]) -> sp.Expr | None:
+        """The norm of which the notation says what it means."""
+        return self.notation.norms.get(spelling([*inside, *_script("_", low)]))
+
+
+def _script(sign: str, tokens: list[Token]) -> list[Token]:
+    if not tokens:
+        return []
+    line = tokens[0].line
+    return [Token(sign, line), Token("{", line), *tokens, Token("}", line)]
+
+
+def low_letter(text: str) -> bool:
+    """Whether a macro is a letter of an alphabet."""
+    return text[1:].lower() in _GREEK
+
+
+_GREEK = frozenset(
+    [
+        "alpha",
+        "beta",
+        "gamma",
+        "delta",
+        "epsilon",
+        "varepsilon",
+        "zeta",
+        "eta",
+        "theta",
+        "vartheta",
+        "iota",
+        "kappa",
+        "lambda",
+        "mu",
+        "nu",
+        "xi",
+        "pi",
+        "varpi",
+        "rho",
+        "varrho",
+        "sigma",
+        "varsigma",
+        "tau",
+        "upsilon",
+        "phi",
+        "varphi",
+        "chi",
+        "psi",
+        "omega",
+        "ell",
+    ]
+)

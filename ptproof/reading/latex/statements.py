@@ -1,0 +1,192 @@
+"""What a formula says: chains of relations, with the conditions beside them and the names that braces give."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import sympy as sp
+
+from ptproof.errors import InputError
+from ptproof.reading.latex.cursor import OTHER_RELATIONS, RELATIONS
+from ptproof.reading.latex.formulas import Formula
+from ptproof.reading.latex.grammar import Grammar
+from ptproof.reading.latex.notation import Notation
+from ptproof.reading.latex.tokens import Macro, NotUnderstood, Token, read
+
+_FLAT = frozenset({"aligned", "split", "gathered", "alignedat", "multlined"})
+_OPENING = frozenset({"(", "[", "{", r"\{"})
+_CLOSING = frozenset({")", "]", "}", r"\}"})
+_GO_ON = frozenset({"+", "-", "/", r"\cdot", r"\times", *RELATIONS})
+_WORDS = frozenset({"and", "where", "for", "with", "if", "or"})
+
+
+@dataclass(frozen=True)
+class Pair:
+    """Two neighbours of a chain, numbers both, with the relation between them."""
+
+    left: sp.Expr
+    sign: str
+    right: sp.Expr
+
+    def __str__(self) -> str:
+        return f"{self.left} {self.sign} {self.right}"
+
+
+@dataclass(frozen=True)
+class Reading:
+    """What a formula says.
+
+    Attributes
+    ----------
+    pairs
+        The relations of its chains, entry by entry.
+    conditions
+        What stands behind a quantifier.
+    braces
+        What braces under parts of it say: a name, and the part.
+    unread
+        Why braces were not read.
+    """
+
+    pairs: tuple[Pair, ...]
+    conditions: tuple[Pair, ...] = ()
+    braces: tuple[Pair, ...] = ()
+    unread: tuple[str, ...] = ()
+
+    def __str__(self) -> str:
+        return ", ".join(map(str, self.pairs))
+
+
+def read_formula(formula: Formula, macros: Mapping[str, Macro], notation: Notation) -> Reading:
+    """What the formula says in this notation.
+
+    Raises
+    ------
+    NotUnderstood
+        With the line and what was not understood there.
+    """
+    if formula.broken:
+        raise NotUnderstood("bad LaTeX", formula.broken, formula.line)
+    try:
+        return read_tokens(read(formula.text, formula.line, macros), notation)
+    except RecursionError:
+        raise NotUnderstood("bad LaTeX", "the formula is nested too deeply", formula.line) from None
+    except (InputError, TypeError, ValueError, sp.SympifyError) as error:
+        raise NotUnderstood("grammar", f"no value: {error}", formula.line) from None
+
+
+def read_tokens(tokens: Sequence[Token], notation: Notation) -> Reading:
+    """What tokens say that are a formula."""
+    pairs: list[Pair] = []
+    conditions: list[Pair] = []
+    braces: list[Pair] = []
+    unread: list[str] = []
+    for quantified, part in _parts(_flat(list(tokens))):
+        grammar = Grammar(part, notation)
+        (conditions if quantified else pairs).extend(_chain(grammar))
+        _name(grammar, notation, braces, unread)
+    if not pairs:
+        line = tokens[0].line if tokens else 0
+        raise NotUnderstood("no relation", "the formula is no relation", line)
+    return Reading(tuple(pairs), tuple(conditions), tuple(braces), tuple(unread))
+
+
+def _name(grammar: Grammar, notation: Notation, braces: list[Pair], unread: list[str]) -> None:
+    """Read what stands under the braces, as an equation of the name and the part."""
+    for below, above in grammar.braces:
+        try:
+            name = Grammar(below, notation)
+            braces.extend(_entries(name.inner(below), "=", name.inner(above), below[0] if below else above[0]))
+        except NotUnderstood as error:
+            unread.append(f"the brace on line {error.line}: {error.reason}")
+    grammar.braces = []
+
+
+def _chain(grammar: Grammar) -> list[Pair]:
+    sides = [grammar.expression()]
+    found: list[Pair] = []
+    while grammar.text:
+        token = grammar.take()
+        if token.text in OTHER_RELATIONS:
+            raise grammar.refuse(
+                "relation", f"{OTHER_RELATIONS[token.text]} ({token.text}) is no relation between numbers", token
+            )
+        if token.text not in RELATIONS:
+            raise grammar.refuse("grammar", f"{token.text} is not expected here", token)
+        sides.append(grammar.expression())
+        found += _entries(sides[-2], RELATIONS[token.text], sides[-1], token)
+    return found
+
+
+def _entries(left: Any, sign: str, right: Any, at: Token) -> list[Pair]:
+    """The relation entry by entry; 0 is a column too."""
+    if isinstance(left, sp.MatrixBase) and right == 0:
+        right = sp.zeros(*left.shape)
+    if isinstance(right, sp.MatrixBase) and left == 0:
+        left = sp.zeros(*right.shape)
+    if getattr(left, "shape", None) != getattr(right, "shape", None):
+        raise NotUnderstood("matrix", "the two sides are of different shapes", at.line)
+    if not isinstance(left, sp.MatrixBase):
+        return [Pair(left, sign, right)]
+    if sign != "=":
+        raise NotUnderstood("matrix", "an inequality between matrices is not read", at.line)
+    return [Pair(a, sign, b) for a, b in zip(left, right, strict=True)]
+
+
+def _flat(tokens: list[Token]) -> list[Token]:
+    """Rows that are one formula in one line: what lines them up is dropped, a break between two formulas is a comma."""
+    result: list[Token] = []
+    matrices = brackets = position = 0
+    while position < len(tokens):
+        token = tokens[position]
+        position += 1
+        text = token.text
+        name = text[text.index("{") + 1 : -1].rstrip("*") if text.startswith((r"\begin{", r"\end{")) else ""
+        if name in _FLAT:
+            if text.startswith(r"\begin") and position < len(tokens) and tokens[position].text == "[":
+                position += 3
+            continue
+        matrices += (text.startswith(r"\begin{")) - (text.startswith(r"\end{"))
+        brackets += (text in _OPENING) - (text in _CLOSING)
+        if matrices == 0 and text == "&":
+            continue
+        if matrices == 0 and text == "\\\\":
+            following = next((t.text for t in tokens[position:] if t.text != "&"), "")
+            last = result[-1].text if result else ""
+            if (
+                brackets <= 0
+                and last not in {*_GO_ON, ","}
+                and following not in _GO_ON
+                and not following.startswith(r"\end")
+            ):
+                result.append(Token(",", token.line))
+            continue
+        result.append(token)
+    return result
+
+
+def _parts(tokens: list[Token]) -> Iterator[tuple[bool, list[Token]]]:
+    """The relations of a formula that stand beside each other, and whether a quantifier opens each."""
+    part: list[Token] = []
+    depth = position = 0
+    quantified = False
+    for index, token in enumerate(tokens):
+        if index < position:
+            continue
+        text = token.text
+        opening = text in _OPENING or text.startswith(r"\begin{")
+        depth += opening - (text in _CLOSING or text.startswith(r"\end{"))
+        word = "".join(t.text for t in tokens[index + 2 : index + 8]).partition("}")[0] if text == r"\text" else ""
+        if depth == 0 and (text in (",", ";", ".") or text == r"\forall" or word in _WORDS):
+            if part:
+                yield quantified, part
+            part, quantified = [], text == r"\forall" or (quantified and text == ",")
+            position = index + 1
+            if word in _WORDS:
+                position = index + 3 + len(word)
+        else:
+            part.append(token)
+    if part:
+        yield quantified, part

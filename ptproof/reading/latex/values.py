@@ -1,0 +1,50 @@
+"""Arithmetic of what formulas say: numbers, columns and matrices, refused where the kinds do not fit."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import sympy as sp
+
+from ptproof.reading.latex.tokens import NotUnderstood, Token
+
+
+def add(left: Any, right: Any, at: Token) -> Any:
+    """The sum of two numbers or of two matrices of one shape."""
+    if getattr(left, "shape", None) != getattr(right, "shape", None):
+        raise NotUnderstood("matrix", "a sum of things of different shapes", at.line)
+    return left + right
+
+
+def negate(value: Any) -> Any:
+    return value * sp.Integer(-1)
+
+
+def multiply(left: Any, right: Any, at: Token) -> Any:
+    """A product; a row times a column is a number."""
+    if isinstance(left, sp.MatrixBase) and isinstance(right, sp.MatrixBase):
+        if left.cols != right.rows:
+            raise NotUnderstood("matrix", f"a product of a {left.shape} and a {right.shape} matrix", at.line)
+        value = sp.ImmutableDenseMatrix(left * right)
+        return value[0, 0] if value.shape == (1, 1) else value
+    if isinstance(left, sp.MatrixBase):
+        return left * right
+    return left * right
+
+
+def power(value: Any, exponent: Any, at: Token) -> Any:
+    """A power of a number."""
+    if isinstance(value, sp.MatrixBase) or isinstance(exponent, sp.MatrixBase):
+        raise NotUnderstood("matrix", "a power of a matrix, or division by one", at.line)
+    if value == 0 and exponent.is_negative:
+        raise NotUnderstood("grammar", "a division by 0", at.line)
+    return value**exponent
+
+
+def norm(value: Any, at: Token) -> Any:
+    """The Euclidean norm of a column, the absolute value of a number."""
+    if not isinstance(value, sp.MatrixBase):
+        return sp.Abs(value)
+    if 1 not in value.shape:
+        raise NotUnderstood("norm", "the notation says nothing of this norm of a matrix", at.line)
+    return sp.sqrt(sum((entry**2 for entry in value), sp.S.Zero))

@@ -1,0 +1,149 @@
+"""The formulas of a paper, as a machine reads them, against what the claims and definitions that cover them say.
+
+A formula is *equal* to what is claimed if each relation in it is a relation of a claim or definition that covers it,
+both sides the same by exact algebra, up to sides swapped. A correction counts for nothing here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, Literal
+
+from ptproof.reading.latex.formulas import Formula, Formulas
+from ptproof.reading.latex.notation import notation
+from ptproof.reading.latex.statements import Pair, Reading, read_formula
+from ptproof.reading.latex.tokens import NotUnderstood
+from ptproof.report.stated import Item, Printed, Stated, stated
+
+Read = Literal["equal", "different", "not read"]
+
+
+@dataclass(frozen=True)
+class Compared:
+    """What became of one formula.
+
+    Attributes
+    ----------
+    formula
+        The formula, with its place and its line.
+    claims
+        What covers it; where it is equal, what says it.
+    read
+        Whether it was read, and if so whether it is what is claimed.
+    kind
+        Of a formula that was not read: what kind of thing was in the way.
+    detail
+        In words: what was not understood and where, or both sides of what is different.
+    statement
+        What was read.
+    """
+
+    formula: Formula
+    claims: tuple[str, ...]
+    read: Read
+    kind: str = ""
+    detail: str = ""
+    statement: str = ""
+
+    def to_json(self) -> dict[str, Any]:
+        return {
+            "place": self.formula.place, "labels": list(self.formula.labels), "line": self.formula.line,
+            "claims": list(self.claims), "read": self.read, "kind": self.kind, "detail": self.detail,
+            "statement": self.statement,
+        }  # fmt: skip
+
+
+def compare_all(formulas: Formulas, source: Printed) -> tuple[Compared, ...]:
+    """What becomes of each displayed formula, in the order of the text; one that fails stops no other."""
+    return tuple(compare(formula, formulas, source) for formula in formulas.displayed)
+
+
+def readable(formulas: Formulas, source: Printed) -> int:
+    """How many of the relations in running text can be read; they are held against nothing."""
+    return sum(_can_be_read(formula, formulas, source) for formula in formulas.running)
+
+
+def _can_be_read(formula: Formula, formulas: Formulas, source: Printed) -> bool:
+    try:
+        read_formula(formula, formulas.macros, notation(source.table, source.names, formula.place, source.where))
+    except NotUnderstood:
+        return False
+    return True
+
+
+def compare(formula: Formula, formulas: Formulas, source: Printed) -> Compared:
+    """Read one formula and hold it against what covers it."""
+    items = source.covering(formula)
+    ids = tuple(item.id for item in items)
+    if not source.known:
+        return Compared(formula, ids, "not read", "notation", f"{source.where}, so that no letter means anything")
+    meaning = notation(source.table, source.names, formula.place, source.where)
+    try:
+        reading = read_formula(formula, formulas.macros, meaning)
+    except NotUnderstood as error:
+        return Compared(formula, ids, "not read", error.kind, str(error))
+    return _Comparison(formula, items, reading, source).judged()
+
+
+@dataclass(frozen=True)
+class _Comparison:
+    """A formula that was read, and what may say it; what claims say is put in the paper's words one after the other."""
+
+    formula: Formula
+    items: tuple[Item, ...]
+    reading: Reading
+    source: Printed
+
+    @cached_property
+    def _stated(self) -> dict[str, Stated | None]:
+        return {}
+
+    def candidates(self) -> Iterator[Stated]:
+        for item in self.items:
+            if getattr(item, "corrects", None):
+                continue  # what ought to be printed is not what is printed
+            if item.id not in self._stated:
+                self._stated[item.id] = stated(item, self.formula, self.source)
+            if (found := self._stated[item.id]) is not None:
+                yield found
+
+    def judged(self) -> Compared:
+        used: dict[str, None] = {}
+        for pair, condition in [
+            *((p, False) for p in self.reading.pairs),
+            *((p, True) for p in self.reading.conditions),
+        ]:
+            found = self.saying(pair)
+            if found is None:
+                return self.unsaid(pair, condition)
+            used[found.id] = None
+        remarks = [
+            *self.reading.unread,
+            *(f"no claim says what stands at a brace, {p}" for p in self.reading.braces if self.saying(p) is None),
+        ]  # fmt: skip
+        return Compared(self.formula, tuple(used), "equal", "", "; ".join(remarks), str(self.reading))
+
+    def saying(self, pair: Pair) -> Stated | None:
+        """The first that has both sides of this relation, if it has them in this relation.
+
+        Later claims about the same two sides may say what else can hold between them.
+        """
+        for says in self.candidates():
+            verdict = says.says(pair)
+            if verdict is not None:
+                return says if verdict else None
+        return None
+
+    def unsaid(self, pair: Pair, condition: bool) -> Compared:
+        """A relation that no claim says, beside the one that comes nearest."""
+        ids = tuple(item.id for item in self.items)
+        entries = [(says, claimed) for says in self.candidates() for claimed in says.pairs]
+        if not entries:
+            detail = "read, but nothing that covers it states a relation" if ids else "read, but nothing covers it"
+            return Compared(self.formula, ids, "not read", "not stated", detail, str(self.reading))
+        nearest, claimed = max(entries, key=lambda entry: entry[0].nearness(entry[1], pair))
+        beside = f"for all {pair}" if condition else str(nearest.spoken(pair))
+        detail = f"the paper: {beside}; {nearest.id}: {claimed}"
+        return Compared(self.formula, ids, "different", "", detail, str(self.reading))

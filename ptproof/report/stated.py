@@ -1,0 +1,216 @@
+"""What claims and definitions say in the words of the paper that they cover, by its table of notation."""
+
+from __future__ import annotations
+
+import hashlib
+import sys
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from pathlib import Path
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from ptproof.errors import InputError
+from ptproof.proof.algebra import NotAlgebraic, is_zero
+from ptproof.proof.claim import Claim, Definition
+from ptproof.proof.load import Derivation
+from ptproof.proof.statement import All, ForAll, Relation, relations_of
+from ptproof.reading.latex.formulas import Formula
+from ptproof.reading.latex.grammar import Grammar
+from ptproof.reading.latex.notation import Table, meanings, notation, read_table, says_of, vocabulary
+from ptproof.reading.latex.rewrite import Rules, Vocabulary, rules
+from ptproof.reading.latex.statements import Pair, read_tokens
+from ptproof.reading.latex.tokens import NotUnderstood, Token, read
+from ptproof.reading.tables import read_file
+
+TABLE = "notation.toml"
+MIRRORED = {"<=": ">=", "<": ">", ">=": "<=", ">": "<", "=": "=", "!=": "!="}
+Item = Claim | Definition
+
+
+@dataclass(frozen=True)
+class Printed:
+    """The notation of a derivation, and its claims and definitions by the labels and places that they name."""
+
+    table: Table
+    names: Vocabulary
+    where: str
+    items: Mapping[str, tuple[Item, ...]]
+    known: bool = True
+
+    def covering(self, formula: Formula) -> tuple[Item, ...]:
+        """What names a label of the formula, or its place."""
+        found = [item for key in (*formula.labels, formula.place) for item in self.items.get(key, ())]
+        return tuple({item.id: item for item in found}.values())
+
+
+def printed(derivation: Derivation) -> Printed:
+    """The notation of ``derivation``, from the table beside it, and what its claims say.
+
+    Where there is no table nothing is ``known``, and nothing will be read.
+
+    Raises
+    ------
+    InputError
+        If the table is wrong.
+    """
+    for package in derivation.packages:
+        folder = Path(str(getattr(package, "__file__", None) or "")).parent
+        if (folder / TABLE).is_file():
+            known = vars(sys.modules.get(f"{package.__name__}.notation", sys))
+            symbols = {value.name: value for value in known.values() if isinstance(value, sp.Symbol)}
+            text = read_file(folder / TABLE, "a table of notation")
+            return with_table(derivation, text, str(folder / TABLE), symbols)
+    return replace(with_table(derivation, "", f"no {TABLE} stands beside the derivation", {}), known=False)
+
+
+def with_table(derivation: Derivation, text: str, where: str, symbols: Mapping[str, sp.Symbol]) -> Printed:
+    """The claims of ``derivation`` with the notation that the table ``text`` says."""
+    table = read_table(text, where)
+    items: dict[str, list[Item]] = {}
+    everything: list[Item] = [*derivation.definitions, *derivation.claims]
+    for item in everything:
+        for key in dict.fromkeys([*item.labels, getattr(item, "place", "")]):
+            if key:
+                items.setdefault(key, []).append(item)
+    return Printed(table, vocabulary(table, symbols), where, {key: tuple(found) for key, found in items.items()})
+
+
+@dataclass(frozen=True)
+class Stated:
+    """What one claim says in the words of the paper, with what the paper's letters mean for it."""
+
+    id: str
+    pairs: tuple[Pair, ...]
+    given: tuple[Pair, ...]
+    meaning: Rules
+
+    def spoken(self, pair: Pair) -> Pair:
+        """A relation of the paper with its letters as this claim takes them."""
+        return Pair(self.meaning(pair.left), pair.sign, self.meaning(pair.right))
+
+    def says(self, wanted: Pair) -> bool | None:
+        """Whether the claim states or assumes this relation of the paper, its sides in either order.
+
+        False where it has the two sides in another relation, None where it says nothing of them.
+        """
+        pair = self.spoken(wanted)
+        found: bool | None = None
+        for own in (*self.pairs, *self.given):
+            if same(own.left, pair.left) and same(own.right, pair.right):
+                found = own.sign == pair.sign
+            elif same(own.left, pair.right) and same(own.right, pair.left):
+                found = own.sign == MIRRORED[pair.sign]
+            if found:
+                return True
+        return found
+
+    def nearness(self, own: Pair, wanted: Pair) -> int:
+        """How near one relation of the claim comes to a relation of the paper."""
+        pair = self.spoken(wanted)
+        sides = any(same(mine, theirs) for mine in (own.left, own.right) for theirs in (pair.left, pair.right))
+        return 2 * sides + (own.sign in (pair.sign, MIRRORED[pair.sign]))
+
+
+def stated(item: Item, formula: Formula, source: Printed) -> Stated | None:
+    """What ``item`` says of the formula in the paper's words, or None where it states no relation."""
+    if not isinstance(item.statement, Relation | All):
+        return None
+    says = says_of(source.table, item.id)
+    where = f"{source.where}, {item.id}"
+    has = rules([says.has], source.names, where)
+    meaning = meanings(source.table, source.names, formula.place, says.takes, where)
+
+    def spoken(part: Relation) -> Pair:
+        return Pair(meaning(has(part.left)), part.sign, meaning(has(part.right)))
+
+    def side(value: sp.Expr) -> sp.Expr:
+        return meaning(has(_inner(value) if says.inside else value))
+
+    parts = relations_of(item.statement)
+    left, right = (list(_heads(item.id, texts, formula, source, meaning)) for texts in (says.left, says.right))
+    pairs = [spoken(part) for part in parts] if not (left or right) else []
+    for heads, values in ((left, [part.left for part in parts]), (right, [part.right for part in parts])):
+        for (before, head), part, value in zip(heads, parts, values, strict=False):
+            pairs += before
+            if head is not None:
+                pairs.append(Pair(head, "=", side(value)))
+                if part.sign != "=" and heads is left:
+                    pairs.append(Pair(head, part.sign, spoken(part).right))  # the left side under its printed name
+    given = [
+        spoken(part)
+        for held in getattr(item, "assumptions", ())
+        for part in (held.relation if isinstance(held, ForAll) else held).components()
+    ]
+    return Stated(item.id, tuple(pairs), tuple(given), meaning)
+
+
+def _inner(side: sp.Expr) -> sp.Expr:
+    """What a side differentiates, takes the limit of or puts a value in."""
+    return side.args[0] if isinstance(side, sp.Derivative | sp.Subs | sp.Limit) else side
+
+
+_Head = tuple[list[Pair], sp.Expr | None]
+
+
+def _heads(id: str, texts: Sequence[str], formula: Formula, source: Printed, meaning: Rules) -> Iterator[_Head]:
+    """What sides are printed as, entry by entry, each with the relations that come before it in a chain."""
+    letters = notation(source.table, source.names, formula.place, source.where)
+    for text in texts:
+        try:
+            tokens = read(text, 0, {})
+            if not tokens:
+                yield [], None
+            elif _is_chain(tokens):
+                for pair in read_tokens(tokens, letters).pairs:
+                    said = Pair(meaning(pair.left), pair.sign, meaning(pair.right))
+                    yield [said], said.right
+            else:
+                value = Grammar(tokens, letters).inner(tokens)
+                for entry in value if isinstance(value, sp.MatrixBase) else [value]:
+                    yield [], meaning(entry)
+        except NotUnderstood as error:
+            raise InputError(f"{source.where}: {text!r}, which {id} is printed as: {error.reason}") from None
+
+
+def _is_chain(tokens: Sequence[Token]) -> bool:
+    depth = 0
+    for token in tokens:
+        depth += (token.text == "{") - (token.text == "}")
+        if token.text == "=" and depth == 0:
+            return True
+    return False
+
+
+def same(left: sp.Expr, right: sp.Expr) -> bool:
+    """Whether two expressions are equal by exact algebra; a number that differs says no before that is asked."""
+    if left == right:
+        return True
+    if _number(left) != _number(right):
+        return False
+    try:
+        return is_zero(left - right)
+    except (NotAlgebraic, sp.PolynomialError, NotImplementedError):
+        return False
+
+
+@lru_cache(maxsize=8192)
+def _number(expression: sp.Expr) -> str:
+    """The value where every letter has a value of its own, in a few digits; equal expressions have equal ones."""
+    nodes = {n for n in sp.preorder_traversal(expression) if isinstance(n, _OPAQUE)}
+    values = {node: _value_of(node) for node in nodes}
+    value = expression.xreplace(values).evalf(40)
+    try:
+        return f"{complex(value):.9e}"
+    except (TypeError, ValueError):
+        return ""
+
+
+_OPAQUE = (sp.Symbol, AppliedUndef, sp.Derivative, sp.Subs, sp.Integral, sp.Limit)
+
+
+def _value_of(node: sp.Basic) -> sp.Float:
+    digest = hashlib.sha256(str(node).encode()).digest()
+    return sp.Float(int.from_bytes(digest[:6], "big") / 2**48 + 0.25, 40)
