@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ptproof.balls.arithmetic import Undefined
 from ptproof.balls.arrays import Array, Intervals
@@ -40,6 +41,10 @@ class Linear:
     def reach(self) -> Array:
         """Σ|slopes_i|, nearly."""
         return np.asarray(np.abs(self.slopes).sum(axis=0))
+
+    def rows(self, at: NDArray[np.intp]) -> Linear:
+        """Some of them."""
+        return Linear(self.middle[at], self.slopes[:, at], self.radius[at])
 
     def times(self, other: Linear) -> Linear:
         """Products, one by one."""

@@ -100,12 +100,11 @@ class Jets:
         rest = Letter(f"{REST} {letter.name} {degree}", letter.first, letter.second)
         return total(*parts, term(ONE, rest, grade=degree + 1))
 
-    def linear(self, letters: Sequence[Letter], boxes: Boxes, time: Intervals, reach: float) -> dict[Letter, Linear]:
+    def linear(self, letters: Sequence[Letter], boxes: Boxes, time: Intervals, reach: float) -> Linear:
         """What the letters are on boxes and a stretch of ``time``: linear forms in y₁, y₂, and in t if need be.
 
-        ``reach`` is a float not below δ: rests are bounded on the boxes made larger by it.
+        It is letters × boxes. ``reach`` is a float not below δ: rests are bounded on the boxes made larger by it.
         """
-        rests = [letter for letter in letters if letter.name.startswith(REST)]
         plain = [letter for letter in letters if not letter.name.startswith(REST)]
         middle = np.asarray(0.5 * time.low + 0.5 * time.high)
         late = np.asarray(np.maximum(time.high - middle, middle - time.low) * (1 + 1e-15) + 1e-300)
@@ -118,24 +117,22 @@ class Jets:
         second = self._partial(
             [(letter, _sum(ones[i], ones[j])) for letter in plain for i, j in pairs], (*boxes.sides(), time)
         )
-        found: dict[Letter, Linear] = {}
-        for letter in plain:
-            value, radius = around(first[letter, _STAY])
-            slopes = np.zeros((len(halves), len(boxes)))
-            radius = np.broadcast_to(radius, len(boxes)).copy()
+        wide = tuple(side.widened(reach) for side in boxes.sides())
+        shape = len(letters), len(boxes)
+        found = Linear(np.zeros(shape), np.zeros((len(halves), *shape)), np.zeros(shape))
+        for row, letter in enumerate(letters):
+            if letter.name.startswith(REST):
+                found.radius[row] = self._rest(letter, (*wide, time))
+                continue
+            found.middle[row], found.radius[row] = around(first[letter, _STAY])
             for axis, half in enumerate(halves):
                 slope, off = around(first[letter, ones[axis]])
-                slopes[axis] = slope * half
-                radius += (off + np.abs(slope) * _SLACK) * half
+                found.slopes[axis, row] = slope * half
+                found.radius[row] += (off + np.abs(slope) * _SLACK) * half
             for i, j in pairs:
                 size = second[letter, _sum(ones[i], ones[j])].magnitude()
-                radius += size * (halves[i] * halves[j] * (0.5 if i == j else 1.0))
-            found[letter] = Linear(np.broadcast_to(value, len(boxes)), slopes, radius * (1 + _SLACK))
-        wide = tuple(side.widened(reach) for side in boxes.sides())
-        nothing = np.zeros(len(boxes)), np.zeros((len(halves), len(boxes)))
-        for letter in rests:
-            found[letter] = Linear(*nothing, np.broadcast_to(self._rest(letter, (*wide, time)), len(boxes)))
-        return found
+                found.radius[row] += size * (halves[i] * halves[j] * (0.5 if i == j else 1.0))
+        return Linear(found.middle, found.slopes, found.radius * (1 + _SLACK))
 
     def _partial(
         self, wanted: Sequence[tuple[Letter, _Step]], values: Sequence[Intervals]

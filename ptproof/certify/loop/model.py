@@ -60,12 +60,12 @@ class Model:
 
     def both(self, boxes: Boxes, time: Intervals) -> tuple[Waves, Waves]:
         """W and dW/dτ on boxes."""
-        values = self.columns.values(self.jets.linear(self.columns.letters, boxes, time, self.reach), len(boxes))
+        values = self.columns.values(self.jets.linear(self.columns.letters, boxes, time, self.reach))
         return self.function.on(values), self.rate.on(values)
 
     def still(self, boxes: Boxes, time: Intervals) -> tuple[Waves, Waves]:
         """W and ρ on boxes."""
-        values = self.few.values(self.jets.linear(self.few.letters, boxes, time, self.reach), len(boxes))
+        values = self.few.values(self.jets.linear(self.few.letters, boxes, time, self.reach))
         return self.shape.on(values), self.manifold.on(values)
 
 

@@ -10,6 +10,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import groupby
 from typing import Any
 
 import numpy as np
@@ -18,6 +19,7 @@ from flint import arb
 from ptproof.balls.arrays import Array
 from ptproof.balls.linear import Linear, Matrix
 from ptproof.balls.rounding import up
+from ptproof.certify.loop.levels import Indices
 from ptproof.certify.loop.polynomials import Letter, Polynomial
 
 _SLACK = 2.0**-44  # more than the rounding of the few hundred sums and products below
@@ -48,21 +50,27 @@ class Columns:
         """The letters that occur."""
         return tuple(sorted({letter for item in self.products for letter in item}))
 
-    def values(self, letters: Mapping[Letter, Linear], boxes: int) -> Linear:
-        """All products on all boxes (products × boxes)."""
-        axes = next(iter(letters.values())).slopes.shape[0] if letters else 0
-        shape = len(self.products), boxes
-        middle, slopes, radius = np.empty(shape), np.empty((axes, *shape)), np.empty(shape)
-        for at, item in enumerate(self.products):
-            if not item:
-                middle[at], slopes[:, at], radius[at] = 1.0, 0.0, 0.0
-                continue
-            last = letters[item[-1]]
-            if len(item) > 1:
-                before = self.index[item[:-1]]
-                last = Linear(middle[before], slopes[:, before], radius[before]).times(last)
-            middle[at], slopes[:, at], radius[at] = last.middle, last.slopes, last.radius
-        return Linear(middle, slopes, radius)
+    @cached_property
+    def steps(self) -> tuple[tuple[slice, Indices, Indices], ...]:
+        """By length, which products are one of those before times which letter."""
+        place = {letter: at for at, letter in enumerate(self.letters)}
+        found, start = [], 0
+        for _, group in groupby(self.products, key=len):
+            items = list(group)
+            if items[0]:
+                before = np.array([self.index[item[:-1]] for item in items])
+                found.append((slice(start, start + len(items)), before, np.array([place[item[-1]] for item in items])))
+            start += len(items)
+        return tuple(found)
+
+    def values(self, letters: Linear) -> Linear:
+        """All products on all boxes (products × boxes); ``letters`` are in the order of ours."""
+        axes, shape = len(letters.slopes), (len(self.products), letters.middle.shape[1])
+        found = Linear(np.ones(shape), np.zeros((axes, *shape)), np.zeros(shape))
+        for rows, before, last in self.steps:
+            new = found.rows(before).times(letters.rows(last))
+            found.middle[rows], found.slopes[:, rows], found.radius[rows] = new.middle, new.slopes, new.radius
+        return found
 
 
 @dataclass(frozen=True, eq=False)
