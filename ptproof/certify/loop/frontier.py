@@ -93,14 +93,6 @@ def smallest_omega(problem: Problem, radius: Any = None, *, closeness: float = 1
 
     ``radius`` and ``options`` are those of :func:`certify_loop`; neighbouring values, one proved and one not, are at
     most a factor ``closeness`` apart (or three digits).
-
-    Examples
-    --------
-    >>> import ptproof
-    >>> from ptproof.certify.loop.frontier import smallest_omega
-    >>> found = smallest_omega(ptproof.example("saturated"), "1/10", closeness=2.5, tolerance=1.0)
-    >>> found.best.value < 30 and found.best.proved
-    True
     """
     turns = problem.tuning.mu * problem.tuning.omega
 
