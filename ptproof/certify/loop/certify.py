@@ -57,7 +57,7 @@ _Curve: TypeAlias = tuple[tuple[float, ...], tuple[float, ...], float | None, st
 
 def certify_loop(
     problem: Problem, radius: Any = None, *, filter_gap: Any = 0, tolerance: float = 0.12, workers: int | None = None,
-    client: Any = None, shapes: Sequence[str] = SHAPES,
+    client: Any = None, shapes: Sequence[str] | None = None,
 ) -> LoopCertificate:  # fmt: skip
     """Bound the distance of the prescribed-time seeker from the source over [t₀, t₀ + T], whatever its heading.
 
@@ -73,6 +73,7 @@ def certify_loop(
         How much of a rate may be given away to save time.
     shapes
         What V is tried: half the squared distance from the source, F(x*) − F; the first that leads to a proof counts.
+        Left out: both, F(x*) − F first where the drift goes along the field's slope.
     workers, client
         Threads (left out: one per processor), or a ``distributed.Client``.
 
@@ -101,7 +102,7 @@ def certify_loop(
             raise InputError(f"{where}: must not be negative, got {value}")
     reasons, tuning = [], problem.tuning
     found: _Curve | None = None
-    for shape in shapes:
+    for shape in _shapes(problem) if shapes is None else shapes:
         try:
             with precision(128):
                 found = _curve(problem, size, gap, shape, tolerance, workers, client)
@@ -114,6 +115,11 @@ def certify_loop(
         verdict, float(tuning.omega), float(tuning.mu), float(size), float(gap), times, distances, hover, detail,
         clock.perf_counter() - begin,
     )  # fmt: skip
+
+
+def _shapes(problem: Problem) -> tuple[str, ...]:
+    """In the order in which they are tried. Along a slope all of a level set of F falls about equally fast."""
+    return SHAPES if problem.drift.matrix is None else SHAPES[::-1]
 
 
 def start_distance(problem: Problem) -> sp.Expr:
