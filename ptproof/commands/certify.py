@@ -70,7 +70,7 @@ def certify(
     start = None if radius is None else parse(radius, where="--radius")
     gap = parse(filter_gap, where="--filter-gap")
     with options.connected(cluster) as client:
-        given = {"filter_gap": gap, "tolerance": tolerance, "workers": jobs, "client": client}
+        given: dict[str, Any] = {"filter_gap": gap, "tolerance": tolerance, "workers": jobs, "client": client}
         if varied is not None:
             return frontier.show(problem, target, varied, start, given, plot, as_json)
         found = certify_loop(target, start, **given)

@@ -193,7 +193,8 @@ def _distances(
     ``held`` says which model holds on each stretch between two of the levels. A level at which two phases meet counts
     in both. Where two phases have one model, nothing in it depends on time.
     """
-    found, last = np.zeros(len(reached)), None
+    found: Array = np.zeros(len(reached))
+    last: float | None = None
     for model, span in {id(model): (model, span) for model, span in phased}.values():
         touched = [i for i, one in enumerate(held) if one is model]
         at = sorted({*touched, *(i + 1 for i in touched)})

@@ -54,7 +54,8 @@ class Columns:
     def steps(self) -> tuple[tuple[slice, Indices, Indices], ...]:
         """By length, which products are one of those before times which letter."""
         place = {letter: at for at, letter in enumerate(self.letters)}
-        found, start = [], 0
+        found: list[tuple[slice, Indices, Indices]] = []
+        start = 0
         for _, group in groupby(self.products, key=len):
             items = list(group)
             if items[0]:
@@ -108,7 +109,7 @@ class Ranges:
 
 def _peak(low: Array, high: Array) -> Array:
     if len(high) < 3:
-        return high[0]
+        return np.asarray(high[0])
     steep = np.maximum(np.abs(low[1]), np.abs(high[1]))
     return np.asarray(high[0] + steep**2 / np.maximum(-4 * high[2], 1e-300) * (high[2] < 0))
 
