@@ -31,13 +31,22 @@ _VEHICLES = 1000
 @click.option(
     "--tolerance", type=click.FloatRange(0.001, 10), default=0.12, show_default=True, help="Smaller: sharper, slower."
 )
+@click.option(
+    "--smallest-omega",
+    "varied",
+    flag_value="omega",
+    help="Look for the smallest omega with a bound, by halves; mu*omega stays.",
+)
+@click.option(
+    "--largest-start", "varied", flag_value="start_radius", help="Look for the largest start radius with a bound."
+)
 @options.jobs
 @options.cluster
 @options.plot("the bound over a thousand simulated vehicles")
 @options.as_json
 def certify(
     problem: str, radius: str | None, filter_gap: str, seeker: str | None, tolerance: float, jobs: int | None,
-    cluster: str | None, plot: str | None, as_json: bool, **numbers: str | None,
+    cluster: str | None, plot: str | None, as_json: bool, varied: str | None, **numbers: str | None,
 ) -> int:  # fmt: skip
     """Prove a bound of the distance between the vehicle and the source, at every time up to the prescribed one.
 
@@ -46,6 +55,7 @@ def certify(
     proved, 1 if not, 2 for bad input.
     """
     from ptproof.certify import certify_loop
+    from ptproof.commands import frontier
     from ptproof.problem import EXAMPLES, example, load
     from ptproof.proof.verdict import Verdict
     from ptproof.reading.expressions import parse
@@ -57,11 +67,13 @@ def certify(
             f"{seeker or target.default_seeker}; with --seeker pt its loop without that is certified"
         )
     target = retuned(target, numbers)
+    start = None if radius is None else parse(radius, where="--radius")
+    gap = parse(filter_gap, where="--filter-gap")
     with options.connected(cluster) as client:
-        found = certify_loop(
-            target, None if radius is None else parse(radius, where="--radius"),
-            filter_gap=parse(filter_gap, where="--filter-gap"), tolerance=tolerance, workers=jobs, client=client,
-        )  # fmt: skip
+        given: dict[str, Any] = {"filter_gap": gap, "tolerance": tolerance, "workers": jobs, "client": client}
+        if varied is not None:
+            return frontier.show(problem, target, varied, start, given, plot, as_json)
+        found = certify_loop(target, start, **given)
     outside = _draw(target, found, plot) if plot is not None and found.verdict is Verdict.PROVED else 0
     if as_json:
         options.print_json(found.to_json())

@@ -35,7 +35,7 @@ from ptproof.certify.loop.certificate import LoopCertificate
 from ptproof.certify.loop.cover import farthest, guide, rates
 from ptproof.certify.loop.levels import Levels, Slice, fallen
 from ptproof.certify.loop.model import Model
-from ptproof.certify.loop.setup import Unfit, models, phases, slices
+from ptproof.certify.loop.setup import Phase, Unfit, models, phases, slices
 from ptproof.certify.loop.stage import NoCertificate, Stage, set_stage
 from ptproof.errors import InputError
 from ptproof.problem import Problem
@@ -44,8 +44,9 @@ from ptproof.proof.verdict import Verdict
 
 _ORDERS = 3, 1, 3
 _NEAR = 6  # radii of the circle: a bound above that and above the start's distance is none
+_CLOSE = 0.005
 _ROUNDING = 1e-9  # covers that times are shown as floats
-_WEIGHT = 0.06
+_WEIGHT = 0.02
 SHAPES = "distance", "field"
 _NAMES = {"distance": "half the squared distance", "field": "the field below its peak"}
 
@@ -56,7 +57,7 @@ _Curve: TypeAlias = tuple[tuple[float, ...], tuple[float, ...], float | None, st
 
 def certify_loop(
     problem: Problem, radius: Any = None, *, filter_gap: Any = 0, tolerance: float = 0.12, workers: int | None = None,
-    client: Any = None, shapes: Sequence[str] = SHAPES,
+    client: Any = None, shapes: Sequence[str] | None = None,
 ) -> LoopCertificate:  # fmt: skip
     """Bound the distance of the prescribed-time seeker from the source over [t₀, t₀ + T], whatever its heading.
 
@@ -72,6 +73,7 @@ def certify_loop(
         How much of a rate may be given away to save time.
     shapes
         What V is tried: half the squared distance from the source, F(x*) − F; the first that leads to a proof counts.
+        Left out: both, F(x*) − F first where the drift goes along the field's slope.
     workers, client
         Threads (left out: one per processor), or a ``distributed.Client``.
 
@@ -93,14 +95,14 @@ def certify_loop(
     ('proved', True)
     """
     begin = clock.perf_counter()
-    size = _distance(problem) if radius is None else number(sp.sympify(radius), "radius")
+    size = start_distance(problem) if radius is None else number(sp.sympify(radius), "radius")
     gap = number(sp.sympify(filter_gap), "filter_gap")
     for where, value in (("radius", size), ("filter_gap", gap)):
         if not value >= 0:
             raise InputError(f"{where}: must not be negative, got {value}")
     reasons, tuning = [], problem.tuning
     found: _Curve | None = None
-    for shape in shapes:
+    for shape in _shapes(problem) if shapes is None else shapes:
         try:
             with precision(128):
                 found = _curve(problem, size, gap, shape, tolerance, workers, client)
@@ -115,7 +117,13 @@ def certify_loop(
     )  # fmt: skip
 
 
-def _distance(problem: Problem) -> sp.Expr:
+def _shapes(problem: Problem) -> tuple[str, ...]:
+    """In the order in which they are tried. Along a slope all of a level set of F falls about equally fast."""
+    return SHAPES if problem.drift.matrix is None else SHAPES[::-1]
+
+
+def start_distance(problem: Problem) -> sp.Expr:
+    """|x(t₀) − x*|."""
     squares = [(a - b) ** 2 for a, b in zip(problem.initial.x, problem.source, strict=True)]
     return sp.sqrt(sum(squares))
 
@@ -135,11 +143,37 @@ def _curve(
     stage = set_stage(prepared, spans, reach, filter_start)
     work = [(model, part) for model, span in zip(prepared, spans, strict=True) for part in slices(problem, span)]
     bounds = _all_rates(stage, work, tolerance * typical, workers, client)
-    level = stage.start
-    times, reached = [work[0][1].start], [level]
+    times, reached = _levels(stage, work, bounds)
+    level, steady = reached[-1], work[-1][1].steady
+    if level > stage.start and not _held(stage.levels, bounds[-1], level):
+        raise NoCertificate(
+            "no level of W is shown to decrease at the end: a larger omega or a smaller start would help"
+        )
+    hover_level = _hover(stage.levels, bounds[-1], level) if steady else None
+    counts = [len(part.parts) or 1 for _, part in work]
+    held = [model for (model, _), count in zip(work, counts, strict=True) for _ in range(count)]
+    distances, hover = _distances(list(zip(prepared, spans, strict=True)), held, stage, reached, hover_level)
+    near = max(up(ball_from(radius)), _NEAR * prepared[0].reach)
+    if distances[-1] > near:
+        raise NoCertificate(
+            f"the vehicle is shown to stay within {max(distances):.4g}, but not to come "
+            f"closer than {near:.4g}: a larger omega, k or T would help"
+        )
+    detail = (
+        f"V is {_NAMES[shape]}, corrected to order {_ORDERS[0]} in 1/sqrt(omega); rates proved on {stage.levels.bands} "
+        f"bands of levels, all headings and filter states, over {len(work)} stretches of time"
+    )
+    return times, distances, hover, detail
+
+
+def _levels(
+    stage: Stage, work: Sequence[tuple[Model, Slice]], bounds: Sequence[Array]
+) -> tuple[tuple[float, ...], list[float]]:
+    """The times at the ends of the stretches, and levels that W is not above there."""
+    times, reached = [work[0][1].start], [stage.start]
     for (_, part), found in zip(work, bounds, strict=True):
         for piece in part.parts or (part,):
-            level = fallen(level, found, stage.levels, piece.shortest, piece.longest)
+            level = fallen(reached[-1], found, stage.levels, piece.shortest, piece.longest)
             if not level < stage.levels.edges[-1]:
                 raise NoCertificate(
                     f"W is not shown to stay below {stage.levels.edges[-1]:.4g} at t = {piece.end:.4g}: "
@@ -147,28 +181,30 @@ def _curve(
                 )
             times.append(piece.end)
             reached.append(level)
-    if level > stage.start and not _held(stage.levels, bounds[-1], level):
-        raise NoCertificate(
-            "no level of W is shown to decrease at the end: a larger omega or a smaller start would help"
-        )
-    steady = work[-1][1].steady
-    hover_level = _hover(stage.levels, bounds[-1], level) if steady else None
-    asked = np.array(sorted({*reached, *([] if hover_level is None else [hover_level])}))
-    found = np.zeros(len(asked))
-    for model, span in zip(prepared, spans, strict=True):
-        found = np.maximum(found, farthest(model, asked, stage.filter_bands, stage.half, span.interval(), 0.005))
-    distance = dict(zip(asked.tolist(), ((found + prepared[0].reach) * (1 + _ROUNDING)).tolist(), strict=True))
-    near = max(up(ball_from(radius)), _NEAR * prepared[0].reach)
-    if distance[reached[-1]] > near:
-        raise NoCertificate(
-            f"the vehicle is shown to stay within {max(distance[item] for item in reached):.4g}, but not to come "
-            f"closer than {near:.4g}: a larger omega, k or T would help"
-        )
-    detail = (
-        f"V is {_NAMES[shape]}, corrected to order {_ORDERS[0]} in 1/sqrt(omega); rates proved on {stage.levels.bands} "
-        f"bands of levels, all headings and filter states, over {len(work)} stretches of time"
-    )
-    return tuple(times), tuple(distance[item] for item in reached), hover_level and distance[hover_level], detail
+    return tuple(times), reached
+
+
+def _distances(
+    phased: Sequence[tuple[Model, Phase]], held: Sequence[Model], stage: Stage, reached: Sequence[float],
+    hover: float | None,
+) -> tuple[tuple[float, ...], float | None]:  # fmt: skip
+    """|x − x*| where W is not above the levels reached, and at the one that is left in the end.
+
+    ``held`` says which model holds on each stretch between two of the levels. A level at which two phases meet counts
+    in both. Where two phases have one model, nothing in it depends on time.
+    """
+    found: Array = np.zeros(len(reached))
+    last: float | None = None
+    for model, span in {id(model): (model, span) for model, span in phased}.values():
+        touched = [i for i, one in enumerate(held) if one is model]
+        at = sorted({*touched, *(i + 1 for i in touched)})
+        final = hover if model is phased[-1][0] else None
+        asked = np.array(sorted({*(reached[i] for i in at), *([] if final is None else [final])}))
+        away = farthest(model, asked, stage.filter_bands, stage.half, span.interval(), _CLOSE)
+        away = (away + model.reach) * (1 + _ROUNDING)
+        found[at] = np.maximum(found[at], away[np.searchsorted(asked, [reached[i] for i in at])])
+        last = None if final is None else float(away[np.searchsorted(asked, final)])
+    return tuple(found.tolist()), last
 
 
 def _sizes(problem: Problem, reach: float, shape: str) -> tuple[float, float]:
@@ -225,7 +261,7 @@ def _all_rates(
         if part.steady:
             after = max(after, _hover(stage.levels, seen + 2 * slack * stage.levels.edges[1:], level) or 0.0)
         worse = math.exp(min(slack * passed, 5.0))
-        tasks.append(replace(task, seen=seen, window=(0.7 * min(level, after), 1.5 * worse * max(level, after))))
+        tasks.append(replace(task, seen=seen, window=(0.8 * min(level, after), 1.1 * worse * max(level, after))))
         if not after < stage.levels.edges[-1]:
             raise NoCertificate(
                 f"nothing keeps W from leaving its largest level at t = {part.end:.4g}: a larger omega, a smaller "
