@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -13,15 +13,12 @@ from ptproof.averaging.attack import unshaken
 from ptproof.averaging.average import Pair, derive
 from ptproof.averaging.brackets import Vector
 from ptproof.averaging.coefficients import Coefficients, v_matrix
+from ptproof.averaging.expected import Expectation, compare, of_orders, open_ones, summary
 from ptproof.averaging.ledger import Ledger, examine
 from ptproof.averaging.orders import Orders, average_to_order
 from ptproof.averaging.problem import DitherProblem
 from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided
 from ptproof.averaging.scaled import linear
-from ptproof.proof.claim import Goal
-from ptproof.proof.engines.exact import exact
-from ptproof.proof.settling import settle
-from ptproof.proof.statement import Relation
 from ptproof.proof.verdict import Evidence, Verdict
 from ptproof.system import DitherSystem, System
 
@@ -48,6 +45,8 @@ class Average:
     orders
         The average to the order that was asked for, checked; None where none was asked for or ``unexpanded`` says why
         there is none.
+    higher
+        What became of the author's claims about the orders from 2 on.
     """
 
     problem: DitherProblem
@@ -58,6 +57,7 @@ class Average:
     expected: Evidence | None = None
     orders: Orders | None = None
     unexpanded: str = ""
+    higher: tuple[Expectation, ...] = ()
 
     @property
     def refusals(self) -> tuple[str, ...]:
@@ -91,9 +91,17 @@ class Average:
         return None
 
     @property
+    def expectations(self) -> tuple[Expectation, ...]:
+        """All that the author claims, order by order."""
+        if self.expected is None or self.problem.expected is None:
+            return self.higher
+        derived = None if self.system is None else self.system.rhs
+        return (Expectation(1, self.problem.expected, derived, self.expected), *self.higher)
+
+    @property
     def as_expected(self) -> bool:
-        """Covered by the theorem, the author's claim, if any, proved, and orders, if asked for, found and checked."""
-        claimed = self.expected is None or self.expected.verdict is Verdict.PROVED
+        """Covered by the theorem, the author's claims, if any, proved, and orders, if asked for, found and checked."""
+        claimed = all(found.evidence.verdict is Verdict.PROVED for found in self.expectations)
         checked = self.orders is None or (
             self.orders.evidence.verdict is Verdict.PROVED and self.orders.smooth.verdict is not Verdict.REFUTED
         )
@@ -110,15 +118,11 @@ class Average:
 
     def to_json(self) -> dict[str, Any]:
         """As the command ``ptproof average --json`` prints it."""
-        expected = None
-        if self.expected is not None:
-            witness = self.expected.witness
-            expected = {"verdict": str(self.expected.verdict), "witness": witness and witness.to_json()}
         found = {
             "average": None if self.system is None else [str(entry) for entry in self.system.rhs],
             "v": {f"{j},{i}": str(value) for (j, i), value in self.v.items()},
             "assumptions": self.ledger.to_json(),
-            "expected": expected,
+            "expected": summary(self.expectations) if self.expectations else None,
         }
         if self.orders is not None:
             return found | self.orders.to_json()
@@ -134,7 +138,8 @@ def study(problem: DitherProblem | DitherSystem, order: int | None = None) -> Av
         With fast states, a region and a claimed average, or a dither system alone. With ``mu_omega`` the average is the
         one at this fixed product of μ and ω, not its limit at 0.
     order
-        The order in 1/√ω up to which averages are asked for; None for the average alone.
+        The order in 1/√ω up to which averages are asked for; None for the average alone, and for as many as
+        ``problem.expected_orders`` speaks of.
 
     Returns
     -------
@@ -157,7 +162,7 @@ def study(problem: DitherProblem | DitherSystem, order: int | None = None) -> Av
 
     def without(v: Coefficients, reason: str) -> Average:
         expected = None if asked is None else Evidence("average", Verdict.UNDECIDED, reason)
-        return Average(problem, None, v, {}, ledger, expected)
+        return Average(problem, None, v, {}, ledger, expected, higher=open_ones(problem.expected_orders, reason))
 
     if "mu_omega" in ledger.entries:
         return without({}, "there is no average to compare with")
@@ -169,14 +174,16 @@ def study(problem: DitherProblem | DitherSystem, order: int | None = None) -> Av
         derived = unshaken(derive(problem.reduced(ledger.steady or ())), points=2, coefficients=0)
     except (AveragingRefused, AveragingUndecided) as error:
         return without({}, str(error))
-    orders, reason = _orders(problem, order)
+    orders, reason = _orders(problem, max((order or 0, *problem.expected_orders)) or None)
     system = derived.system
     if problem.mu_omega is not None:
         if orders is None:
             return replace(without(derived.v, reason), unexpanded=reason)
         system = replace(system, rhs=orders.averages[0], parameters=None)
-    expected = None if asked is None else compare(system, asked, problem.domain)
-    return Average(problem, system, derived.v, derived.brackets, ledger, expected, orders, reason)
+    expected = None if asked is None else compare(system.rhs, asked, problem.domain)
+    claimed = problem.expected_orders
+    higher = of_orders(orders, claimed, problem.domain) if orders else open_ones(claimed, reason)
+    return Average(problem, system, derived.v, derived.brackets, ledger, expected, orders, reason, higher)
 
 
 def _filter_of(problem: DitherProblem) -> Ledger | None:
@@ -200,15 +207,3 @@ def _orders(problem: DitherProblem, order: int | None) -> tuple[Orders | None, s
         return average_to_order(problem, 1 if order is None else order), ""
     except (AveragingRefused, AveragingUndecided) as error:
         return None, str(error)
-
-
-def compare(system: System, expected: Vector, domain: Sequence[Relation] = ()) -> Evidence:
-    """Whether the right-hand side of ``system`` equals ``expected`` on the domain, with a witness where it does not.
-
-    proved: the difference has the normal form 0. refuted: exact values (polynomials for undefined functions) at
-    which the two sides are apart. What is asked is that they agree wherever both are defined. The two sides are
-    compared as given; neither is computed from the other.
-    """
-    both = Relation(sp.Matrix(system.rhs), "=", sp.Matrix(list(expected)))
-    goal = Goal("expected average", both, tuple(domain), where_defined=True)
-    return settle(goal, exact)
