@@ -23,6 +23,10 @@ class Full(Exception):
     """More letters were met than there is room for; the same again with more."""
 
 
+class Finer(Full):
+    """An exponential was met that is no power of those before; the same again with the ``units`` that are known now."""
+
+
 class Fractions:
     """Reads expressions as sums of polynomials over denominators.
 
@@ -32,7 +36,9 @@ class Fractions:
     True
     """
 
-    def __init__(self, room: int = 96) -> None:
+    def __init__(self, room: int = 96, units: dict[sp.Expr, int] | None = None) -> None:
+        # {a: q}: exponentials of multiples of a are powers of exp(a/q).
+        self._units: dict[sp.Expr, int] = {} if units is None else units
         self._context = fmpq_mpoly_ctx.get([f"t{i}" for i in range(room)], Ordering.lex)
         self._letters = self._context.gens()
         self._known: dict[sp.Expr, Polynomial] = {}
@@ -104,7 +110,24 @@ class Fractions:
         if isinstance(expression, sp.sin | sp.cos):
             cosine, sine = self._angle(expression.args[0])
             return {(): sine if isinstance(expression, sp.sin) else cosine}
+        if isinstance(expression, sp.exp):
+            return self._exponential(expression.args[0])
         return {(): self._letter(expression)}
+
+    def _exponential(self, argument: sp.Expr) -> Sum:
+        """e^argument as powers of one letter for each term, its numerical factor left out."""
+        result: Sum = {(): self._constant(1)}
+        for term in sp.Add.make_args(sp.expand(argument)):
+            number, rest = term.as_coeff_Mul()
+            unit = self._units.setdefault(rest, int(number.q))
+            if unit % number.q:
+                self._units[rest] = int(sp.ilcm(unit, number.q))
+                raise Finer
+            letter = self._letter(sp.exp(rest / unit))
+            count = int(number * unit)
+            power = {(): letter ** abs(count)}
+            result = self.product(result, power if count >= 0 else self._inverse(power))
+        return result
 
     def _letter(self, meaning: sp.Expr) -> Polynomial:
         if meaning not in self._known:
