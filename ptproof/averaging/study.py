@@ -124,6 +124,8 @@ class Average:
             "assumptions": self.ledger.to_json(),
             "expected": summary(self.expectations) if self.expectations else None,
         }
+        if self.problem.mu_omega is not None:
+            found["mu_omega"] = str(self.problem.mu_omega)
         if self.orders is not None:
             return found | self.orders.to_json()
         return found | {"orders": None, "remainder": None} if self.unexpanded else found
