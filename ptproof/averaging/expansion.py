@@ -28,7 +28,7 @@ from ptproof.averaging.oscillation import Oscillation
 from ptproof.averaging.phases import Pieces, phases_for
 from ptproof.averaging.refusal import AveragingUndecided
 from ptproof.averaging.ring import Coefficient, Ring, RingFull
-from ptproof.averaging.waves import Wave, Waves
+from ptproof.averaging.waves import Wave, Waves, together
 from ptproof.errors import InputError
 
 _ROOM, _MOST_ROOM = 64, 1024
@@ -263,7 +263,7 @@ def _of_phase(functions: Sequence[sp.Expr], phase: sp.Symbol) -> list[sp.Expr]:
     """The factors that depend on the phase, each once."""
     found: dict[sp.Expr, Any] = {}
     for entry in functions:
-        for term in sp.Add.make_args(entry):
+        for term in together(entry, phase):
             factor = term.as_independent(phase, as_Add=False)[1]
             if phase in factor.free_symbols:
                 found[factor] = None

@@ -111,6 +111,10 @@ class DitherProblem:
             system = (self.system.time, self.system.phase, self.system.omega, *self.system.state, *self.fast.state)
             check_names((*system, *sorted(rates, key=lambda symbol: symbol.name)), self.system.name)
         if self.mu_omega is not None:
+            if isinstance(self.mu_omega, int):
+                object.__setattr__(self, "mu_omega", sp.Integer(self.mu_omega))
+            if not isinstance(self.mu_omega, sp.Expr) or self.mu_omega.has(sp.Float):
+                raise InputError(f"{self.system.name}: mu_omega = {self.mu_omega} is not an exact expression")
             if self.fast is None:
                 raise InputError(f"{self.system.name}: mu_omega is given, but there are no fast states")
             if self.mu_omega.free_symbols & {*known, self.system.time, self.system.phase, self.system.omega}:
