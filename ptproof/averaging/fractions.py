@@ -140,7 +140,7 @@ class Fractions:
         result: Sum = {(): self._constant(1)}
         for term in sp.Add.make_args(sp.expand(argument)):
             count, part = self._part(term)
-            power = {(): self._letter(sp.exp(part)) ** abs(count)}
+            power: Sum = {(): self._letter(sp.exp(part)) ** abs(count)}
             result = self.product(result, power if count >= 0 else self._inverse(power))
         return result
 

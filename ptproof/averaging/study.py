@@ -118,7 +118,7 @@ class Average:
 
     def to_json(self) -> dict[str, Any]:
         """As the command ``ptproof average --json`` prints it."""
-        found = {
+        found: dict[str, Any] = {
             "average": None if self.system is None else [str(entry) for entry in self.system.rhs],
             "v": {f"{j},{i}": str(value) for (j, i), value in self.v.items()},
             "assumptions": self.ledger.to_json(),

@@ -246,9 +246,10 @@ def _times(variable: ast.expr) -> int:
     """How often a variable of a derivative is meant: n of (x, n), 1 of a name, 0 of what is neither."""
     if not isinstance(variable, ast.Tuple):
         return 1
-    count = variable.elts[1] if len(variable.elts) == 2 else None
-    whole = isinstance(count, ast.Constant) and type(count.value) is int
-    return int(count.value) if whole and isinstance(count, ast.Constant) else 0
+    match variable.elts:
+        case [_, ast.Constant(value=int(count))] if not isinstance(count, bool):
+            return count
+    return 0
 
 
 def _is_derivative(node: ast.Call) -> int:
