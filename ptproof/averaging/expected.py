@@ -53,6 +53,10 @@ class Expectation:
             parts.append(f"{f'at {values}: ' if values else ''}derived {witness.left}, expected {witness.right}")
         elif self.evidence.detail:
             parts.append(self.evidence.detail)
+        if self.order > 1 and self.derived is not None:
+            parts.append(
+                "this is for correctors of mean 0 over the phase; with others the orders from 2 on look otherwise"
+            )
         return f"{told}; {'; '.join(parts)}"
 
     def to_json(self) -> dict[str, Any]:

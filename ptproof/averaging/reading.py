@@ -62,7 +62,7 @@ def load_dither_system(path: str | Path) -> DitherProblem:
     (``state``, ``rate``, and ``quasi_steady_state`` where the author knows it). With fast states there may be
     ``mu_omega``, the product μω where it is held fixed: a positive number, or a name for one. ``[region]`` gives the
     interval of a state (``x1 = ["-1", "1"]``), ``[expected]`` the ``average`` that the author claims, and in
-    ``[expected.orders]`` those of the orders from 2 on (``2 = ["0", "0"]``). In expressions
+    ``[expected.orders]`` those of the orders from 2 on (``2 = ["0", "0"]``), for correctors of mean 0. In expressions
     ``tau`` is the slow time, ``theta`` the phase ωτ and ``omega`` the frequency. An example stands at
     :func:`read_dither_system`, which reads the same from text.
 

@@ -1,6 +1,7 @@
 """Dithers with jumps before filters as fast as they are: exact responses, and what cannot be had."""
 
 import math
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,7 @@ from ptproof.averaging import average_to_order, derive
 from ptproof.averaging.damped import Damped
 from ptproof.averaging.problem import PHASE, DitherProblem, FastStates
 from ptproof.averaging.refusal import AveragingUndecided
+from ptproof.averaging.residual import put_back
 from ptproof.averaging.ring import Ring
 from ptproof.proof.verdict import Verdict
 from tests.averaging.orders import SQUARE, dithered, left_over
@@ -71,6 +73,18 @@ def test_the_average_is_that_of_the_filtered_square_wave_in_numbers() -> None:
     found = average_to_order(filtered([[1], [k * z]], [AHEAD, SQUARE], [x - z], sp.Rational(1, 2)), 1)
     ours = found.averages[0][0].subs({k: sp.Rational(4, 3), x: sp.Rational(2, 7)}).evalf(20)
     assert float(ours) == pytest.approx(expected, rel=1e-4)
+
+
+@pytest.mark.parametrize("part", ["means", "correctors"])
+@pytest.mark.parametrize("change", [x, x * sp.exp(-sp.pi / m), sp.exp(z / m)], ids=["x", "constant", "phase"])
+def test_a_corrupted_expansion_does_not_cancel(part: str, change: sp.Expr) -> None:
+    found = average_to_order(PROBLEMS["one filter"], 1).expansion
+    twin = replace(found)
+    twin.__dict__.update({name: getattr(found, name) for name in ("means", "correctors", "rest")})
+    first, *others = getattr(found, part)
+    twin.__dict__[part] = (tuple(entry + change.subs(z, PHASE) / 10**9 for entry in first), *others)
+    assert put_back(found).verdict is Verdict.PROVED
+    assert put_back(twin).verdict is Verdict.UNDECIDED
 
 
 REFUSED = {
