@@ -64,27 +64,29 @@ def assert_average(
     >>> rate = sp.sqrt(omega) * (sp.cos(omega * tau) + k * F * sp.sin(omega * tau))
     >>> assert_average(System(tau, (x,), (rate,)), ["k/2*Derivative(F(x), x)"], orders={2: [0]}, omega=omega)
     """
+    first, higher = _claims(system, expected, orders, omega)
+    try:
+        found = within(seconds, lambda: _studied(system, omega, first, higher))
+    except OutOfTime:
+        return f"the average could not be decided: no answer in {seconds:g} s"
+    if isinstance(found, str):
+        return found
+    return _complaint(found, (assuming,) if isinstance(assuming, str) else assuming)
+
+
+def _studied(system: Any, omega: sp.Symbol | None, first: Any, higher: Mapping[int, Any]) -> Any:
+    """The averages with what is asserted of them, or why there are none."""
     from ptproof.averaging import AveragingRefused, AveragingUndecided, split_dithers, study
     from ptproof.averaging.problem import DitherProblem
 
-    if isinstance(assuming, str):
-        assuming = (assuming,)
-    first, higher = _claims(system, expected, orders, omega)
-
-    def work() -> Any:
+    try:
         dithered = split_dithers(system, omega) if isinstance(system, System) and omega is not None else system
         problem = dithered if isinstance(dithered, DitherProblem) else DitherProblem(dithered)
         return study(replace(problem, expected=first, expected_orders=higher))
-
-    try:
-        found = within(seconds, work)
-    except OutOfTime:
-        return f"the average could not be decided: no answer in {seconds:g} s"
     except AveragingRefused as reason:
         return lines("the averaging theorem does not cover the system: refused", [("reason", str(reason))])
     except AveragingUndecided as reason:
         return lines("the average could not be decided: undecided", [("reason", str(reason))])
-    return _complaint(found, assuming)
 
 
 def _claims(
