@@ -47,7 +47,7 @@ def test_what_is_left_along_the_system_itself_has_the_order(name: str) -> None:
 
 
 def test_a_second_order_with_jumps_and_a_filter() -> None:
-    found = average_to_order(PROBLEMS["one filter"], 2)
+    found = average_to_order(filtered([[1], [k * z]], [AHEAD, SQUARE], [F - z], sp.Rational(1, 2)), 2)
     assert found.evidence.verdict is Verdict.PROVED
     assert left_over(found) == pytest.approx(-1, abs=0.02)
 
