@@ -1,8 +1,8 @@
-"""What is known of the average of one dither system, and the comparison with what its author claims."""
+"""What is known of the average of one dither system, and what became of what its author claims."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -12,15 +12,12 @@ from sympy.core.function import AppliedUndef
 from ptproof.averaging.average import Pair
 from ptproof.averaging.brackets import Vector
 from ptproof.averaging.coefficients import Coefficients
+from ptproof.averaging.expected import Expectation, summary
 from ptproof.averaging.ledger import Ledger
 from ptproof.averaging.orders import Orders
 from ptproof.averaging.powers import PoweredProblem
 from ptproof.averaging.problem import DitherProblem
 from ptproof.averaging.second import Letters, PoweredAverage
-from ptproof.proof.claim import Goal
-from ptproof.proof.engines.exact import exact
-from ptproof.proof.settling import settle
-from ptproof.proof.statement import Relation
 from ptproof.proof.verdict import Evidence, Verdict
 from ptproof.system import System
 
@@ -48,6 +45,8 @@ class Average:
     orders
         The average to the order that was asked for, checked; None where none was asked for or ``unexpanded`` says why
         there is none.
+    higher
+        What became of the author's claims about the orders from 2 on.
     powered
         Of a system with powers of the frequency, the coefficients γ, the brackets that count, and why.
     """
@@ -60,6 +59,7 @@ class Average:
     expected: Evidence | None = None
     orders: Orders | None = None
     unexpanded: str = ""
+    higher: tuple[Expectation, ...] = ()
     powered: PoweredAverage | None = None
 
     @property
@@ -102,9 +102,17 @@ class Average:
         return None
 
     @property
+    def expectations(self) -> tuple[Expectation, ...]:
+        """All that the author claims, order by order."""
+        if self.expected is None or self.problem.expected is None:
+            return self.higher
+        derived = None if self.system is None else self.system.rhs
+        return (Expectation(1, self.problem.expected, derived, self.expected), *self.higher)
+
+    @property
     def as_expected(self) -> bool:
-        """Covered by the theorem, the author's claim, if any, proved, and orders, if asked for, found and checked."""
-        claimed = self.expected is None or self.expected.verdict is Verdict.PROVED
+        """Covered by the theorem, the author's claims, if any, proved, and orders, if asked for, found and checked."""
+        claimed = all(found.evidence.verdict is Verdict.PROVED for found in self.expectations)
         checked = self.orders is None or (
             self.orders.evidence.verdict is Verdict.PROVED and self.orders.smooth.verdict is not Verdict.REFUTED
         )
@@ -121,18 +129,16 @@ class Average:
 
     def to_json(self) -> dict[str, Any]:
         """As the command ``ptproof average --json`` prints it."""
-        expected = None
-        if self.expected is not None:
-            witness = self.expected.witness
-            expected = {"verdict": str(self.expected.verdict), "witness": witness and witness.to_json()}
-        found = {
+        found: dict[str, Any] = {
             "average": None if self.system is None else [str(entry) for entry in self.system.rhs],
             "v": {f"{j},{i}": str(value) for (j, i), value in self.v.items()},
             "assumptions": self.ledger.to_json(),
-            "expected": expected,
+            "expected": summary(self.expectations) if self.expectations else None,
         }
         if isinstance(self.problem, PoweredProblem):
             return found | {"order": self.problem.order, **self._powers()}
+        if self.problem.mu_omega is not None:
+            found["mu_omega"] = str(self.problem.mu_omega)
         if self.orders is not None:
             return found | self.orders.to_json()
         return found | {"orders": None, "remainder": None} if self.unexpanded else found
@@ -148,15 +154,3 @@ class Average:
             },
             "account": [] if self.powered is None else [*self.powered.account],
         }
-
-
-def compare(system: System, expected: Vector, domain: Sequence[Relation] = ()) -> Evidence:
-    """Whether the right-hand side of ``system`` equals ``expected`` on the domain, with a witness where it does not.
-
-    proved: the difference has the normal form 0. refuted: exact values (polynomials for undefined functions) at
-    which the two sides are apart. What is asked is that they agree wherever both are defined. The two sides are
-    compared as given; neither is computed from the other.
-    """
-    both = Relation(sp.Matrix(system.rhs), "=", sp.Matrix(list(expected)))
-    goal = Goal("expected average", both, tuple(domain), where_defined=True)
-    return settle(goal, exact)

@@ -22,11 +22,13 @@ from typing import Any
 import sympy as sp
 
 from ptproof.averaging.brackets import Vector
-from ptproof.averaging.homological import Homological
+from ptproof.averaging.damped import Damped
+from ptproof.averaging.homological import Homological, in_order
 from ptproof.averaging.oscillation import Oscillation
-from ptproof.averaging.phases import phases_for
+from ptproof.averaging.phases import Pieces, phases_for
+from ptproof.averaging.refusal import AveragingUndecided
 from ptproof.averaging.ring import Coefficient, Ring, RingFull
-from ptproof.averaging.waves import Wave, Waves
+from ptproof.averaging.waves import Wave, Waves, together
 from ptproof.errors import InputError
 
 _ROOM, _MOST_ROOM = 64, 1024
@@ -127,11 +129,9 @@ class _Calculation:
         self.oscillation, self.order = oscillation, order
         rates = [entry for vector in oscillation.rates for entry in vector]
         functions = [*rates, *oscillation.turning, *(entry for vector in oscillation.forcing for entry in vector)]
-        smooth = "with fast states or a phase that turns, exact averages are for sums of sines and cosines"
-        phases = phases_for(
-            ring, oscillation.phase, oscillation.period, _of_phase(functions, oscillation.phase),
-            smooth=smooth if oscillation.fast or any(oscillation.turning) else "",
-        )  # fmt: skip
+        phases = phases_for(ring, oscillation.phase, oscillation.period, _of_phase(functions, oscillation.phase))
+        if isinstance(phases, Pieces):
+            phases = _with_filter(phases, oscillation)
         self.waves = waves = Waves(ring, phases, oscillation.fast)
         self.rates = [
             [waves.read(entry, f"d{symbol}") for symbol, entry in zip(oscillation.slow, vector, strict=True)]
@@ -237,6 +237,22 @@ class _Calculation:
         return total.get(depth, {})
 
 
+def _with_filter(phases: Pieces, oscillation: Oscillation) -> Pieces:
+    """The basis in which dithers with jumps are answered by the fast states of an oscillation."""
+    if any(oscillation.turning):
+        raise AveragingUndecided("a phase that the states turn is covered with sines and cosines only, not with jumps")
+    if not oscillation.fast:
+        return phases
+    matrix = oscillation.matrix
+    edges = [(i, j) for i in range(matrix.rows) for j in range(matrix.cols) if i != j and matrix[i, j] != 0]
+    if in_order(matrix.rows, edges) is None:
+        raise AveragingUndecided(
+            f"the fast states drive each other in a circle, {matrix.tolist()}; with dithers that jump or have kinks "
+            "exact averages are for filters in series and in parallel, whose free motions are real exponentials"
+        )
+    return Damped(phases.ring, phases.phase, phases.period, phases.points, [-matrix[i, i] for i in range(matrix.rows)])
+
+
 def _exponents(count: int, depth: int) -> list[tuple[int, ...]]:
     """All α with 1 ≤ |α| ≤ depth."""
     found = itertools.product(range(depth + 1), repeat=count)
@@ -247,7 +263,7 @@ def _of_phase(functions: Sequence[sp.Expr], phase: sp.Symbol) -> list[sp.Expr]:
     """The factors that depend on the phase, each once."""
     found: dict[sp.Expr, Any] = {}
     for entry in functions:
-        for term in sp.Add.make_args(entry):
+        for term in together(entry, phase):
             factor = term.as_independent(phase, as_Add=False)[1]
             if phase in factor.free_symbols:
                 found[factor] = None

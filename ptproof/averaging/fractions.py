@@ -6,8 +6,8 @@ Not the algebra in which averages are expanded (:mod:`ptproof.averaging.ring`): 
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterable, Iterator
-from typing import Any
+from collections.abc import Callable, Iterable, Iterator
+from typing import Any, TypeVar
 
 import sympy as sp
 from flint import Ordering, fmpq, fmpq_mpoly_ctx
@@ -15,12 +15,37 @@ from flint import Ordering, fmpq, fmpq_mpoly_ctx
 from ptproof.averaging.refusal import AveragingUndecided
 
 Polynomial = Any
+Answer = TypeVar("Answer")
 Below = tuple[tuple[int, int], ...]  # (number of the denominator, its power)
 Sum = dict[Below, Polynomial]
 
 
 class Full(Exception):
     """More letters were met than there is room for; the same again with more."""
+
+
+class Finer(Exception):
+    """A part of an angle or an exponent was met that is no multiple of those before; the same again, finer."""
+
+
+def reading(work: Callable[[Fractions], Answer], most: int = 1536) -> Answer:
+    """``work`` with an algebra that has room for all its letters, and units of which all angles are multiples.
+
+    Raises
+    ------
+    AveragingUndecided
+        If it takes more than ``most`` letters.
+    """
+    room, units = 96, dict[sp.Expr, int]()
+    while True:
+        try:
+            return work(Fractions(room, units))
+        except Finer:
+            continue
+        except Full:
+            room *= 4
+            if room > most:
+                raise AveragingUndecided(f"more than {most} different functions") from None
 
 
 class Fractions:
@@ -32,7 +57,9 @@ class Fractions:
     True
     """
 
-    def __init__(self, room: int = 96) -> None:
+    def __init__(self, room: int = 96, units: dict[sp.Expr, int] | None = None) -> None:
+        # {a: q}: multiples of a in angles and exponents are multiples of a/q.
+        self._units: dict[sp.Expr, int] = {} if units is None else units
         self._context = fmpq_mpoly_ctx.get([f"t{i}" for i in range(room)], Ordering.lex)
         self._letters = self._context.gens()
         self._known: dict[sp.Expr, Polynomial] = {}
@@ -104,7 +131,27 @@ class Fractions:
         if isinstance(expression, sp.sin | sp.cos):
             cosine, sine = self._angle(expression.args[0])
             return {(): sine if isinstance(expression, sp.sin) else cosine}
+        if isinstance(expression, sp.exp):
+            return self._exponential(expression.args[0])
         return {(): self._letter(expression)}
+
+    def _exponential(self, argument: sp.Expr) -> Sum:
+        """e^argument as powers of one letter for each term, its numerical factor left out."""
+        result: Sum = {(): self._constant(1)}
+        for term in sp.Add.make_args(sp.expand(argument)):
+            count, part = self._part(term)
+            power: Sum = {(): self._letter(sp.exp(part)) ** abs(count)}
+            result = self.product(result, power if count >= 0 else self._inverse(power))
+        return result
+
+    def _part(self, term: sp.Expr) -> tuple[int, sp.Expr]:
+        """(n, a) with ``term`` = n a, where a is the same for all rational multiples of it."""
+        number, rest = term.as_coeff_Mul()
+        unit = self._units.setdefault(rest, int(number.q))
+        if unit % number.q:
+            self._units[rest] = int(sp.ilcm(unit, number.q))
+            raise Finer
+        return int(number * unit), rest / unit
 
     def _letter(self, meaning: sp.Expr) -> Polynomial:
         if meaning not in self._known:
@@ -197,8 +244,7 @@ class Fractions:
         """(cos, sin) of a sum, from those of its terms."""
         cosine, sine = self._constant(1), self._constant(0)
         for term in sp.Add.make_args(sp.expand(argument)):
-            number, rest = term.as_coeff_Mul()
-            c, s = self._multiple(int(number.p), rest / number.q)
+            c, s = self._multiple(*self._part(term))
             cosine, sine = self._reduced(cosine * c - sine * s), self._reduced(sine * c + cosine * s)
         return cosine, sine
 

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import functools
+import graphlib
 import itertools
-from collections.abc import Sequence
+import operator
+from collections.abc import Iterable, Sequence
 
 import sympy as sp
 
+from ptproof.averaging.damped import Damped
 from ptproof.averaging.phases import Harmonics
 from ptproof.averaging.ring import Coefficient
 from ptproof.averaging.waves import Powers, Wave, Waves, degree
@@ -25,7 +28,7 @@ class Homological:
     Parameters
     ----------
     waves
-        The algebra. With fast states its phases are sines and cosines.
+        The algebra. With fast states its phases are sines and cosines, or ``Damped``.
     matrix
         A (q × q), free of states and phase.
     forcing
@@ -56,6 +59,8 @@ class Homological:
     def _solve_degree(self, part: Wave, level: int) -> Wave:
         """∂W/∂φ + B W = −part on one degree: (B² + r²) a = r s − B c and (B² + r²) b = −r c − B s for each harmonic."""
         ring, phases = self.waves.ring, self.waves.phases
+        if isinstance(phases, Damped):
+            return self._respond(part, level, phases)
         assert isinstance(phases, Harmonics)
         monomials, action = self._on_degree(level)
         result: dict[tuple[tuple[int, int], Powers], Coefficient] = {}
@@ -77,6 +82,31 @@ class Homological:
                     if value != 0:
                         result[(turns, kind), powers] = value
         return result
+
+    def _respond(self, part: Wave, level: int, phases: Damped) -> Wave:
+        """The same between switches, monomial by monomial: w′ − a w = −(what drives it), a its rate of decay."""
+        waves = self.waves
+        monomials, action = self._on_degree(level)
+        count = range(len(monomials))
+        edges = [(i, j) for i in count for j in count if i != j and action[i][j] != 0]
+        order = in_order(len(monomials), edges)
+        assert order is not None  # it was asked of the matrix itself
+        found: dict[int, Wave] = {}
+        for place in order:
+            powers = monomials[place]
+            driving = [{key: value for key, value in part.items() if key[1] == powers}]
+            driving += [
+                {(key, powers): value * action[place][other] for (key, _), value in found[other].items()}
+                for i, other in edges
+                if i == place
+            ]
+            turns = tuple(sum(map(operator.mul, powers, column)) for column in zip(*phases.turns, strict=True))
+            answers = (
+                {(entry, powers): waves.ring.reduced(value * number) for entry, number in phases.response(key, turns)}
+                for (key, _), value in waves.total(driving).items()
+            )
+            found[place] = waves.total(answers)
+        return waves.total(found.values())
 
     def _action(self, level: int) -> tuple[tuple[Powers, ...], Matrix]:
         """The monomials of one degree and the matrix of W ↦ (A y) · ∂W/∂y on them."""
@@ -107,6 +137,17 @@ class Homological:
     def _read(self, matrix: sp.Matrix) -> Matrix:
         ring = self.waves.ring
         return tuple(tuple(ring.read(entry) for entry in matrix.row(i)) for i in range(matrix.rows))
+
+
+def in_order(count: int, edges: Iterable[tuple[int, int]]) -> list[int] | None:
+    """The numbers below ``count`` so that j stands before i for each edge (i, j); None where there is a circle."""
+    needed: dict[int, set[int]] = {i: set() for i in range(count)}
+    for i, j in edges:
+        needed[i].add(j)
+    try:
+        return [*graphlib.TopologicalSorter(needed).static_order()]
+    except graphlib.CycleError:
+        return None
 
 
 def _times(matrix: Matrix, vector: Sequence[Coefficient]) -> list[Coefficient]:

@@ -15,17 +15,15 @@ from ptproof.averaging.brackets import Vector, tidy
 from ptproof.averaging.coefficients import signals
 from ptproof.averaging.expansion import Expansion, normal_form
 from ptproof.averaging.form import check_form, parts
-from ptproof.averaging.oscillation import DELTA
-from ptproof.averaging.problem import DitherProblem
+from ptproof.averaging.problem import DitherProblem, check_order
+from ptproof.averaging.remainder import remainder
 from ptproof.averaging.residual import put_back
 from ptproof.averaging.scaled import linear, of_problem
-from ptproof.errors import InputError
 from ptproof.proof.algebra import is_zero
 from ptproof.proof.engines.smoothness import smoothness
 from ptproof.proof.verdict import Evidence, Verdict
 from ptproof.system import DitherSystem, System
 
-HIGHEST = 12
 _TIDIED = 16
 
 
@@ -100,26 +98,7 @@ class Orders:
     @functools.cached_property
     def remainder(self) -> Vector:
         """ω^(N/2) r, n finite expressions in τ, θ, x, y and ω: dX/dτ along the system less the average at X."""
-        own, omega = self.expansion.oscillation, self.problem.system.omega
-        steps = {
-            symbol: sp.Add(*(DELTA**n * row[i] for n, row in enumerate(self.expansion.correctors, start=1)))
-            for i, symbol in enumerate(own.slow)
-        }
-        moved = {symbol: symbol + step for symbol, step in steps.items()}
-        result = []
-        for place, symbol in enumerate(self.problem.system.state):
-            along = sp.Add(
-                *(sp.diff(moved[symbol], s) * rate for s, rate in zip(own.states, own.right_hand_side, strict=True))
-            )
-            means = sp.Add(
-                *(
-                    DELTA**j * row[place].subs(moved, simultaneous=True)
-                    for j, row in enumerate(self.expansion.means, start=1)
-                )
-            )
-            left = (along - means) / DELTA ** (self.order + 2)
-            result.append(left.subs(DELTA, 1 / sp.sqrt(omega)))
-        return tuple(result)
+        return self._of_states(remainder(self.expansion, self.problem.system.omega))
 
     def _of_states(self, row: Vector) -> Vector:
         """Without the entry of the slow time, which is its own average."""
@@ -184,13 +163,6 @@ def average_to_order(problem: DitherProblem | DitherSystem, order: int = 1) -> O
     if not oscillation.fast:
         _same_as_brackets(found)
     return found
-
-
-def check_order(order: Any, where: str) -> int:
-    """``order``, if it is a whole number from 1 to 12."""
-    if not isinstance(order, int) or isinstance(order, bool) or not 1 <= order <= HIGHEST:
-        raise InputError(f"{where}: expected a whole number from 1 to {HIGHEST}, got {order}")
-    return order
 
 
 def _same_as_brackets(found: Orders) -> None:

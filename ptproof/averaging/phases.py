@@ -16,7 +16,7 @@ from typing import Any
 import sympy as sp
 
 from ptproof.averaging.quasipolynomial import QuasiPolynomial, exact_sign
-from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided
+from ptproof.averaging.refusal import AveragingUndecided
 from ptproof.averaging.ring import Coefficient, Ring
 from ptproof.averaging.signal import Signal, read_signal
 from ptproof.proof.kinks import innermost
@@ -163,8 +163,6 @@ class Pieces(Phases):
             for p in range(len(self.points) - 1)
         ]
         if all(piece == pieces[0] for piece in pieces):
-            if pieces[0].is_trigonometric_polynomial:
-                return pieces[0].expression(self.phase)
             return Signal(self.period, (self.points[0], self.points[-1]), (pieces[0],)).expression(self.phase)
         return Signal(self.period, self.points, tuple(pieces)).expression(self.phase)
 
@@ -200,10 +198,8 @@ def _compared(first: sp.Expr, second: sp.Expr) -> int:
     return exact_sign(first - second)
 
 
-def phases_for(
-    ring: Ring, phase: sp.Symbol, period: sp.Expr, expressions: Iterable[sp.Expr], *, smooth: str = ""
-) -> Phases:
-    """The basis that holds these functions of the phase; with ``smooth``, a reason, only sines and cosines are taken.
+def phases_for(ring: Ring, phase: sp.Symbol, period: sp.Expr, expressions: Iterable[sp.Expr]) -> Phases:
+    """The basis that holds these functions of the phase: :class:`Harmonics`, or :class:`Pieces` where there are jumps.
 
     Raises
     ------
@@ -212,11 +208,8 @@ def phases_for(
     """
     points: set[sp.Expr] = set()
     for i, expression in enumerate(expressions, start=1):
-        if innermost(expression, {phase}) is None:
-            continue
-        if smooth:
-            raise AveragingRefused("D", f"dither {i}", f"{expression} has jumps or kinks; {smooth}")
-        points.update(read_signal(expression, phase, period, f"dither {i}").points)
+        if innermost(expression, {phase}) is not None:
+            points.update(read_signal(expression, phase, period, f"dither {i}").points)
     if not points:
         return Harmonics(ring, phase, period)
     ordered = sorted(points, key=functools.cmp_to_key(_compared))

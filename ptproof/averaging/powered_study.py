@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ptproof.averaging.answer import Average, compare
+from ptproof.averaging.answer import Average
 from ptproof.averaging.attack import attack_powered
+from ptproof.averaging.expected import compare
 from ptproof.averaging.powered_ledger import CONDITIONS, examine_powered
 from ptproof.averaging.powers import PoweredProblem
 from ptproof.averaging.second import PoweredAverage
@@ -28,7 +29,7 @@ def study_powered(problem: PoweredProblem) -> Average:
     domain = problem.plain.domain
     if any(power.free_symbols & _free(problem, found) for power in problem.system.powers):
         domain = (*domain, *problem.system.exponents.relations)
-    expected = None if problem.expected is None else compare(found.system, problem.expected, domain)
+    expected = None if problem.expected is None else compare(found.system.rhs, problem.expected, domain)
     return Average(problem, found.system, found.v, found.brackets, ledger, expected, powered=found)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -17,6 +18,25 @@ TIME = sp.Symbol("tau", real=True)
 PHASE = sp.Symbol("theta", real=True)
 OMEGA = sp.Symbol("omega", positive=True)
 MU = sp.Symbol("mu", positive=True)
+
+
+HIGHEST = 12
+
+
+def check_order(order: Any, where: str) -> int:
+    """``order``, if it is a whole number from 1 to 12."""
+    if not isinstance(order, int) or isinstance(order, bool) or not 1 <= order <= HIGHEST:
+        raise InputError(f"{where}: expected a whole number from 1 to {HIGHEST}, got {order}")
+    return order
+
+
+def check_expected_order(order: Any, where: str) -> int:
+    """``order``, if it is a whole number from 2 to 12: what is expected of order 1 is the average itself."""
+    if not isinstance(order, int) or isinstance(order, bool) or not 2 <= order <= HIGHEST:
+        raise InputError(
+            f"{where}: {order} is not an order from 2 to {HIGHEST}; what is expected of order 1 is the average"
+        )
+    return order
 
 
 @dataclass(frozen=True)
@@ -63,6 +83,8 @@ class DitherProblem:
         Undefined functions of the slow time that are assumed bounded in it, with their derivatives.
     expected
         The average that the author claims, n expressions, or None.
+    expected_orders
+        {N: n expressions}: what the author claims of the averages of order N ≥ 2, for correctors of mean 0.
     mu_omega
         m = μω, a positive constant, where the fast states are as fast as the dithers; None where they are faster.
     """
@@ -75,6 +97,7 @@ class DitherProblem:
     bounded: tuple[AppliedUndef, ...] = ()
     expected: tuple[sp.Expr, ...] | None = None
     mu_omega: sp.Expr | None = None
+    expected_orders: Mapping[int, tuple[sp.Expr, ...]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         known = {*self.system.state, *(self.fast.state if self.fast else ())}
@@ -88,6 +111,10 @@ class DitherProblem:
             system = (self.system.time, self.system.phase, self.system.omega, *self.system.state, *self.fast.state)
             check_names((*system, *sorted(rates, key=lambda symbol: symbol.name)), self.system.name)
         if self.mu_omega is not None:
+            if isinstance(self.mu_omega, int):
+                object.__setattr__(self, "mu_omega", sp.Integer(self.mu_omega))
+            if not isinstance(self.mu_omega, sp.Expr) or self.mu_omega.has(sp.Float):
+                raise InputError(f"{self.system.name}: mu_omega = {self.mu_omega} is not an exact expression")
             if self.fast is None:
                 raise InputError(f"{self.system.name}: mu_omega is given, but there are no fast states")
             if self.mu_omega.free_symbols & {*known, self.system.time, self.system.phase, self.system.omega}:
@@ -99,10 +126,13 @@ class DitherProblem:
                 raise InputError(f"{self.system.name}: the region speaks of {symbol}, which is not a state")
             if (high - low).is_positive is not True:
                 raise InputError(f"{self.system.name}: the interval [{low}, {high}] of {symbol} is empty")
-        if self.expected is not None and len(self.expected) != len(self.system.state):
-            raise InputError(
-                f"{self.system.name}: {len(self.expected)} expected entries for {len(self.system.state)} states"
-            )
+        for entries in (*self.expected_orders.values(), *(() if self.expected is None else (self.expected,))):
+            if len(entries) != len(self.system.state):
+                raise InputError(
+                    f"{self.system.name}: {len(entries)} expected entries for {len(self.system.state)} states"
+                )
+        for order in self.expected_orders:
+            check_expected_order(order, f"{self.system.name}: expected_orders")
 
     @property
     def smooth_functions(self) -> tuple[AppliedUndef, ...]:

@@ -10,7 +10,7 @@ from typing import Any
 import sympy as sp
 
 from ptproof.averaging.powers import PoweredProblem, with_frequencies
-from ptproof.averaging.problem import MU, OMEGA, PHASE, TIME, DitherProblem, FastStates
+from ptproof.averaging.problem import MU, OMEGA, PHASE, TIME, DitherProblem, FastStates, check_expected_order
 from ptproof.averaging.reading_powers import arguments_and_sign, frequencies_of_dithers, with_order
 from ptproof.errors import InputError
 from ptproof.reading.tables import RESERVED, build_from, check_known, declared, finite, hint, listed, read_file
@@ -47,7 +47,8 @@ class _System:
 
 @dataclass(frozen=True)
 class _Expected:
-    average: Any
+    average: Any = None
+    orders: dict[str, Any] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -73,8 +74,9 @@ def load_dither_system(path: str | Path) -> DitherProblem | PoweredProblem:
     and an ``order``, 1 or 2. With 2, or with other powers, the problem is a :class:`PoweredProblem`.
 
     ``[region]`` gives the interval of a state (``x1 = ["-1", "1"]``), ``[expected]`` the ``average`` that the author
-    claims. In expressions ``tau`` is the slow time, ``theta`` the phase ωτ and ``omega`` the frequency. An example
-    stands at :func:`read_dither_system`, which reads the same from text.
+    claims, and in ``[expected.orders]`` those of the orders from 2 on (``2 = ["0", "0"]``), for correctors of mean 0.
+    In expressions ``tau`` is the slow time, ``theta`` the phase ωτ and ``omega`` the frequency. An example stands at
+    :func:`read_dither_system`, which reads the same from text.
 
     Raises
     ------
@@ -132,10 +134,27 @@ def _problem(data: Mapping[str, Any], name: str) -> DitherProblem | PoweredProbl
         bounded=_bounded(system.get("bounded", []), functions),
         region=_region(data.get("region", {}), {symbol.name: symbol for symbol in (*state, *fast_state)}, parameters),
         start=finite(system.get("start", 0), "system.start"),
-        expected=vector(data["expected"], "average", "expected") if "expected" in data else None,
+        expected=vector(data["expected"], "average", "expected") if "average" in data.get("expected", {}) else None,
         mu_omega=finite_rate,
+        expected_orders=_expected_orders(data.get("expected"), vector),
     )
     return with_order(problem, system, parameters)
+
+
+def _expected_orders(
+    expected: Mapping[str, Any] | None, vector: Callable[[Mapping[str, Any], str, str], tuple[sp.Expr, ...]]
+) -> dict[int, tuple[sp.Expr, ...]]:
+    """{N: the average of order N that the author claims}."""
+    orders = {} if expected is None else expected.get("orders", {})
+    if expected is not None and "average" not in expected and not orders:
+        raise InputError('expected: states nothing; give the average, or orders such as 2 = ["0"]')
+    result = {}
+    for key in orders:
+        plain = key.isascii() and key.isdigit() and len(key) < 3 and key == key.lstrip("0")
+        result[check_expected_order(int(key) if plain else key, "expected.orders")] = vector(
+            orders, key, "expected.orders"
+        )
+    return result
 
 
 def _name(value: Any) -> str:

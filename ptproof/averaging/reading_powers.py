@@ -53,6 +53,8 @@ def with_order(
         return problem
     if problem.fast is not None:
         raise InputError("system.fast: fast states are for dithers of the power 1/2 and for order = 1")
+    if problem.expected_orders:
+        raise InputError("expected.orders: orders in 1/sqrt(omega) are for dithers of the power 1/2 and for order = 1")
     try:
         powered = PoweredSystem(problem.system, tuple(powers), conditions)
     except InputError as error:

@@ -12,7 +12,7 @@ from collections.abc import Iterator
 import sympy as sp
 
 from ptproof.averaging.expansion import Expansion
-from ptproof.averaging.fractions import Fractions, Full, Sum, total
+from ptproof.averaging.fractions import Fractions, Sum, reading, total
 from ptproof.averaging.oscillation import DELTA, Oscillation
 from ptproof.averaging.phases import Pieces
 from ptproof.averaging.quasipolynomial import exact_sign
@@ -21,7 +21,6 @@ from ptproof.proof.kinks import branch, innermost
 from ptproof.proof.verdict import Evidence, Verdict
 
 ENGINE = "substitution"
-_MOST_ROOM = 1536
 
 
 def put_back(expansion: Expansion) -> Evidence:
@@ -57,14 +56,7 @@ def _open(detail: str) -> Evidence:
 
 def _first_left(expansion: Expansion, middle: sp.Expr) -> str | None:
     """The first order at which something is left over on the piece of the period around ``middle``, in words."""
-    room = 96
-    while True:
-        try:
-            return _Substituted(expansion, middle, Fractions(room)).first_left()
-        except Full:
-            room *= 4
-            if room > _MOST_ROOM:
-                raise AveragingUndecided(f"more than {_MOST_ROOM} different functions") from None
+    return reading(lambda algebra: _Substituted(expansion, middle, algebra).first_left())
 
 
 class _Substituted:
@@ -194,7 +186,13 @@ def _at_piece(entry: sp.Expr, phase: sp.Symbol, middle: sp.Expr) -> sp.Expr:
 
 def _first_jump(expansion: Expansion, left: sp.Expr, right: sp.Expr, first: sp.Expr, second: sp.Expr) -> str | None:
     """A corrector that is not shown to be continuous where the pieces around two points meet, in words."""
-    phase, algebra = expansion.oscillation.phase, Fractions()
+    return reading(lambda algebra: _jump(expansion, algebra, left, right, first, second))
+
+
+def _jump(
+    expansion: Expansion, algebra: Fractions, left: sp.Expr, right: sp.Expr, first: sp.Expr, second: sp.Expr
+) -> str | None:
+    phase = expansion.oscillation.phase
     for power, row in enumerate(expansion.correctors, start=1):
         for entry in row:
             before = _at_piece(entry, phase, first).subs(phase, left)

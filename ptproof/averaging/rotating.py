@@ -7,7 +7,7 @@ import itertools
 import sympy as sp
 
 from ptproof.averaging.brackets import Vector
-from ptproof.averaging.fractions import Fractions, Full
+from ptproof.averaging.fractions import Fractions, reading
 from ptproof.averaging.refusal import AveragingUndecided
 from ptproof.proof.kinks import innermost
 from ptproof.system import DitherSystem
@@ -43,15 +43,20 @@ def sum_of_waves(system: DitherSystem) -> Vector:
 
 
 def _written(waves: Vector, theta: sp.Symbol, turned: sp.Symbol, angle: sp.Expr) -> Vector | None:
-    algebra = Fractions()
-    result = []
     try:
-        for wave in waves:
-            value = algebra.simplest(algebra.read(wave.xreplace({theta: turned + angle})))
-            left = {node.args[0] for node in algebra.letters(value) if isinstance(node, sp.sin | sp.cos)}
-            if any(argument.free_symbols != {turned} for argument in left):
-                return None
-            result.append(algebra.expression(value))
-    except (AveragingUndecided, Full):
+        return reading(lambda algebra: _in_algebra(waves, theta, turned, angle, algebra), most=96)
+    except AveragingUndecided:
         return None
+
+
+def _in_algebra(
+    waves: Vector, theta: sp.Symbol, turned: sp.Symbol, angle: sp.Expr, algebra: Fractions
+) -> Vector | None:
+    result = []
+    for wave in waves:
+        value = algebra.simplest(algebra.read(wave.xreplace({theta: turned + angle})))
+        left = {node.args[0] for node in algebra.letters(value) if isinstance(node, sp.sin | sp.cos)}
+        if any(argument.free_symbols != {turned} for argument in left):
+            return None
+        result.append(algebra.expression(value))
     return tuple(result)

@@ -24,8 +24,11 @@ class Signal:
 
     @property
     def is_trigonometric(self) -> bool:
-        """Whether the signal is one trigonometric polynomial."""
-        return len(self.pieces) == 1 and self.pieces[0].is_trigonometric_polynomial
+        """Whether the signal is one trigonometric polynomial for all phases, as |sin(θ/2)| on [0, 2π] is not."""
+        if len(self.pieces) != 1 or not self.pieces[0].is_trigonometric_polynomial:
+            return False
+        turns = (rate * self.period / (2 * sp.pi) for _, rate in self.pieces[0].terms)
+        return all(turn.is_Integer or sp.radsimp(sp.simplify(turn)).is_Integer for turn in turns)
 
     @property
     def coefficients(self) -> set[sp.Expr]:

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from ptproof.averaging.answer import Average, compare
+from ptproof.averaging.answer import Average
 from ptproof.averaging.attack import unshaken
 from ptproof.averaging.average import derive
 from ptproof.averaging.coefficients import Coefficients, v_matrix
+from ptproof.averaging.expected import compare, of_orders, open_ones
 from ptproof.averaging.ledger import Ledger, examine
 from ptproof.averaging.orders import Orders, average_to_order
 from ptproof.averaging.powered_study import study_powered
@@ -30,7 +31,8 @@ def study(problem: DitherProblem | DitherSystem | PoweredProblem | PoweredSystem
         one at this fixed product of μ and ω, not its limit at 0. With powers of the frequency it is the limit of first
         or second order (:mod:`ptproof.averaging.second`).
     order
-        The order in 1/√ω up to which averages are asked for; None for the average alone.
+        The order in 1/√ω up to which averages are asked for; None for the average alone, and for as many as
+        ``problem.expected_orders`` speaks of.
 
     Returns
     -------
@@ -48,19 +50,17 @@ def study(problem: DitherProblem | DitherSystem | PoweredProblem | PoweredSystem
     >>> found.refusals, str(found.expected.verdict)
     ((), 'refuted')
     """
-    if isinstance(problem, PoweredSystem):
-        problem = PoweredProblem(problem)
-    if isinstance(problem, PoweredProblem):
+    if isinstance(problem, PoweredSystem | PoweredProblem):
         if order is not None:
-            raise InputError(f"{problem.system.name}: orders in 1/sqrt(omega) are for systems without powers of omega")
-        return study_powered(problem)
+            raise InputError("order: orders in 1/sqrt(omega) are for systems without powers of omega")
+        return study_powered(PoweredProblem(problem) if isinstance(problem, PoweredSystem) else problem)
     if isinstance(problem, DitherSystem):
         problem = DitherProblem(problem)
     asked, ledger = problem.expected, _filter_of(problem) or examine(problem)
 
     def without(v: Coefficients, reason: str) -> Average:
         expected = None if asked is None else Evidence("average", Verdict.UNDECIDED, reason)
-        return Average(problem, None, v, {}, ledger, expected)
+        return Average(problem, None, v, {}, ledger, expected, higher=open_ones(problem.expected_orders, reason))
 
     if "mu_omega" in ledger.entries:
         return without({}, "there is no average to compare with")
@@ -72,14 +72,15 @@ def study(problem: DitherProblem | DitherSystem | PoweredProblem | PoweredSystem
         derived = unshaken(derive(problem.reduced(ledger.steady or ())), points=2, coefficients=0)
     except (AveragingRefused, AveragingUndecided) as error:
         return without({}, str(error))
-    orders, reason = _orders(problem, order)
+    orders, reason = _orders(problem, max((order or 0, *problem.expected_orders)) or None)
     system = derived.system
     if problem.mu_omega is not None:
         if orders is None:
             return replace(without(derived.v, reason), unexpanded=reason)
         system = replace(system, rhs=orders.averages[0], parameters=None)
-    expected = None if asked is None else compare(system, asked, problem.domain)
-    return Average(problem, system, derived.v, derived.brackets, ledger, expected, orders, reason)
+    expected = None if asked is None else compare(system.rhs, asked, problem.domain)
+    higher = of_orders(orders, problem, reason)
+    return Average(problem, system, derived.v, derived.brackets, ledger, expected, orders, reason, higher)
 
 
 def _filter_of(problem: DitherProblem) -> Ledger | None:

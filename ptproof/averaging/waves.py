@@ -11,6 +11,7 @@ import sympy as sp
 from ptproof.averaging.phases import Harmonics, Key, Phases
 from ptproof.averaging.refusal import AveragingUndecided
 from ptproof.averaging.ring import Coefficient, Ring
+from ptproof.proof.kinks import innermost
 
 Powers = tuple[int, ...]
 Wave = Mapping[tuple[Key, Powers], Coefficient]
@@ -99,11 +100,11 @@ class Waves:
             If it is not of this kind.
         """
         parts: list[Wave] = []
-        for term in sp.Add.make_args(expression):
+        for term in together(expression, self.phases.phase):
             factor, moving = term.as_independent(self.phases.phase, *self.fast, as_Add=False)
             number = self.ring.read(factor)
             for powers, rest in self._by_powers(moving, where):
-                for entry in sp.Add.make_args(rest):
+                for entry in together(rest, self.phases.phase):
                     inner, function = entry.as_independent(self.phases.phase, as_Add=False)
                     own = number * self.ring.read(inner)
                     terms = self.phases.read(function, where) if function != 1 else self.phases.one
@@ -148,6 +149,31 @@ class Waves:
             for (key, powers), value in wave.items()
             for result, number in self.phases.primitive(key)
         )
+
+
+def together(expression: sp.Expr, phase: sp.Symbol) -> list[sp.Expr]:
+    """The terms of a sum, those with jumps or powers of the phase joined where they differ by a number.
+
+    A saw, φ/π − 2 floor(φ/2π) − 1, is periodic as a whole only.
+    """
+    groups: dict[sp.Expr, list[sp.Expr]] = {}
+    for term in sp.Add.make_args(expression):
+        factor, function = term.as_independent(phase, as_Add=False)
+        numbers = sp.Mul(*(part for part in sp.Mul.make_args(factor) if part.is_number))
+        groups.setdefault(factor / numbers if numbers != 0 else sp.S.One, []).append(numbers * function)
+    result = []
+    for factor, functions in groups.items():
+        jumping = [function for function in functions if not _is_smooth(function, phase)]
+        result += [factor * function for function in functions if _is_smooth(function, phase)]
+        if jumping:
+            result.append(sp.Mul(factor, sp.Add(*jumping), evaluate=False))
+    return result
+
+
+def _is_smooth(function: sp.Expr, phase: sp.Symbol) -> bool:
+    """Whether the phase stands in sines and cosines only."""
+    waves = {node: sp.Dummy() for node in function.atoms(sp.sin, sp.cos)}
+    return phase not in function.xreplace(waves).free_symbols and innermost(function, {phase}) is None
 
 
 def degree(powers: Sequence[int]) -> int:

@@ -28,6 +28,7 @@ class Outcome:
     caveats: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
     reason: str = ""
+    expectations: tuple[tuple[str, str], ...] = ()
 
 
 @click.command()
@@ -46,7 +47,9 @@ def average(file: str, as_json: bool, order: int | None, timeout: float) -> int:
     With --order N: the averages of dX/dtau = A1(X) + A2(X)/sqrt(omega) + ..., the change of variables that leads to
     them, and what is left, put back into the system and checked.
 
-    Exit status 1 if the theorem does not cover the system, the average is not known, or the average that FILE
+    What FILE expects of the orders from 2 on, in [expected.orders], is derived and compared without --order too.
+
+    Exit status 1 if the theorem does not cover the system, the average is not known, or an average that FILE
     claims is not proved.
     """
     outcome = _studied(file, timeout, order)
@@ -61,7 +64,7 @@ def average(file: str, as_json: bool, order: int | None, timeout: float) -> int:
 
 def _studied(path: str, seconds: float, order: int | None) -> Outcome:
     """The outcome for a TOML file from a process of its own; out of time it says so, and nothing in it is claimed."""
-    from ptproof.averaging.orders import check_order
+    from ptproof.averaging.problem import check_order
     from ptproof.errors import InputError
     from ptproof.reading.limits import Answered, Unanswered, Why, apart, check_seconds
 
@@ -98,6 +101,10 @@ def _study(path: str, order: int | None) -> Outcome:
         found.caveats if found.system is not None else (),
         found.notes,
         f"{path}: {found.unexpanded}" if found.unexpanded else _reason(found, path),
+        tuple(
+            (claim.sentence(problem.system.state, _LONGEST), str(claim.evidence.verdict))
+            for claim in found.expectations
+        ),
     )
 
 
@@ -140,9 +147,10 @@ def _show(outcome: Outcome) -> None:
         console.print(Text(f"The average holds if this does, which was not shown: {caveat}", style="yellow"))
     for note in outcome.notes:
         console.print(Text(f"The cited theorem asks for more, the limit holds without it: {note}", style="yellow"))
-    _show_expected(console, data["expected"])
     if data.get("orders"):
         _show_orders(console, outcome)
+    for sentence, verdict in outcome.expectations:
+        console.print(Text(sentence, style=COLOURS[verdict]))
 
 
 def _show_powers(console: Any, data: dict[str, Any]) -> None:
@@ -183,18 +191,3 @@ def _show_orders(console: Any, outcome: Outcome) -> None:
 
 def _cut(text: str) -> str:
     return text if len(text) <= _LONGEST else f"{text[:_LONGEST]}… (whole with --json)"
-
-
-def _show_expected(console: Any, expected: dict[str, Any] | None) -> None:
-    from rich.text import Text
-
-    from ptproof.commands.terminal import COLOURS
-
-    if expected is None:
-        return
-    verdict = expected["verdict"]
-    console.print(Text(f"the expected average: {verdict}", style=COLOURS[verdict]))
-    if expected["witness"]:
-        witness = expected["witness"]
-        values = ", ".join(f"{name} = {value}" for name, value in witness["values"].items())
-        console.print(Text(f"  at {values}: derived {witness['left']}, expected {witness['right']}"))

@@ -228,18 +228,30 @@ class _Reader:
         return sp.Piecewise(*((self.number(value), self.condition(condition)) for value, condition in pairs))
 
     def derivative(self, args: list[ast.expr]) -> sp.Expr:
-        values = list(map(self.number, args))
-        if len(values) < 2 or not all(isinstance(value, sp.Symbol) for value in values[1:]):
-            raise self.fail("Derivative takes an expression and names of variables")
+        times = list(map(_times, args[1:]))
+        variables = [arg.elts[0] if isinstance(arg, ast.Tuple) and arg.elts else arg for arg in args[1:]]
+        values = list(map(self.number, [*args[:1], *variables]))
+        if len(values) < 2 or not all(times) or not all(isinstance(value, sp.Symbol) for value in values[1:]):
+            raise self.fail("Derivative takes an expression and names of variables, or pairs such as (x, 2)")
         inside = [node for node in ast.walk(args[0]) if isinstance(node, ast.Call)]
-        if len(values) - 1 + sum(_is_derivative(node) for node in inside) > _MOST_DERIVATIVES:
+        if sum(times) + sum(_is_derivative(node) for node in inside) > _MOST_DERIVATIVES:
             raise self.fail(f"more than {_MOST_DERIVATIVES} derivatives of one expression")
-        value = sp.diff(*values)
+        value = sp.diff(values[0], *zip(values[1:], times, strict=True))
         if value.has(sp.DiracDelta) or any(not node.expr.has(AppliedUndef) for node in value.atoms(sp.Derivative)):
             raise self.fail(f"no derivative of {self.text(args[0])}, which jumps")
         return value
 
 
+def _times(variable: ast.expr) -> int:
+    """How often a variable of a derivative is meant: n of (x, n), 1 of a name, 0 of what is neither."""
+    if not isinstance(variable, ast.Tuple):
+        return 1
+    match variable.elts:
+        case [_, ast.Constant(value=int(count))] if not isinstance(count, bool):
+            return count
+    return 0
+
+
 def _is_derivative(node: ast.Call) -> int:
     named = isinstance(node.func, ast.Name) and node.func.id == "Derivative"
-    return len(node.args) - 1 if named else 0
+    return sum(map(_times, node.args[1:])) if named else 0

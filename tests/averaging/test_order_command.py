@@ -2,6 +2,7 @@
 
 import json
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -112,8 +113,51 @@ def test_a_filter_that_is_not_covered_has_no_average(
     assert "Traceback" not in err
 
 
-def test_jumps_and_a_finite_filter_are_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    text = FINITE.replace('"cos(theta)"', '"sign(cos(theta))"')
+CIRCLE = """
+[system.fast]
+state = ["z", "w"]
+rate  = ["w", "F(x1,x2) - z - w"]
+"""
+
+
+def test_jumps_and_filters_that_swing_are_refused_with_the_reason(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = FINITE.replace(FAST, CIRCLE).replace('"cos(theta)"', '"sign(cos(theta))"')
     status, _, err = run(tmp_path, capsys, text, "--json")
     assert status == 1
-    assert "jumps or kinks" in err
+    assert "drive each other in a circle" in err
+
+
+def _shape(value: Any) -> Any:
+    """The keys of nested JSON; of a list those of its first entry."""
+    if isinstance(value, list):
+        return [_shape(value[0])] if value else []
+    if not isinstance(value, dict):
+        return ""
+    return {("?" if key in OPEN else key): _shape(entry) for key, entry in value.items()}
+
+
+OPEN = ("2,1", "A", "z_gap", "psi")
+
+
+def test_the_contract_that_is_written_down_is_the_one_that_is_kept(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    written = Path(__file__).parents[2].joinpath("CONTRIBUTING.md").read_text("utf-8")
+    block = written.split("`ptproof average FILE --json`")[1].split("```json")[1].split("```")[0]
+    promised = json.loads(block)
+    claims = f"""
+[expected]
+average = {json.dumps(TURNED)}
+[expected.orders]
+2 = ["0", "1"]
+"""
+    status, out, _ = run(tmp_path, capsys, FINITE.replace('["k"]', '["k", "m"]') + claims, "--json")
+    data = json.loads(out)
+    assert status == 1
+    for found in (data, promised):
+        found["assumptions"] = {"A": found["assumptions"]["A"]}
+        for claim in (found["expected"], *found["expected"]["orders"]):
+            claim["witness"] = None
+    assert _shape(data) == _shape(promised)

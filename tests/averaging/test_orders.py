@@ -41,6 +41,11 @@ SYSTEMS = {
     "triangle": system([[1], [x**2]], [TRIANGLE, cos(2 * sp.pi * PHASE)], [0], period=1),
     "slow amplitude": system([[1], [F1]], [cos(TIME) * cos(PHASE), sin(PHASE)], [TIME]),
     "turning": system([[cos(F1), 0], [sin(F1), 1]], [cos(PHASE), sin(PHASE)]),
+    "resonant thirds": system(
+        [[1], [x], [F1]], [cos(PHASE / 2), sin(PHASE / 3), cos(5 * PHASE / 6) + sin(PHASE / 6)], [-x], 12 * sp.pi
+    ),
+    "half sine": system([[1], [x**2]], [sp.Abs(sin(PHASE / 2)) - 2 / sp.pi, SQUARE], [0]),
+    "saw": system([[1], [F1]], [PHASE / sp.pi - 2 * sp.floor(PHASE / (2 * sp.pi)) - 1, sin(PHASE)], [0]),
     "quotient": system([[1 / (1 + x**2)], [x]], [cos(PHASE), sin(PHASE)], [sp.sqrt(1 + x**2)]),
 }
 

@@ -104,6 +104,8 @@ GOOD = [
     (sp.Abs(c(theta)) - 2 / pi, 2 * pi, 0),
     (sp.Abs(c(theta)) - 2 / pi, 4 * pi, 0),
     (sp.sign(c(theta)), 2 * pi, 2 / pi),
+    (sp.Abs(s(theta / 2)) - 2 / pi, 2 * pi, -2 / (3 * pi)),
+    (s(sp.Mod(theta, 2 * pi) / 2) - 2 / pi, 2 * pi, -2 / (3 * pi)),
 ]
 
 
@@ -122,6 +124,8 @@ BAD = [
     (theta, 2 * pi, R),
     (sp.Abs(c(theta / 2)) - 2 / pi, pi, R),
     (sp.sign(c(theta / 2)), 2 * pi, R),
+    (sp.Abs(s(theta / 2)), 2 * pi, R),
+    (s(theta / 2) * sp.sign(s(theta / 2)), 2 * pi, R),
     (sp.Piecewise((1, theta < pi), (-1, theta > pi)), 2 * pi, U),
     (sp.Piecewise((1, theta < pi), (-1, theta < 3 * pi / 2)), 2 * pi, U),
     (sp.Piecewise((1, theta > 0), (1, theta < 0)) * c(theta), 2 * pi, U),

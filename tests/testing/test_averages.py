@@ -3,7 +3,7 @@
 import pytest
 import sympy as sp
 
-from ptproof.averaging import PoweredProblem, average, first_correction, with_powers
+from ptproof.averaging import PoweredProblem, average, first_correction, read_dither_system, with_powers
 from ptproof.averaging.problem import DitherProblem, FastStates
 from ptproof.errors import InputError
 from ptproof.system import DitherSystem, System
@@ -92,6 +92,35 @@ def test_only_the_entries_that_differ_are_shown():
     assert "dx1/dtau" not in str(failed.value)
 
 
+THREE = DitherSystem(
+    tau, theta, omega, (x,), (0,), ((1,), (k * F,), (x**2,)), (sp.cos(theta), sp.sin(theta), sp.cos(2 * theta))
+)
+SECOND = "(x**2*(k**2*Derivative(F(x), x)**2 - k**2*F(x)*Derivative(F(x), (x, 2))) - 2*k**2*x*F(x)*Derivative(F(x), x)\
+ + 2*k**2*F(x)**2 - 2)/8"
+
+
+def test_an_average_of_second_order_passes():
+    assert_average(THREE, orders={2: [SECOND]})
+
+
+@pytest.mark.parametrize("wrong", ["0", f"2*{SECOND}", f"-{SECOND}", f"{SECOND} + x/1000"])
+def test_a_near_miss_of_second_order_fails_with_both_sides(wrong):
+    with pytest.raises(AssertionError, match=r"(?s)of order 2 is not the expected one: refuted.*derived:.*expected:"):
+        assert_average(THREE, [k * F.diff(x) / 2], orders={2: [wrong]})
+
+
+def test_what_a_file_states_is_asserted():
+    text = """[system]\nstate = ["x"]\nparameters = ["k"]\ndrift = ["0"]\nperiod = "2*pi"\nmu_omega = "m"
+[[system.dither]]\nfield = ["1"]\nsignal = "cos(theta)"\n[[system.dither]]\nfield = ["k*z"]\nsignal = "sin(theta)"
+[system.fast]\nstate = ["z"]\nrate = ["x**2 - z"]
+[expected]\naverage = ["k*x*(1 - k*m*x**2)/(1 + m**2)"]\n[expected.orders]\n2 = ["0"]\n"""
+    assert_average(read_dither_system(text))
+    with pytest.raises(AssertionError, match="of order 2 is not the expected one: refuted"):
+        assert_average(read_dither_system(text.replace('2 = ["0"]', '2 = ["m"]')))
+    with pytest.raises(AssertionError, match="the average is not the expected one: refuted"):
+        assert_average(read_dither_system(text), ["k*x/(1 + m**2)"])
+
+
 def with_dithers(*dithers, drift=0):
     return DitherSystem(tau, theta, omega, (x,), (drift,), ((1,), (k * F,)), dithers)
 
@@ -140,11 +169,18 @@ def test_trust_does_not_make_a_wrong_average_right():
         ((line, 3.5), TypeError, "expected"),
         ((3, [0]), TypeError, "got int"),
         ((plane, [0, 0]), InputError, "omega"),
+        ((line,), InputError, "states nothing itself"),
     ],
 )
 def test_bad_use_is_refused(arguments, error, words):
     with pytest.raises(error, match=words):
         assert_average(*arguments)
+
+
+@pytest.mark.parametrize("order", [0, 1, 13, True, "2"])
+def test_an_order_that_is_none_is_refused(order):
+    with pytest.raises(InputError, match="not an order from 2 to 12"):
+        assert_average(line, [k * F.diff(x) / 2], orders={order: [0]})
 
 
 def test_an_unknown_letter_is_refused():
