@@ -66,6 +66,7 @@ def certify(
         found = certify_loop(
             target, None if radius is None else parse(radius, where="--radius"),
             filter_gap=parse(filter_gap, where="--filter-gap"), tolerance=tolerance, workers=jobs, client=client,
+            explain=True,
         )  # fmt: skip
     proved = found.verdict is Verdict.PROVED
     attacked = _attack(target, found, attack, seed, jobs) if attack is not None and proved else None
@@ -96,7 +97,9 @@ def _text(name: str, found: LoopCertificate) -> str:
     head = f"{name}, the vehicle in closed loop, omega = {found.omega:.6g}, mu = {found.mu:.6g}"
     starts = f"every start within {found.start_radius:.6g}, every heading, a filter within {found.filter_gap:.6g} of F"
     if found.final is None:
-        return f"{head}\n{starts}\nundecided: {found.detail}"
+        boxes = [f"fails at {box}" for box in found.failing]
+        help = [] if found.help is None else [str(found.help)]
+        return "\n".join([head, starts, f"undecided: {found.detail}", *boxes, *help])
     marks = sorted({round(i * (len(found.times) - 1) / 8) for i in range(9)})
     rows = [f"  t = {found.times[i]:<10.4g} distance at most {found.distances[i]:.4g}" for i in marks]
     rest = [] if found.hover is None else [f"in the long run at most {found.hover:.4g}, if the last gain went on"]
