@@ -93,11 +93,7 @@ def certify_loop(
     ('proved', True)
     """
     begin = clock.perf_counter()
-    size = _distance(problem) if radius is None else number(sp.sympify(radius), "radius")
-    gap = number(sp.sympify(filter_gap), "filter_gap")
-    for where, value in (("radius", size), ("filter_gap", gap)):
-        if not value >= 0:
-            raise InputError(f"{where}: must not be negative, got {value}")
+    size, gap = _sizes(problem, radius, filter_gap)
     reasons, places, tuning = [], dict[str, Place | None](), problem.tuning
     found: _Curve | None = None
     for shape in shapes:
@@ -125,6 +121,16 @@ def _explained(
         boxes = [box for shape, place in places.items() if place for box in failing(problem, shape, place)]
         tried = next((shape for shape, place in places.items() if place), None)
         return tuple(boxes), None if tried is None else advice(problem, radius, gap, tried)
+
+
+def _sizes(problem: Problem, radius: Any, filter_gap: Any) -> tuple[sp.Expr, sp.Expr]:
+    """The radius and the gap as exact numbers; neither is negative."""
+    size = _distance(problem) if radius is None else number(sp.sympify(radius), "radius")
+    gap = number(sp.sympify(filter_gap), "filter_gap")
+    for where, value in (("radius", size), ("filter_gap", gap)):
+        if not value >= 0:
+            raise InputError(f"{where}: must not be negative, got {value}")
+    return size, gap
 
 
 def _distance(problem: Problem) -> sp.Expr:
