@@ -107,7 +107,7 @@ def _inside(place: Place, level: float) -> list[Tried]:
     """Boxes that the band of a level touches, by the bound of the rate on it."""
     levels = place.levels
     band = int(np.clip(np.searchsorted(levels.edges, level, side="right") - 1, 0, levels.bands - 1))
-    boxes, last = Boxes.square(place.half), []
+    boxes, last = Boxes.square(place.half), list[Tried]()
     while len(boxes):
         found = tried(place.model, boxes, levels, place.filter_bands, place.time, band)
         found.sort(key=lambda item: -item.rate)
