@@ -36,13 +36,23 @@ _VEHICLES = 1000
     "--attack", type=click.IntRange(1, 10_000_000), metavar="N", help="Hold N simulated vehicles against the bound."
 )
 @click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Of the vehicles of --attack.")
+@click.option(
+    "--smallest-omega",
+    "varied",
+    flag_value="omega",
+    help="Look for the smallest omega with a bound, by halves; mu*omega stays.",
+)
+@click.option(
+    "--largest-start", "varied", flag_value="start_radius", help="Look for the largest start radius with a bound."
+)
 @options.jobs
 @options.cluster
 @options.plot("the bound over a thousand simulated vehicles")
 @options.as_json
 def certify(
     problem: str, radius: str | None, filter_gap: str, seeker: str | None, tolerance: float, attack: int | None,
-    seed: int, jobs: int | None, cluster: str | None, plot: str | None, as_json: bool, **numbers: str | None,
+    seed: int, jobs: int | None, cluster: str | None, plot: str | None, as_json: bool, varied: str | None,
+    **numbers: str | None,
 ) -> int:  # fmt: skip
     """Prove a bound of the distance between the vehicle and the source, at every time up to the prescribed one.
 
@@ -51,6 +61,7 @@ def certify(
     proved, 1 if not, 2 for bad input.
     """
     from ptproof.certify import certify_loop
+    from ptproof.commands import frontier
     from ptproof.problem import EXAMPLES, example, load
     from ptproof.proof.verdict import Verdict
     from ptproof.reading.expressions import parse
@@ -62,12 +73,13 @@ def certify(
             f"{seeker or target.default_seeker}; with --seeker pt its loop without that is certified"
         )
     target = retuned(target, numbers)
+    start = None if radius is None else parse(radius, where="--radius")
+    gap = parse(filter_gap, where="--filter-gap")
     with options.connected(cluster) as client:
-        found = certify_loop(
-            target, None if radius is None else parse(radius, where="--radius"),
-            filter_gap=parse(filter_gap, where="--filter-gap"), tolerance=tolerance, workers=jobs, client=client,
-            explain=True,
-        )  # fmt: skip
+        given: dict[str, Any] = {"filter_gap": gap, "tolerance": tolerance, "workers": jobs, "client": client}
+        if varied is not None:
+            return frontier.show(problem, target, varied, start, given, plot, as_json)
+        found = certify_loop(target, start, explain=True, **given)
     proved = found.verdict is Verdict.PROVED
     attacked = _attack(target, found, attack, seed, jobs) if attack is not None and proved else None
     outside = _draw(target, found, plot, jobs) if plot is not None and proved else 0

@@ -47,6 +47,33 @@ class Boxes:
         sides = (np.maximum(np.abs(side) - self.half, 0.0) for side in (self.first, self.second))
         return np.asarray(np.hypot(*sides) * (1 - 1e-14))
 
+    def cut(self, slopes: Array, bounds: Array) -> Array:
+        """The largest distance from the origin where Σ slopes_i d_i ≤ bound on a box, d in [−1, 1]² on it.
+
+        ``slopes`` is 2 × boxes, ``bounds`` any rows × boxes, as is what is found: 0 where there is nothing.
+
+        A distance is convex, and so largest at a corner of what is left of the box. Such a corner is one of the box, or
+        on one of its sides: on the way from a corner of the box that is left to one that is cut off.
+        """
+        size = np.abs(slopes).sum(axis=0)
+        bounds = bounds + (np.abs(bounds) + size) * 2.0**-40
+        found = np.zeros(np.broadcast_shapes(bounds.shape, size.shape))
+        for corner in ((-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)):
+            room = bounds - (corner[0] * slopes[0] + corner[1] * slopes[1])
+            for axis in (0, 1):
+                rise = -2 * corner[axis] * slopes[axis]
+                with np.errstate(all="ignore"):
+                    way = np.where(rise > 0, np.minimum(room / rise, 1.0), 1.0)
+                ends = [np.broadcast_to(np.float64(value), way.shape) for value in corner]
+                ends[axis] = corner[axis] * (1 - 2 * way)
+                place = [middle + self.half * end for middle, end in zip((self.first, self.second), ends, strict=True)]
+                size_there = np.maximum(np.hypot(*place), self._corner(corner))
+                found = np.where(room >= 0, np.maximum(found, size_there), found)
+        return np.asarray(found * (1 + 1e-12) + np.where(found > 0, self.half * 1e-11, 0.0))
+
+    def _corner(self, corner: tuple[float, float]) -> Array:
+        return np.asarray(np.hypot(self.first + self.half * corner[0], self.second + self.half * corner[1]))
+
     def chosen(self, mask: Mask) -> Boxes:
         """Some of the boxes."""
         return Boxes(self.first[mask], self.second[mask], self.half)

@@ -34,15 +34,17 @@ from ptproof.certify.loop.certificate import LoopCertificate
 from ptproof.certify.loop.cover import farthest
 from ptproof.certify.loop.failing import Failing, failing
 from ptproof.certify.loop.levels import fallen
+from ptproof.certify.loop.model import Model
 from ptproof.certify.loop.scene import NEAR, ORDERS, Scene, Task, held, hover, no_long_run, tasks
-from ptproof.certify.loop.setup import Unfit
-from ptproof.certify.loop.stage import NoCertificate, Place
+from ptproof.certify.loop.setup import Phase, Unfit
+from ptproof.certify.loop.stage import NoCertificate, Place, Stage
 from ptproof.errors import InputError
 from ptproof.problem import Problem
 from ptproof.problem.model import number
 from ptproof.proof.verdict import Verdict
 
 _PRECISION = 128
+_CLOSE = 0.005
 _ROUNDING = 1e-9  # covers that times are shown as floats
 SHAPES = "distance", "field"
 _NAMES = {"distance": "half the squared distance", "field": "the field below its peak"}
@@ -54,7 +56,7 @@ _Curve: TypeAlias = tuple[tuple[float, ...], tuple[float, ...], float | None, st
 
 def certify_loop(
     problem: Problem, radius: Any = None, *, filter_gap: Any = 0, tolerance: float = 0.12, workers: int | None = None,
-    client: Any = None, shapes: Sequence[str] = SHAPES, explain: bool = False,
+    client: Any = None, shapes: Sequence[str] | None = None, explain: bool = False,
 ) -> LoopCertificate:  # fmt: skip
     """Bound the distance of the prescribed-time seeker from the source over [t₀, t₀ + T], whatever its heading.
 
@@ -70,6 +72,7 @@ def certify_loop(
         How much of a rate may be given away to save time.
     shapes
         What V is tried: half the squared distance from the source, F(x*) − F; the first that leads to a proof counts.
+        Left out: both, F(x*) − F first where the drift goes along the field's slope.
     workers, client
         Threads (left out: one per processor), or a ``distributed.Client``; neither changes the result.
     explain
@@ -96,7 +99,7 @@ def certify_loop(
     size, gap = _sizes(problem, radius, filter_gap)
     reasons, places, tuning = [], dict[str, Place | None](), problem.tuning
     found: _Curve | None = None
-    for shape in shapes:
+    for shape in _shapes(problem) if shapes is None else shapes:
         try:
             with precision(_PRECISION):
                 found = _curve(problem, size, gap, shape, tolerance, workers, client)
@@ -125,7 +128,7 @@ def _explained(
 
 def _sizes(problem: Problem, radius: Any, filter_gap: Any) -> tuple[sp.Expr, sp.Expr]:
     """The radius and the gap as exact numbers; neither is negative."""
-    size = _distance(problem) if radius is None else number(sp.sympify(radius), "radius")
+    size = start_distance(problem) if radius is None else number(sp.sympify(radius), "radius")
     gap = number(sp.sympify(filter_gap), "filter_gap")
     for where, value in (("radius", size), ("filter_gap", gap)):
         if not value >= 0:
@@ -133,7 +136,13 @@ def _sizes(problem: Problem, radius: Any, filter_gap: Any) -> tuple[sp.Expr, sp.
     return size, gap
 
 
-def _distance(problem: Problem) -> sp.Expr:
+def _shapes(problem: Problem) -> tuple[str, ...]:
+    """In the order in which they are tried. Along a slope all of a level set of F falls about equally fast."""
+    return SHAPES if problem.drift.matrix is None else SHAPES[::-1]
+
+
+def start_distance(problem: Problem) -> sp.Expr:
+    """|x(t₀) − x*|."""
     squares = [(a - b) ** 2 for a, b in zip(problem.initial.x, problem.source, strict=True)]
     return sp.sqrt(sum(squares))
 
@@ -144,35 +153,22 @@ def _curve(
     scene = Scene.of(problem, radius, gap, shape)
     prepared, stage, work = scene.prepared, scene.stage, scene.work
     bounds = _all_rates(scene, tolerance * scene.typical, workers, client)
-    level = stage.start
-    times, reached = [work[0][1].start], [level]
-    for at, ((_, part), found) in enumerate(zip(work, bounds, strict=True)):
-        for piece in part.parts or (part,):
-            before, level = level, fallen(level, found, stage.levels, piece.shortest, piece.longest)
-            if not level < stage.levels.edges[-1]:
-                raise NoCertificate(
-                    f"W is not shown to stay below {stage.levels.edges[-1]:.4g} at t = {piece.end:.4g}: "
-                    "a larger omega or a smaller start would help, or a weaker drift",
-                    scene.place(at, before),
-                )
-            times.append(piece.end)
-            reached.append(level)
+    times, reached = _levels(scene, bounds)
+    level, endless = reached[-1], no_long_run(scene)
     if level > stage.start and not held(stage.levels, bounds[-1], level):
         raise NoCertificate(
             "no level of W is shown to decrease at the end: a larger omega or a smaller start would help",
             scene.place(-1, level),
         )
-    endless = no_long_run(scene)
     hover_level = None if endless else hover(stage.levels, bounds[-1], level)
-    asked = np.array(sorted({*reached, *([] if hover_level is None else [hover_level])}))
-    found = np.zeros(len(asked))
-    for model, span in zip(prepared, scene.spans, strict=True):
-        found = np.maximum(found, farthest(model, asked, stage.filter_bands, stage.half, span.interval(), 0.005))
-    distance = dict(zip(asked.tolist(), ((found + prepared[0].reach) * (1 + _ROUNDING)).tolist(), strict=True))
+    counts = [len(part.parts) or 1 for _, part in work]
+    holding = [model for (model, _), count in zip(work, counts, strict=True) for _ in range(count)]
+    phased = list(zip(prepared, scene.spans, strict=True))
+    distances, last = _distances(phased, holding, stage, reached, hover_level)
     near = max(up(ball_from(radius)), NEAR * prepared[0].reach)
-    if distance[reached[-1]] > near:
+    if distances[-1] > near:
         raise NoCertificate(
-            f"the vehicle is shown to stay within {max(distance[item] for item in reached):.4g}, but not to come "
+            f"the vehicle is shown to stay within {max(distances):.4g}, but not to come "
             f"closer than {near:.4g}: a larger omega, k or T would help",
             scene.place(-1, level),
         )
@@ -180,7 +176,48 @@ def _curve(
         f"V is {_NAMES[shape]}, corrected to order {ORDERS[0]} in 1/sqrt(omega); rates proved on {stage.levels.bands} "
         f"bands of levels, all headings and filter states, over {len(work)} stretches of time{endless}"
     )
-    return tuple(times), tuple(distance[item] for item in reached), hover_level and distance[hover_level], detail
+    return times, distances, last, detail
+
+
+def _levels(scene: Scene, bounds: Sequence[Array]) -> tuple[tuple[float, ...], list[float]]:
+    """The times at the ends of the stretches, and levels that W is not above there."""
+    work, stage = scene.work, scene.stage
+    times, reached = [work[0][1].start], [stage.start]
+    for at, ((_, part), found) in enumerate(zip(work, bounds, strict=True)):
+        for piece in part.parts or (part,):
+            level = fallen(reached[-1], found, stage.levels, piece.shortest, piece.longest)
+            if not level < stage.levels.edges[-1]:
+                raise NoCertificate(
+                    f"W is not shown to stay below {stage.levels.edges[-1]:.4g} at t = {piece.end:.4g}: "
+                    "a larger omega or a smaller start would help, or a weaker drift",
+                    scene.place(at, reached[-1]),
+                )
+            times.append(piece.end)
+            reached.append(level)
+    return tuple(times), reached
+
+
+def _distances(
+    phased: Sequence[tuple[Model, Phase]], held: Sequence[Model], stage: Stage, reached: Sequence[float],
+    hover: float | None,
+) -> tuple[tuple[float, ...], float | None]:  # fmt: skip
+    """|x − x*| where W is not above the levels reached, and at the one that is left in the end.
+
+    ``held`` says which model holds on each stretch between two of the levels. A level at which two phases meet counts
+    in both. Where two phases have one model, nothing in it depends on time.
+    """
+    found: Array = np.zeros(len(reached))
+    last: float | None = None
+    for model, span in {id(model): (model, span) for model, span in phased}.values():
+        touched = [i for i, one in enumerate(held) if one is model]
+        at = sorted({*touched, *(i + 1 for i in touched)})
+        final = hover if model is phased[-1][0] else None
+        asked = np.array(sorted({*(reached[i] for i in at), *([] if final is None else [final])}))
+        away = farthest(model, asked, stage.filter_bands, stage.half, span.interval(), _CLOSE)
+        away = (away + model.reach) * (1 + _ROUNDING)
+        found[at] = np.maximum(found[at], away[np.searchsorted(asked, [reached[i] for i in at])])
+        last = None if final is None else float(away[np.searchsorted(asked, final)])
+    return tuple(found.tolist()), last
 
 
 def _all_rates(scene: Scene, slack: float, workers: int | None, client: Any) -> list[Array]:

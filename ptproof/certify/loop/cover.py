@@ -15,24 +15,24 @@ import numpy as np
 from ptproof.balls.arrays import Array, Intervals
 from ptproof.certify.loop.boxes import Boxes, Mask
 from ptproof.certify.loop.levels import Indices, Levels, largest_over, smallest_within
-from ptproof.certify.loop.model import Model
+from ptproof.certify.loop.model import Model, across
 
-_CHUNK = 2048
+_CHUNK = 512
 _CLASS = 1 / 16  # the slopes κ are multiples of this part of the typical one
 _MOST = 150_000  # boxes, after which nothing is refined any more
 _SLACK = 2.0**-44
-_RADII, _ANGLES = 64, 24
+_RADII, _ANGLES = 48, 16
 _FINEST = 1 / 32  # of δ: half the side of boxes that are not quartered any more
 
 
 def guide(model: Model, levels: Levels, half: float, time: Intervals) -> Array:
-    """Per band about the largest rate at q = 0, from points alone: where to look closely, and never a bound."""
+    """Per band about the largest rate, from points alone: where to look closely, and never a bound."""
     radii = np.geomspace(model.reach / 10, half, _RADII)
     angles = np.linspace(0, 2 * np.pi, _ANGLES, endpoint=False)
     points = Boxes(np.outer(radii, np.cos(angles)).ravel(), np.outer(radii, np.sin(angles)).ravel(), 0.0)
     look = _Look.at(model, points, levels, np.zeros(2), time)
     seen = np.full(levels.bands, -np.inf)
-    np.maximum.at(seen, look.place, look.value)
+    np.maximum.at(seen, look.place, look.reached)
     filled = np.isfinite(seen)
     at = np.arange(levels.bands)
     return np.asarray(np.interp(at, at[filled], seen[filled]))
@@ -123,31 +123,31 @@ def tried(
 
 
 def farthest(model: Model, wanted: Array, filter_bands: Array, half: float, time: Intervals, tolerance: float) -> Array:
-    """For each of the increasing levels ``wanted`` a bound of |y| where W is not above it, for y in [−half, half]²."""
+    """For each of the increasing levels ``wanted`` a bound of |y| where W is not above it, for y in [−half, half]².
+
+    W ≥ base + g·d on a box, for all headings and q, with d in [−1, 1]²: W ≤ c leaves a half-plane of it.
+    """
     found, seen = np.zeros((2, len(wanted)))
     count, boxes = 0, Boxes.square(half)
     while len(boxes):
         looks = []
         for part in boxes.parts(_CHUNK):
-            function, there = model.function.bounds(model.values(model.function_columns, part, time))
-            low = np.min([function.within(*pair)[0] for pair in pairwise(filter_bands)], axis=0)
-            looks.append((part, np.searchsorted(wanted, low, side="left"), part.farthest()))
-            _raise(seen, np.searchsorted(wanted, there.low[0], side="left"), np.hypot(part.first, part.second))
-        enough = np.append(np.maximum.accumulate(seen) * (1 + tolerance), np.inf)
+            waves = model.still(part, time)[0]
+            upright = waves.upright().ranges()
+            base = np.min([upright.below(*pair) for pair in pairwise(filter_bands)], axis=0)
+            looks.append((part, part.cut(waves.mean().slopes[:2], wanted[:, np.newaxis] - base)))
+            inside = wanted[:, np.newaxis] >= upright.least[0]
+            seen = np.maximum(seen, np.where(inside, np.hypot(part.first, part.second), 0.0).max(axis=1))
+        enough = np.maximum.accumulate(seen) * (1 + tolerance)
         count += len(boxes)
         fine = boxes.half < model.reach * _FINEST / 4 or count > _MOST
         rest = []
-        for part, edge, reach in looks:
-            split = np.zeros(len(part), bool) if fine else reach > enough[edge]
-            _raise(found, edge[~split], reach[~split])
+        for part, reach in looks:
+            split = np.zeros(len(part), bool) if fine else (reach > enough[:, np.newaxis]).any(axis=0)
+            found = np.maximum(found, reach[:, ~split].max(axis=1, initial=0.0))
             rest.append(part.chosen(split).quarters())
         boxes = Boxes.joined(rest)
     return np.asarray(np.maximum.accumulate(found))
-
-
-def _raise(found: Array, at: Indices, values: Array) -> None:
-    inside = at < len(found)
-    np.maximum.at(found, at[inside], values[inside])
 
 
 @dataclass(frozen=True, eq=False)
@@ -163,28 +163,22 @@ class _Look:
     slopes: Indices
     place: Indices
     value: Array
+    reached: Array
 
     @staticmethod
     def at(model: Model, boxes: Boxes, levels: Levels, filter_bands: Array, time: Intervals) -> _Look:
-        values = model.values(model.columns, boxes, time)
-        (function, there), (rate, rate_there) = model.function_rest.bounds(values), model.rate_rest.bounds(values)
-        centred = model.centred(boxes, time)
-        slopes = centred.slopes(model.typical * _CLASS)
+        function, rate = model.both(boxes, time)
+        slopes = across(function, rate, model.typical * _CLASS)
         kappa: Array = np.asarray(slopes * (model.typical * _CLASS), dtype=np.float64)
+        size, both = function.ranges(), rate.plus(kappa, function).ranges()
         rows = []
         for pair in pairwise(filter_bands):
-            low, high = function.within(*pair)
-            rest = np.maximum(kappa * low, kappa * high)
-            main, other = centred.combined(kappa), rate.within(*pair)[1]
-            found = main + rest + other + (np.abs(main) + np.abs(rest) + np.abs(other)) * _SLACK
-            size = (np.abs(centred.low) + np.abs(centred.high) + np.abs(low) + np.abs(high)) * _SLACK
-            rows.append((*levels.touched(centred.low + low - size, centred.high + high + size), found))
+            rows.append((*levels.touched(size.below(*pair), size.above(*pair)), both.above(*pair)))
         first, last, found = (np.stack(column) for column in zip(*rows, strict=True))
-        at_rest = centred.start.middle + 0.5 * (there.low[0] + there.high[0])
+        at_rest = function.mean().middle
         place = np.clip(np.searchsorted(levels.edges, at_rest) - 1, 0, levels.bands - 1)
-        # The same level is met at other places for other headings.
-        elsewhere = np.abs(kappa) * 0.5 * (there.high[0] - there.low[0])
-        return _Look(first, last, found, slopes, place, centred.main.middle + rate_there.high[0] + elsewhere)
+        there = both.expected() - kappa * at_rest, both.reached() - kappa * at_rest
+        return _Look(first, last, found, slopes, place, *there)
 
     def above(self, enough: Array, levels: Levels, unit: float) -> Mask:
         """The boxes that say more than ``enough`` on some band that they touch."""

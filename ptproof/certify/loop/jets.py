@@ -5,16 +5,22 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from math import comb, factorial
+from typing import TypeAlias
 
 import numpy as np
 import sympy as sp
 from flint import acb
 
-from ptproof.balls.arrays import Intervals, run
+from ptproof.balls.arrays import Array, Intervals, run
+from ptproof.balls.linear import Linear, around
 from ptproof.balls.tape import Tape, compile_tape
+from ptproof.certify.loop.boxes import Boxes
 from ptproof.certify.loop.polynomials import Letter, Polynomial, by_slow, product, scaled, term, total
 
 ONE = acb(1)
+_SLACK = 2.0**-44
+_Step: TypeAlias = tuple[int, int, int]  # how often a function is differentiated in y₁, y₂, t
+_STAY: _Step = (0, 0, 0)
 FIELD, FIRST, SECOND, CLOCK, REST, DISTANCE = "F", "d1", "d2", "h", "R", "V"
 """The field F(x* + y) − F(x*), the drift's two entries, the clock's factor h = dt/dτ, and rests of Taylor polynomials.
 
@@ -48,7 +54,8 @@ class Jets:
     factor: sp.Expr
     order: int
     _known: dict[Letter, sp.Expr] = field(default_factory=dict, compare=False, repr=False)
-    _tapes: dict[tuple[Letter, ...], Tape] = field(default_factory=dict, compare=False, repr=False)
+    _moved: dict[tuple[Letter, int], sp.Expr] = field(default_factory=dict, compare=False, repr=False)
+    _tapes: dict[tuple[tuple[Letter, int], ...], Tape] = field(default_factory=dict, compare=False, repr=False)
 
     def expression(self, letter: Letter) -> sp.Expr:
         """The expression of a letter that is no rest, in (y₁, y₂, t)."""
@@ -93,33 +100,81 @@ class Jets:
         rest = Letter(f"{REST} {letter.name} {degree}", letter.first, letter.second)
         return total(*parts, term(ONE, rest, grade=degree + 1))
 
-    def enclosures(
-        self, letters: Sequence[Letter], box: tuple[Intervals, Intervals], time: Intervals, reach: float
-    ) -> dict[Letter, Intervals]:
-        """What the letters are on boxes: each an :class:`Intervals` over all boxes.
+    def linear(self, letters: Sequence[Letter], boxes: Boxes, time: Intervals, reach: float) -> Linear:
+        """What the letters are on boxes and a stretch of ``time``: linear forms in y₁, y₂, and in t if need be.
 
-        ``reach`` is a float not below δ: rests are bounded on the boxes made larger by it.
+        It is letters × boxes. ``reach`` is a float not below δ: rests are bounded on the boxes made larger by it.
         """
-        plain = tuple(letter for letter in letters if not letter.name.startswith(REST))
-        found = self._values(plain, (*box, time))
-        rests = [letter for letter in letters if letter.name.startswith(REST)]
-        if rests:
-            wide = tuple(side.widened(reach) for side in box)
-            found |= {letter: self._rest(letter, (*wide, time)) for letter in rests}
-        return found
+        plain = [letter for letter in letters if not letter.name.startswith(REST)]
+        middle = np.asarray(0.5 * time.low + 0.5 * time.high)
+        late = np.asarray(np.maximum(time.high - middle, middle - time.low) * (1 + 1e-15) + 1e-300)
+        moving = any(self.expression(letter).has(self.time) for letter in plain)
+        halves = (boxes.half, boxes.half, float(late))[: 3 if moving else 2]
+        at = tuple(Intervals.point(value) for value in (boxes.first, boxes.second, middle))
+        ones = [_unit(axis) for axis in range(len(halves))]
+        pairs = [(i, j) for i in range(len(halves)) for j in range(i, len(halves))]
+        first = self._partial([(letter, step) for letter in plain for step in (_STAY, *ones)], at)
+        second = self._partial(
+            [(letter, _sum(ones[i], ones[j])) for letter in plain for i, j in pairs], (*boxes.sides(), time)
+        )
+        wide = tuple(side.widened(reach) for side in boxes.sides())
+        shape = len(letters), len(boxes)
+        found = Linear(np.zeros(shape), np.zeros((len(halves), *shape)), np.zeros(shape))
+        for row, letter in enumerate(letters):
+            if letter.name.startswith(REST):
+                found.radius[row] = self._rest(letter, (*wide, time))
+                continue
+            found.middle[row], found.radius[row] = around(first[letter, _STAY])
+            for axis, half in enumerate(halves):
+                slope, off = around(first[letter, ones[axis]])
+                found.slopes[axis, row] = slope * half
+                found.radius[row] += (off + np.abs(slope) * _SLACK) * half
+            for i, j in pairs:
+                size = second[letter, _sum(ones[i], ones[j])].magnitude()
+                found.radius[row] += size * (halves[i] * halves[j] * (0.5 if i == j else 1.0))
+        return Linear(found.middle, found.slopes, found.radius * (1 + _SLACK))
 
-    def _values(self, letters: tuple[Letter, ...], values: Sequence[Intervals]) -> dict[Letter, Intervals]:
-        if letters not in self._tapes:
+    def _partial(
+        self, wanted: Sequence[tuple[Letter, _Step]], values: Sequence[Intervals]
+    ) -> dict[tuple[Letter, _Step], Intervals]:
+        """Partial derivatives of letters in (y₁, y₂, t)."""
+        named = {item: self._named(*item) for item in wanted}
+        asked = tuple(sorted({name for name in named.values() if self._derived(name) != 0}))
+        known = dict(zip(asked, self._run(asked, values), strict=True))
+        nothing = Intervals.point(0.0)
+        return {item: known.get(name, nothing) for item, name in named.items()}
+
+    @staticmethod
+    def _named(letter: Letter, step: _Step) -> tuple[Letter, int]:
+        return letter._replace(first=letter.first + step[0], second=letter.second + step[1]), step[2]
+
+    def _derived(self, name: tuple[Letter, int]) -> sp.Expr:
+        """The expression of a letter, differentiated in t."""
+        if name not in self._moved:
+            letter, times = name
+            self._moved[name] = self._derived((letter, times - 1)).diff(self.time) if times else self.expression(letter)
+        return self._moved[name]
+
+    def _run(self, names: tuple[tuple[Letter, int], ...], values: Sequence[Intervals]) -> list[Intervals]:
+        if names not in self._tapes:
             symbols = (*self.position, self.time)
-            self._tapes[letters] = compile_tape([self.expression(letter) for letter in letters], symbols)
-        return dict(zip(letters, run(self._tapes[letters], values), strict=True))
+            self._tapes[names] = compile_tape([self._derived(name) for name in names], symbols)
+        return run(self._tapes[names], values)
 
-    def _rest(self, letter: Letter, values: Sequence[Intervals]) -> Intervals:
+    def _rest(self, letter: Letter, values: Sequence[Intervals]) -> Array:
         """Lagrange: (n·∇)^(K+1) a/(K + 1)! on the way, at most Σ binomial · |partial derivative| / (K + 1)!."""
         _, name, degree = letter.name.split()
         order = int(degree) + 1
-        parts = {i: Letter(name, letter.first + i, letter.second + order - i) for i in range(order + 1)}
-        found = self._values(tuple(parts.values()), values)
-        sizes = [found[part].magnitude() * (comb(order, i) / factorial(order)) for i, part in parts.items()]
-        bound = np.sum(np.broadcast_arrays(*sizes), axis=0) * (1 + 1e-12)
-        return Intervals(-bound, bound)
+        steps = [(i, order - i, 0) for i in range(order + 1)]
+        parent = Letter(name, letter.first, letter.second)
+        found = self._partial([(parent, step) for step in steps], values)
+        sizes = [found[parent, step].magnitude() * (comb(order, step[0]) / factorial(order)) for step in steps]
+        return np.asarray(np.sum(np.broadcast_arrays(*sizes), axis=0) * (1 + 1e-12))
+
+
+def _unit(axis: int) -> _Step:
+    return int(axis == 0), int(axis == 1), int(axis == 2)
+
+
+def _sum(left: _Step, right: _Step) -> _Step:
+    return left[0] + right[0], left[1] + right[1], left[2] + right[2]

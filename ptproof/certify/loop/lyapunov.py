@@ -20,31 +20,16 @@ _NOISE = 1e-13
 
 @dataclass(frozen=True)
 class Lyapunov:
-    """W = V + rest, and dW/dτ = main + rest, where main depends on y and τ alone and has the lowest order."""
+    """W and its rate dW/dτ."""
 
     flow: Flow
-    start: Polynomial
-    function_rest: Polynomial
-    main: Polynomial
-    rate_rest: Polynomial
+    function: Polynomial
+    rate: Polynomial
 
     @staticmethod
-    def of(flow: Flow, start: Polynomial, function: Polynomial) -> Lyapunov:
+    def of(flow: Flow, function: Polynomial) -> Lyapunov:
         """From any W, by exact differentiation along the flow."""
-        rate = scaled(acb(1), flow.derivative(function), grade=-2)
-        return Lyapunov(
-            flow, start, total(function, scaled(acb(-1), start)), selected(rate, _is_main),
-            selected(rate, lambda key: not _is_main(key)),
-        )  # fmt: skip
-
-    @property
-    def function(self) -> Polynomial:
-        """W."""
-        return total(self.start, self.function_rest)
-
-
-def _is_main(key: Key) -> bool:
-    return key[0] <= 0 and key[1] == 0 and key[2] == 0 and not any(letter.name.startswith(REST) for letter in key[3])
+        return Lyapunov(flow, function, scaled(acb(1), flow.derivative(function), grade=-2))
 
 
 def lyapunov(flow: Flow, start: Polynomial, order: int, manifold_order: int, weight: float) -> Lyapunov:
@@ -65,7 +50,7 @@ def lyapunov(flow: Flow, start: Polynomial, order: int, manifold_order: int, wei
         left = selected(flow.derivative(corrected), _plain(grade, lambda key: bool(key[1] or key[2])))
         step = {key: -complex(value) / (1j * key[1] - key[2] / m) for key, value in left.items()}
         corrected = total(corrected, _exact(step))
-    return Lyapunov.of(flow, start, total(corrected, term(acb(weight) / 2, power=2)))
+    return Lyapunov.of(flow, total(corrected, term(acb(weight) / 2, power=2)))
 
 
 def _plain(grade: int, keep: Callable[[Key], bool]) -> Callable[[Key], bool]:

@@ -20,7 +20,7 @@ from ptproof.problem import Problem
 
 ORDERS = 3, 1, 3
 NEAR = 6  # radii of the circle: a bound above that and above the start's distance is none
-_WEIGHT = 0.06
+_WEIGHT = 0.02
 
 
 @dataclass(frozen=True, eq=False)
@@ -136,7 +136,7 @@ def tasks(scene: Scene, slack: float) -> list[Task]:
         if part.steady:
             after = max(after, hover(stage.levels, seen + 2 * slack * stage.levels.edges[1:], level) or 0.0)
         worse = math.exp(min(slack * passed, 5.0))
-        found.append(replace(task, seen=seen, window=(0.7 * min(level, after), 1.5 * worse * max(level, after))))
+        found.append(replace(task, seen=seen, window=(0.8 * min(level, after), 1.1 * worse * max(level, after))))
         if not after < stage.levels.edges[-1]:
             raise NoCertificate(
                 f"nothing keeps W from leaving its largest level at t = {part.end:.4g}: a larger omega, a smaller "

@@ -158,7 +158,7 @@ def models(
     first = lyapunov(flows[0], start, orders[0], orders[1], weight)
     found = [first]
     for flow in flows[1:]:
-        found.append(Lyapunov.of(replace(flow, manifold=first.flow.manifold), start, first.function))
+        found.append(Lyapunov.of(replace(flow, manifold=first.flow.manifold), first.function))
     made = tuple(Model.of(item, values["delta"], weight, typical) for item in found)
     return made if drifting else made * len(spans)  # without a drift nothing depends on time
 

@@ -103,13 +103,13 @@ def _start(model: Model, half: float, reach: float, filter_start: float, time: I
     boxes, level, deviation = Boxes.square(half, 64), -math.inf, 0.0
     for left in range(_ROUNDS, -1, -1):
         boxes = boxes.chosen(boxes.nearest() <= reach)
-        values, alone = model.values(model.columns, boxes, time), model.values(model.function_columns, boxes, time)
-        off = model.manifold.bounds(values)[0].size() * (1 + 1e-9) + filter_start
-        function, there = model.function.bounds(alone)
+        waves, manifold = model.still(boxes, time)
+        off = manifold.ranges().size() * (1 + 1e-9) + filter_start
+        function = waves.ranges()
         parts = np.linspace(0, float(off.max()), 9)
-        high = np.max([function.within(*pair)[1] for pair in pairwise(parts)], axis=0)
+        high = np.max([function.above(*pair) for pair in pairwise(parts)], axis=0)
         inside = boxes.farthest() <= reach
-        best = float(there.high[0][inside].max()) if inside.any() else -math.inf
+        best = float(function.most[0][inside].max()) if inside.any() else -math.inf
         split = (high > best * 1.001) & (left > 0)
         level = max(level, float(high[~split].max(initial=-math.inf)))
         deviation = max(deviation, float(off[~split].max(initial=0.0)))
@@ -127,16 +127,15 @@ def _ceiling(model: Model, half: float, bands: Array, time: Intervals) -> float:
         np.concatenate([middles, middles, edge, -edge]), np.concatenate([edge, -edge, middles, middles]),
         2.0 ** math.ceil(math.log2(half / 512)),
     )  # fmt: skip
-    values = model.values(model.function_columns, border, time)
-    lowest = min(float(model.function.bounds(values)[0].within(*pair)[0].min()) for pair in pairwise(bands))
-    values = model.values(model.function_columns, Boxes.square(half, 64), time)
-    return min(lowest, float(model.function.bounds(values)[0].within(bands[-1], bands[-1])[0].min()))
+    function = model.still(border, time)[0].ranges()
+    lowest = min(float(function.below(*pair).min()) for pair in pairwise(bands))
+    function = model.still(Boxes.square(half, 64), time)[0].ranges()
+    return min(lowest, float(function.below(bands[-1], bands[-1]).min()))
 
 
 def _bottom(model: Model) -> float:
     """A level that is reached at a fifth of δ around the source or so, for orientation."""
     angles = np.linspace(0, 2 * np.pi, 16, endpoint=False)
     around = Boxes(0.2 * model.reach * np.cos(angles), 0.2 * model.reach * np.sin(angles), 0.0)
-    values = model.values(model.function_columns, around, Intervals.point(0.0))
-    found = float(model.function.bounds(values)[1].high[0].min())
+    found = float(model.still(around, Intervals.point(0.0))[0].ranges().most[0].min())
     return found if found > 0 else math.inf

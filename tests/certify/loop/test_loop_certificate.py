@@ -109,5 +109,19 @@ def test_the_closed_loop_must_be_the_one_that_is_meant(monkeypatch):
         setup.check_form(tuned())
 
 
-def test_levels_are_tried_in_turn():
-    assert module.SHAPES == ("distance", "field")
+@pytest.mark.parametrize(
+    ("name", "first"), [("vanishing", "field"), ("nonvanishing", "distance"), ("saturated", "distance")]
+)
+def test_levels_of_the_field_are_tried_first_where_the_drift_follows_its_slope(monkeypatch, name, first):
+    tried = []
+
+    def none(problem, size, gap, shape, *_):
+        tried.append(shape)
+        raise module.NoCertificate("none")
+
+    monkeypatch.setattr(module, "_curve", none)
+    certificate = certify_loop(example(name))
+    assert tried[0] == first
+    assert sorted(tried) == ["distance", "field"]
+    assert certificate.verdict is Verdict.UNDECIDED
+    assert certificate.detail.count("none") == 2

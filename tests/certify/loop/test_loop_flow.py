@@ -109,7 +109,7 @@ def test_w_has_no_letter_that_jumps_at_the_clip():
 def test_low_orders_are_left_with_their_mean_alone():
     with precision(128):
         _, _, found = made("gradient")
-    left = [abs(complex(value)) for key, value in found.rate_rest.items() if key[0] < 2 and key[1] and not key[2]]
+    left = [abs(complex(value)) for key, value in found.rate.items() if key[0] < 2 and key[1] and not key[2]]
     assert max(left) < 1e-10
 
 
