@@ -143,7 +143,7 @@ def farthest(model: Model, wanted: Array, filter_bands: Array, half: float, time
         fine = boxes.half < model.reach * _FINEST / 4 or count > _MOST
         rest = []
         for part, reach in looks:
-            split = np.zeros(len(part), bool) if fine else (reach > enough[:, np.newaxis]).any(axis=0)
+            split: Mask = np.asarray((reach > enough[:, np.newaxis]).any(axis=0) & (not fine))
             found = np.maximum(found, reach[:, ~split].max(axis=1, initial=0.0))
             rest.append(part.chosen(split).quarters())
         boxes = Boxes.joined(rest)
