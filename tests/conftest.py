@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import pytest
+
+from ptproof.reading import limits
+from ptproof.reading.outcomes import Answered, Unanswered, Why, in_words
 
 
 @pytest.fixture
@@ -27,3 +31,16 @@ def saved(monkeypatch: pytest.MonkeyPatch) -> list[Any]:
 def own_memory(monkeypatch: pytest.MonkeyPatch) -> None:
     """No test recalls what another, or a person, has had decided; nor does it keep anything."""
     monkeypatch.setenv("PTPROOF_CACHE", "")
+
+
+@pytest.fixture
+def in_this_process(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The command works in this process, which saves the imports of another; some tests of each keep the other."""
+
+    def apart(seconds: float, work: Callable[..., Any], *arguments: Any) -> Answered[Any] | Unanswered:
+        try:
+            return Answered(work(*arguments))
+        except Exception as error:
+            return Unanswered(Why.FAILED, in_words(error), error)
+
+    monkeypatch.setattr(limits, "apart", apart)

@@ -1,3 +1,4 @@
+from .answer import Average as Average
 from .average import Derived as Derived
 from .average import average as average
 from .average import derive as derive
@@ -12,6 +13,10 @@ from .ledger import examine as examine
 from .orders import Orders as Orders
 from .orders import average_to_order as average_to_order
 from .oscillation import Oscillation as Oscillation
+from .powers import PoweredProblem as PoweredProblem
+from .powers import PoweredSystem as PoweredSystem
+from .powers import with_frequencies as with_frequencies
+from .powers import with_powers as with_powers
 from .problem import DitherProblem as DitherProblem
 from .problem import FastStates as FastStates
 from .reading import load_dither_system as load_dither_system
@@ -20,6 +25,7 @@ from .refusal import AveragingRefused as AveragingRefused
 from .refusal import AveragingUndecided as AveragingUndecided
 from .residual import put_back as put_back
 from .scaled import of_turning as of_turning
+from .second import PoweredAverage as PoweredAverage
+from .second import derive_powered as derive_powered
 from .split import split_dithers as split_dithers
-from .study import Average as Average
 from .study import study as study

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any, Protocol, TypeVar
 
 import sympy as sp
 
+from ptproof.averaging.second import PoweredAverage
 from ptproof.proof.attack import insist
 from ptproof.proof.claim import Goal
 from ptproof.proof.statement import Relation
@@ -85,3 +86,30 @@ def attack_average(derived: Averaged, *, points: int = 6, coefficients: int | No
     for goal in list(coefficient_goals(derived))[:coefficients]:
         count += insist(f"the coefficient {goal.id} of {name} is {goal.statement}", goal, points=2).points
     return count
+
+
+def attack_powered(found: PoweredAverage, *, points: int = 6) -> int:
+    """At how many points the average of a system with powers was attacked in vain; raises as :func:`attack_average`.
+
+    What is attacked is f₀ + Σ lim γ_ij [f_i, f_j] + Σ lim γ_ijm [[f_i, f_j], f_m], the derivatives left as they are.
+    """
+    plain, state = found.dithered.plain, found.dithered.state
+    total = list(plain.drift)
+    for letters, gamma in found.gammas.items():
+        if gamma.limit:
+            nested = plain.fields[letters[0] - 1]
+            for letter in letters[1:]:
+                nested = _left_bracket(nested, plain.fields[letter - 1], state)
+            total = [entry + gamma.limit * value for entry, value in zip(total, nested, strict=True)]
+    goal = Goal(found.system.name, Relation(sp.Matrix(found.system.rhs), "=", sp.Matrix(total)), where_defined=True)
+    return insist(f"the average of {plain.name} is the second-order Lie bracket system", goal, points=points).points
+
+
+def _left_bracket(f: Sequence[sp.Expr], g: Sequence[sp.Expr], state: Sequence[sp.Symbol]) -> tuple[sp.Expr, ...]:
+    """(∂g/∂x) f − (∂f/∂x) g with derivatives that nobody carries out."""
+
+    def along(entries: Sequence[sp.Expr], direction: Sequence[sp.Expr], row: int) -> sp.Expr:
+        slopes = (sp.Derivative(entries[row], variable, evaluate=False) for variable in state)
+        return sp.Add(*(slope * speed for slope, speed in zip(slopes, direction, strict=True) if speed != 0))
+
+    return tuple(along(g, f, row) - along(f, g, row) for row in range(len(state)))

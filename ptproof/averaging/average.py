@@ -10,7 +10,9 @@ import sympy as sp
 
 from ptproof.averaging.brackets import SparseField, Vector, sparse_bracket, tidy
 from ptproof.averaging.coefficients import Coefficients, v_matrix
-from ptproof.averaging.refusal import AveragingRefused
+from ptproof.averaging.form import check_form
+from ptproof.averaging.powers import PoweredSystem
+from ptproof.averaging.second import derive_powered
 from ptproof.system import DitherSystem, System
 
 Pair = tuple[int, int]
@@ -29,8 +31,11 @@ class Derived:
         return self.system._repr_latex_()
 
 
-def average(system: DitherSystem) -> System:
+def average(system: DitherSystem | PoweredSystem) -> System:
     """The Lie bracket system dx/dτ = b₀ + Σ_{i<j} [b_i, b_j] v_ji, in readable form.
+
+    Of a :class:`~ptproof.averaging.powers.PoweredSystem` it is the one of second order
+    (:func:`~ptproof.averaging.second.derive_powered`).
 
     Parameters
     ----------
@@ -59,7 +64,7 @@ def average(system: DitherSystem) -> System:
     >>> average(seeker).rhs
     (Derivative(F(x), x)/2,)
     """
-    return derive(system).system
+    return derive_powered(system).system if isinstance(system, PoweredSystem) else derive(system).system
 
 
 def derive(system: DitherSystem) -> Derived:
@@ -90,26 +95,3 @@ def derive(system: DitherSystem) -> Derived:
     rhs = tuple(map(operator.add, system.drift, added))
     averaged = System(system.time, system.state, rhs, name=f"average of {system.name}")
     return Derived(system, averaged, v, brackets)
-
-
-def parts(system: DitherSystem) -> list[tuple[str, Vector]]:
-    """The drift and the fields, with what people call them."""
-    return [("drift", system.drift), *((f"field {i}", entries) for i, entries in enumerate(system.fields, start=1))]
-
-
-def check_form(system: DitherSystem) -> None:
-    """Refuse what is not of the form drift + √ω Σ field · dither with the frequency in √ω and the phase only."""
-    dithers = [(f"dither {i}", (entry,)) for i, entry in enumerate(system.dithers, start=1)]
-    for place, entries in [*parts(system), *dithers]:
-        free = set().union(*(entry.free_symbols for entry in entries))
-        if system.omega in free:
-            raise AveragingRefused(
-                "form",
-                place,
-                f"it contains the frequency {system.omega}; the theorem is for the amplitude "
-                f"sqrt({system.omega}) exactly, with fields, drift and signals that do not depend on it",
-            )
-        if place == "drift" and system.phase in free:
-            raise AveragingRefused(
-                "form", place, f"it depends on the phase {system.phase}; the theorem's drift b0 varies slowly only"
-            )

@@ -42,18 +42,22 @@ class SparseField:
         return result
 
 
-def sparse_bracket(f: SparseField, g: SparseField) -> SparseField:
-    """[f, g] = (∂g/∂x) f − (∂f/∂x) g, as :func:`ptproof.system.lie_bracket`, touching nonzero entries only."""
+def sparse_bracket(f: SparseField, g: SparseField, factored: int = _FACTORED) -> SparseField:
+    """[f, g] = (∂g/∂x) f − (∂f/∂x) g, as :func:`ptproof.system.lie_bracket`, touching nonzero entries only.
+
+    ``factored`` as in :func:`tidy`.
+    """
     forward, backward = g.along(f), f.along(g)
     entries = [forward.get(row, sp.S.Zero) - backward.get(row, sp.S.Zero) for row in range(len(f.state))]
-    return SparseField([tidy(entry) if entry != 0 else entry for entry in entries], f.state)
+    return SparseField([tidy(entry, factored) if entry != 0 else entry for entry in entries], f.state)
 
 
-def tidy(expression: sp.Expr) -> sp.Expr:
+def tidy(expression: sp.Expr, factored: int = _FACTORED) -> sp.Expr:
     """The same expression with sin² + cos² = 1 used up, for every argument, in the shortest form found.
 
     Sines and cosines, functions, derivatives and other transcendentals become generators, the rest is
-    polynomial algebra: exact, and fast also where ``simplify`` gives no answer.
+    polynomial algebra: exact, and fast also where ``simplify`` gives no answer. Sums of more than ``factored`` terms
+    are not factored, which takes long where there are many generators.
     """
     masked, sines, cosines, back = _mask(expression)
     expanded = sp.expand(masked)
@@ -63,7 +67,7 @@ def tidy(expression: sp.Expr) -> sp.Expr:
     for form in list(forms):
         if form.is_Add:
             forms.append(sp.factor_terms(form))
-            if len(form.args) <= _FACTORED:
+            if len(form.args) <= factored:
                 forms.append(sp.factor(form))
     if len(forms[0].free_symbols) >= len(masked.free_symbols):
         forms.append(masked)

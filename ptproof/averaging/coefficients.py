@@ -84,7 +84,7 @@ def mean_is_zero(mean: sp.Expr, where: str, system: DitherSystem) -> None:
     raise AveragingRefused(
         "D",
         where,
-        f"it has the mean {mean} over a period, not 0; with the factor sqrt({system.omega}) the average would "
+        f"it has the mean {mean} over a period, not 0; times a power of {system.omega} the average would "
         "grow without bound; subtract the mean",
     )
 

@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-import functools
 import itertools
 import operator
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ptproof.averaging.average import derive, parts
+from ptproof.averaging.average import derive
 from ptproof.averaging.brackets import SparseField, Vector, sparse_bracket, tidy
 from ptproof.averaging.coefficients import signals, tidy_constant
+from ptproof.averaging.form import parts
+from ptproof.averaging.means import triple_means
 from ptproof.averaging.signal import Signal
 from ptproof.proof.engines.smoothness import smoothness
 from ptproof.proof.statement import Relation
@@ -127,7 +127,7 @@ def first_correction(system: DitherSystem) -> Correction:
 
 def _drift(system: DitherSystem, found: tuple[Signal, ...]) -> Vector:
     fields = [SparseField(entries, system.state) for entries in system.fields]
-    mean = _triple_means(found)
+    mean = triple_means(found)
     rows: dict[int, list[sp.Expr]] = {}
     for i, j in itertools.combinations(range(len(fields)), 2):
         weights = {k: tidy_constant(sp.expand(mean(j, i, k) - mean(i, j, k))) for k in range(len(fields))}
@@ -139,27 +139,3 @@ def _drift(system: DitherSystem, found: tuple[Signal, ...]) -> Vector:
             for row, entry in sparse_bracket(inner, fields[k]).entries.items():
                 rows.setdefault(row, []).append(-weight * entry / 3)
     return tuple(tidy(sp.Add(*rows[row])) if row in rows else sp.S.Zero for row in range(len(system.state)))
-
-
-def _triple_means(found: tuple[Signal, ...]) -> Any:
-    """⟨u_b U_a U_c⟩ as a function of (b, a, c), each product formed once."""
-    rates = [
-        frozenset(rate for _, rate in signal.pieces[0].terms) if signal.is_trigonometric else None for signal in found
-    ]
-
-    @functools.cache
-    def product(a: int, c: int) -> Signal:
-        return found[a].primitive * found[c].primitive
-
-    @functools.cache
-    def mean(b: int, a: int, c: int) -> sp.Expr:
-        if a > c:
-            return mean(b, c, a)
-        first, second, third = rates[a], rates[b], rates[c]
-        if first is not None and second is not None and third is not None:
-            sums = {sign * p + q for p in first for q in second for sign in (1, -1)}
-            if not any(total in third or -total in third for total in sums):
-                return sp.S.Zero
-        return (found[b] * product(a, c)).mean
-
-    return mean

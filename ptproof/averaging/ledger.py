@@ -10,12 +10,12 @@ from typing import Any
 
 import sympy as sp
 
-from ptproof.averaging.average import check_form, parts
 from ptproof.averaging.boundary import boundary_layer_stability
 from ptproof.averaging.bounded import bounded_in_time
 from ptproof.averaging.brackets import Vector
 from ptproof.averaging.coefficients import signals
 from ptproof.averaging.fast import quasi_steady_state
+from ptproof.averaging.form import check_form, parts
 from ptproof.averaging.problem import DitherProblem, FastStates
 from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided
 from ptproof.errors import InputError
@@ -24,6 +24,7 @@ from ptproof.proof.signs import vanishes
 from ptproof.proof.verdict import Evidence, Verdict, Witness
 from ptproof.reading.expressions import parse
 
+_TIMES = {2: "twice", 3: "three times"}
 _ORDER = {Verdict.REFUTED: 0, Verdict.UNDECIDED: 1, Verdict.PROVED: 2}
 
 
@@ -72,8 +73,8 @@ def examine(problem: DitherProblem) -> Ledger:
     >>> examine(DitherProblem(seeker)).with_verdict(Verdict.PROVED)
     ('form', 'A', 'B', 'C', 'D', 'E', 'F', 'boundary layer')
     """
-    judges = {"form": _form, "A": _smooth_fields, "B": _bounded_fields, "C": _dithers, "D": _period_and_mean}
-    entries = {letter: _judged(judge, problem) for letter, judge in judges.items()}
+    judges = {"form": _form, "A": smooth_fields, "B": bounded_fields, "C": _dithers, "D": period_and_mean}
+    entries = {letter: judged(judge, problem) for letter, judge in judges.items()}
     fast, steady = problem.fast, None
     if fast is None:
         for letter, engine in _OF_FAST_STATES.items():
@@ -83,13 +84,14 @@ def examine(problem: DitherProblem) -> Ledger:
             steady, unique = quasi_steady_state(fast, problem.domain)
         except Exception as error:
             unique = _crash(error)
-        entries["E"] = _judged(_lipschitz_rates, problem, fast)
-        entries["F"] = _judged(_steady, problem, fast, steady, unique)
-        entries["boundary layer"] = _judged(_boundary_layer, problem, fast, steady)
+        entries["E"] = judged(_lipschitz_rates, problem, fast)
+        entries["F"] = judged(_steady, problem, fast, steady, unique)
+        entries["boundary layer"] = judged(_boundary_layer, problem, fast, steady)
     return Ledger(entries, steady)
 
 
-def _judged(judge: Callable[..., Evidence], *arguments: Any) -> Evidence:
+def judged(judge: Callable[..., Evidence], *arguments: Any) -> Evidence:
+    """What ``judge`` says of the arguments, in how many seconds."""
     start = time.perf_counter()
     try:
         evidence = judge(*arguments)
@@ -161,15 +163,18 @@ def _where(problem: DitherProblem) -> str:
     return text
 
 
-def _smooth_fields(problem: DitherProblem) -> Evidence:
+def smooth_fields(problem: DitherProblem, order: int = 2) -> Evidence:
+    """Whether drift and fields are C^``order`` on the times and the region asked about."""
     variables = (problem.system.time, *_states(problem))
     found = []
     for place, entry in _places(problem):
-        evidence = smoothness(entry, variables, 2, _assumed(problem), problem.domain)
+        evidence = smoothness(entry, variables, order, _assumed(problem), problem.domain)
         if evidence.witness is not None:
             evidence = replace(evidence, detail=evidence.detail + _dilation_hint(problem, entry, evidence.witness))
         found.append((place, evidence))
-    return _worst(found, "smoothness", "twice continuously differentiable" + _where(problem))
+    return _worst(
+        found, "smoothness", f"{_TIMES.get(order, f'{order} times')} continuously differentiable" + _where(problem)
+    )
 
 
 def _dilation_hint(problem: DitherProblem, entry: sp.Expr, witness: Witness) -> str:
@@ -186,7 +191,8 @@ def _dilation_hint(problem: DitherProblem, entry: sp.Expr, witness: Witness) -> 
     return ""
 
 
-def _bounded_fields(problem: DitherProblem) -> Evidence:
+def bounded_fields(problem: DitherProblem) -> Evidence:
+    """Whether drift and fields are bounded in time on every compact set of states."""
     system, start, domain = problem.system, problem.start, problem.domain
     found = [
         (place, bounded_in_time(entry, system.time, _states(problem), start, domain, problem.bounded))
@@ -214,7 +220,8 @@ def _dithers(problem: DitherProblem) -> Evidence:
     return _worst(found, "dithers", detail)
 
 
-def _period_and_mean(problem: DitherProblem) -> Evidence:
+def period_and_mean(problem: DitherProblem) -> Evidence:
+    """Whether each dither has the declared period and the mean 0."""
     try:
         signals(problem.system)
     except AveragingRefused as refusal:

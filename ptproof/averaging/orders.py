@@ -10,10 +10,11 @@ from typing import Any
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ptproof.averaging.average import check_form, derive, parts
+from ptproof.averaging.average import derive
 from ptproof.averaging.brackets import Vector, tidy
 from ptproof.averaging.coefficients import signals
 from ptproof.averaging.expansion import Expansion, normal_form
+from ptproof.averaging.form import check_form, parts
 from ptproof.averaging.oscillation import DELTA
 from ptproof.averaging.problem import DitherProblem
 from ptproof.averaging.residual import put_back

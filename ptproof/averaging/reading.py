@@ -9,7 +9,9 @@ from typing import Any
 
 import sympy as sp
 
+from ptproof.averaging.powers import PoweredProblem, with_frequencies
 from ptproof.averaging.problem import MU, OMEGA, PHASE, TIME, DitherProblem, FastStates
+from ptproof.averaging.reading_powers import arguments_and_sign, frequencies_of_dithers, with_order
 from ptproof.errors import InputError
 from ptproof.reading.tables import RESERVED, build_from, check_known, declared, finite, hint, listed, read_file
 from ptproof.system import DitherSystem
@@ -22,6 +24,8 @@ _RESERVED = RESERVED | _FIXED.keys()
 class _Dither:
     field: Any
     signal: Any
+    power: Any = "1/2"
+    frequency: Any = 1
 
 
 @dataclass(frozen=True)
@@ -37,6 +41,8 @@ class _System:
     start: Any = None
     name: Any = None
     mu_omega: Any = None
+    order: Any = 1
+    conditions: Any = None
 
 
 @dataclass(frozen=True)
@@ -51,18 +57,24 @@ class _Tables:
     region: dict[str, Any] = field(default_factory=dict)
 
 
-def load_dither_system(path: str | Path) -> DitherProblem:
+def load_dither_system(path: str | Path) -> DitherProblem | PoweredProblem:
     """Read a dither system from a TOML file.
 
     The table ``[system]`` has ``state``, ``drift``, ``period`` and one ``[[system.dither]]`` (``field``,
     ``signal``) per dither, and may have ``parameters`` (positive), ``functions`` (unknown smooth functions with
-    their arguments), ``bounded`` (those functions of ``tau`` that are assumed bounded in it, with their
-    derivatives), ``start`` (the earliest τ asked about, 0 if left out), ``name`` and ``[system.fast]``
-    (``state``, ``rate``, and ``quasi_steady_state`` where the author knows it). With fast states there may be
-    ``mu_omega``, the product μω where it is held fixed: a positive number, or a name for one. ``[region]`` gives the
-    interval of a state (``x1 = ["-1", "1"]``), ``[expected]`` the ``average`` that the author claims. In expressions
-    ``tau`` is the slow time, ``theta`` the phase ωτ and ``omega`` the frequency. An example stands at
-    :func:`read_dither_system`, which reads the same from text.
+    their arguments, ``F = ["x"]``, or with a sign too, ``J = { of = ["x"], sign = "positive" }``), ``bounded`` (those
+    functions of ``tau`` that are assumed bounded in it, with their derivatives), ``start`` (the earliest τ asked
+    about, 0 if left out), ``name`` and ``[system.fast]`` (``state``, ``rate``, and ``quasi_steady_state`` where the
+    author knows it). With fast states there may be ``mu_omega``, the product μω where it is held fixed: a positive
+    number, or a name for one.
+
+    A dither may have a ``frequency`` (rational; its signal is taken at that many times the phase) and a ``power`` of ω
+    (1/2 if left out; linear in parameters), the system ``conditions`` on the powers' parameters (``["1/2 < p < 1"]``)
+    and an ``order``, 1 or 2. With 2, or with other powers, the problem is a :class:`PoweredProblem`.
+
+    ``[region]`` gives the interval of a state (``x1 = ["-1", "1"]``), ``[expected]`` the ``average`` that the author
+    claims. In expressions ``tau`` is the slow time, ``theta`` the phase ωτ and ``omega`` the frequency. An example
+    stands at :func:`read_dither_system`, which reads the same from text.
 
     Raises
     ------
@@ -72,7 +84,7 @@ def load_dither_system(path: str | Path) -> DitherProblem:
     return read_dither_system(read_file(path, "a dither system"), str(path), name=Path(path).stem)
 
 
-def read_dither_system(text: str, where: str = "text", name: str | None = None) -> DitherProblem:
+def read_dither_system(text: str, where: str = "text", name: str | None = None) -> DitherProblem | PoweredProblem:
     """The dither system that ``text`` (TOML) describes; ``where`` opens the error messages.
 
     Examples
@@ -85,7 +97,7 @@ def read_dither_system(text: str, where: str = "text", name: str | None = None) 
     return build_from(text, where, _Tables, lambda data: _problem(data, name or where))
 
 
-def _problem(data: Mapping[str, Any], name: str) -> DitherProblem:
+def _problem(data: Mapping[str, Any], name: str) -> DitherProblem | PoweredProblem:
     system, fast = data["system"], data["system"].get("fast")
     taken: dict[str, Any] = dict(_FIXED)
     state = _symbols(system["state"], "system.state", taken, real=True)
@@ -112,16 +124,18 @@ def _problem(data: Mapping[str, Any], name: str) -> DitherProblem:
     drift, period = vector(system, "drift", "system"), _period(system["period"], parameters)
     title = _name(system.get("name", name))
     rates = {key: vector(fast, key, "system.fast", len(fast_state)) for key in fast or {} if key != "state"}
-    return DitherProblem(
-        system=DitherSystem(TIME, PHASE, OMEGA, state, drift, tuple(fields), tuple(signals), period, name=title),
+    plain = DitherSystem(TIME, PHASE, OMEGA, state, drift, tuple(fields), tuple(signals), period, name=title)
+    problem = DitherProblem(
+        system=with_frequencies(plain, frequencies_of_dithers(system["dither"])),
         fast=FastStates(fast_state, **rates) if fast else None,
         functions=tuple(function(*arguments) for function, arguments in functions.values()),
         bounded=_bounded(system.get("bounded", []), functions),
-        region=_region(data.get("region", {}), {symbol.name: symbol for symbol in (*state, *fast_state)}),
+        region=_region(data.get("region", {}), {symbol.name: symbol for symbol in (*state, *fast_state)}, parameters),
         start=finite(system.get("start", 0), "system.start"),
         expected=vector(data["expected"], "average", "expected") if "expected" in data else None,
         mu_omega=finite_rate,
     )
+    return with_order(problem, system, parameters)
 
 
 def _name(value: Any) -> str:
@@ -145,15 +159,17 @@ def _functions(value: Mapping[str, Any], taken: Mapping[str, Any]) -> dict[str, 
     """Name → (SymPy function, declared arguments)."""
     result = {}
     known = [key for key in taken if key not in (PHASE.name, OMEGA.name)]
-    for name, arguments in value.items():
+    for name, entry in value.items():
         where = f"system.functions.{name}"
         declared([name], where, _RESERVED, taken)
-        for argument in listed(arguments, where):
+        arguments, sign = arguments_and_sign(entry, where)
+        for argument in arguments:
             if argument not in known:
                 raise InputError(f"{where}: {argument!r} is not a state{hint(str(argument), known)}")
         if not arguments:
             raise InputError(f"{where}: a function needs at least one argument; a constant is a parameter")
-        result[name] = (sp.Function(name, real=True), tuple(taken[argument] for argument in arguments))
+        kind = {"real": True} if sign is None else {"real": True, sign: True}
+        result[name] = (sp.Function(name, **kind), tuple(taken[argument] for argument in arguments))
     return result
 
 
@@ -201,7 +217,11 @@ def _period(value: Any, parameters: Sequence[sp.Symbol]) -> sp.Expr:
     return period
 
 
-def _region(value: Mapping[str, Any], states: Mapping[str, sp.Symbol]) -> dict[sp.Symbol, tuple[sp.Expr, sp.Expr]]:
+def _region(
+    value: Mapping[str, Any], states: Mapping[str, sp.Symbol], parameters: Sequence[sp.Symbol]
+) -> dict[sp.Symbol, tuple[sp.Expr, sp.Expr]]:
+    for name in value.keys() & {symbol.name for symbol in parameters}:
+        raise InputError(f"region.{name}: a region is of states; what a power may be says system.conditions")
     check_known(value, tuple(states), "state in [region]")
     result = {}
     for name, interval in value.items():

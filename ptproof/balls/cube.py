@@ -65,15 +65,27 @@ class Box:
         return max(range(len(sizes)), key=sizes.__getitem__)
 
 
-def shell(n: int, low: arb, high: arb, pieces: int = 1) -> list[Box]:
-    """Boxes that cover ``low`` ≤ ‖y‖ ≤ ``high`` in n dimensions, ``pieces`` along each side of a face of the cube."""
+def all_faces(n: int) -> tuple[Face, ...]:
+    """The faces of the cube in n dimensions."""
+    return tuple(Face(axis, sign, ((-1, 1),) * (n - 1)) for axis in range(n) for sign in (-1, 1))
+
+
+def shell(faces: Sequence[Face], low: arb, high: arb, pieces: int = 1) -> list[Box]:
+    """Boxes that cover ``low`` ≤ ‖y‖ ≤ ``high`` in the directions of ``faces``, ``pieces`` along a whole side."""
     ends = [arb(2 * i) / pieces - 1 for i in range(pieces + 1)]
     return [
-        Box(Face(axis, sign, ((-1, 1),) * (n - 1)), False, ((low, high), *sides))
-        for axis in range(n)
-        for sign in (-1, 1)
-        for sides in product(list(pairwise(ends)), repeat=n - 1)
+        Box(face, False, ((low, high), *sides))
+        for face in faces
+        for sides in product(*(_cut(side, ends) for side in face.sides))
     ]
+
+
+def _cut(side: tuple[int, int], ends: Sequence[arb]) -> list[tuple[arb, arb]]:
+    """The side in pieces between its own ends and those of ``ends`` that lie certainly inside."""
+    low, high = arb(side[0]), arb(side[1])
+    if side[0] == side[1]:
+        return [(low, high)]
+    return list(pairwise([low, *(end for end in ends if low < end < high), high]))
 
 
 def reduced_faces(drop: sp.Expr, offsets: Sequence[sp.Symbol]) -> tuple[Face, ...]:

@@ -12,17 +12,18 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import cached_property, lru_cache
 from typing import Any, TypeAlias
 
 import sympy as sp
 from flint import arb
 
-from ptproof.balls.ball import BALLS, ball_from, interval, precision
-from ptproof.balls.boxes import centre
-from ptproof.balls.cube import Box, shell
+from ptproof.balls.ball import ball_from, interval, precision
+from ptproof.balls.cells import Cell, FieldOnCells, Middle, Over
+from ptproof.balls.cube import Box, Face, reduced_faces, shell
 from ptproof.balls.rounding import down, up
 from ptproof.balls.search import Look, Search
-from ptproof.balls.tape import Undefined, compile_tape, switching_part
+from ptproof.balls.tape import Undefined, switching_part
 from ptproof.errors import InputError
 from ptproof.system import gradient
 
@@ -33,6 +34,7 @@ _DEEPEST = 160  # shells below the first radius; the ball inside is one last cel
 _PIECES = 300
 _TOLERANCE = 0.02  # of the largest rate of a shell, or of this fraction of any rate there
 _SMALL = 0.1
+_KEPT = 4  # shells whose cells are kept for the next weight
 
 _Matrix: TypeAlias = list[list[Any]]
 
@@ -74,15 +76,8 @@ class RadialEnvelope:
         if (found := switching_part(self.expression, self.variables)) is not None:
             raise Undefined(f"a field with {found.func.__name__}, which is not smooth in closed form")
         n = self.dimension
-        slope, second = gradient(self.expression, self.variables), list(sp.hessian(self.expression, self.variables))
-        try:
-            # The field itself is enclosed beside its derivatives, which may be smooth where it jumps.
-            self._both = compile_tape([*slope, *second, self.expression], self.variables)
-            self._hessian = compile_tape([*second, self.expression], self.variables)
-        except Undefined as error:
-            raise Undefined(f"a field without enclosures ({error})") from None
         with precision(BITS):
-            self._source = [ball_from(value) for value in self.source]
+            self._field = FieldOnCells(self.variables, self.expression, self.source)
             half = ball_from(self.k) / 2
             entries = [
                 [ball_from(self.matrix[i, j] if self.matrix is not None else 0) for j in range(n)] for i in range(n)
@@ -91,6 +86,18 @@ class RadialEnvelope:
                 [[arb(w) * entries[i][j] + (half if i == j else 0) for j in range(n)] for i in range(n)]
                 for w in self.weights
             ]  # fmt: skip
+        self._shells = lru_cache(maxsize=_KEPT)(self._parts)
+
+    @cached_property
+    def _faces(self) -> tuple[Face, ...]:
+        """Directions that suffice for every weight: the symmetries of the field and of its rate along E and alone."""
+        y = [sp.Dummy(f"y{i}", real=True) for i in range(self.dimension)]
+        share, value = sp.symbols("share value", cls=sp.Dummy, real=True)
+        E = self.matrix if self.matrix is not None else sp.zeros(self.dimension)
+        moved = {x: c + yi for x, c, yi in zip(self.variables, self.source, y, strict=True)}
+        slope = sp.Matrix(gradient(self.expression, self.variables))
+        rate = sp.Matrix([y]) * (sp.eye(self.dimension) + share * E) * slope.subs(moved, simultaneous=True)
+        return reduced_faces(rate[0] + value * self.expression.subs(moved, simultaneous=True), y)
 
     @property
     def dimension(self) -> int:
@@ -146,105 +153,65 @@ class RadialEnvelope:
 
     def _enclose(self, index: int, M: _Matrix) -> float:
         """Branch and bound over the shell, until the largest rate is known closely enough."""
-        low, high, finer = self.boundary(index), self.boundary(index + 1), max(1, self.dimension - 1)
-        near = index <= -_NEAR or low == 0 or self.dimension > 2
-        parts, scale = shell(self.dimension, arb(low), arb(high), 4), 0.0
+        finer = max(1, self.dimension - 1)
+        near = index <= -_NEAR or self.boundary(index) == 0 or self.dimension > 2
+        parts, scale, turning = self._shells(index), 0.0, _transposed(M)
 
-        def look(box: Box, best: float) -> Look[Box, Box]:
+        def look(cell: Cell, best: float) -> Look[Cell, Box]:
             nonlocal scale
-            there = self._there(_middle(box))
-            bound = self._at_most(box, near, M, there)
+            bound = self._at_most(cell, near, M, turning)
             if search.looks < len(parts) and math.isfinite(bound):
                 scale = max(scale, abs(bound))
-            return Look(bound, False, lambda: box.split(box.widest()), self._at_least(there, M), there.box)
+            return Look(bound, False, lambda: cell.halves, self._at_least(cell.middle, turning), cell.middle.box)
 
         def enough() -> bool:
             return search.upper <= search.best + _TOLERANCE * finer * max(abs(search.best), _SMALL * scale)
 
-        search: Search[Box, Box] = Search(look, parts)
+        search: Search[Cell, Box] = Search(look, parts)
         search.run(enough, most=_PIECES * finer**2)
         return search.upper
 
-    def _there(self, middle: Box) -> _Middle:
-        """The gradient at a point."""
-        r, u = middle.sides[0][0], middle.direction()
-        x = [r * ui for ui in u]
-        try:
-            values = self._both.run([c + xi for c, xi in zip(self._source, x, strict=True)], BALLS)
-        except Undefined:
-            return _Middle(middle, r, u, x, None)
-        return _Middle(middle, r, u, x, values[: self.dimension])
+    def _parts(self, index: int) -> list[Cell]:
+        """Cells that cover the shell, but for directions that a symmetry leads to others."""
+        low, high = arb(self.boundary(index)), arb(self.boundary(index + 1))
+        return [Cell(self._field, box) for box in shell(self._faces, low, high, 4)]
 
-    def _at_least(self, there: _Middle, M: _Matrix) -> float:
+    def _at_least(self, there: Middle, turning: _Matrix) -> float:
         """What a point certainly reaches, −inf where the field has no value."""
-        return -math.inf if there.gradient is None else down(_pair(there.u, M, there.gradient) / there.r)
+        return -math.inf if there.gradient is None else down(_pair(there.u, turning, there.gradient) / there.r)
 
-    def _at_most(self, box: Box, near: bool, M: _Matrix, there: _Middle) -> float:
-        """An upper bound of u·M∇F/r on the box: the least of three enclosures; inf where the field has no value."""
-        n, u, (low, high) = self.dimension, box.direction(), box.sides[0]
+    def _at_most(self, cell: Cell, near: bool, M: _Matrix, turning: _Matrix) -> float:
+        """An upper bound of u·M∇F/r on the cell: the least of three enclosures; inf where the field has no value."""
+        n, there = self.dimension, cell.middle
         self.evaluations += 1
         result = math.inf
-        if low > 0:
-            r = interval(low, high)
-            x = [r * ui for ui in u]
-            try:
-                values = self._both.run([c + xi for c, xi in zip(self._source, x, strict=True)], BALLS)
-                g, H = values[:n], _square(values[n:], n)
-                turned = _apply(_transposed(M), u)
-                result = up(_dot(turned, g) / r)
-                if there.gradient is not None:
-                    centred = _pair(there.u, M, there.gradient) / there.r
-                    result = min(result, up(centred + self._mean_value(box, M, (u, x, g, H), turned, there)))
-            except Undefined:
-                pass
-        if near:
-            r = interval(0, high)
-            try:
-                H = _square(self._hessian.run([c + r * ui for c, ui in zip(self._source, u, strict=True)], BALLS), n)
-            except Undefined:
-                return result
+        if (over := cell.over) is not None:
+            turned = _apply(turning, over.u)
+            result = up(_dot(turned, over.gradient) / over.r)
+            if there.gradient is not None:
+                centred = _pair(there.u, turning, there.gradient) / there.r
+                result = min(result, up(centred + _mean_value(cell, over, M, turned)))
+        if near and (H := cell.hessian) is not None:
             A = [_apply(H, row) for row in M]  # H is symmetric
             common = sum((A[i][i].mid() for i in range(n)), arb(0)) / n  # u·u = 1 takes it out exactly
             for i in range(n):
                 A[i][i] = A[i][i] - common
-            result = min(result, up(common + _pair(u, A, u)))
+            result = min(result, up(common + _pair(cell.u, _transposed(A), cell.u)))
         return result
 
-    def _mean_value(
-        self, box: Box, M: _Matrix, over: tuple[list[Any], list[Any], list[Any], _Matrix], turned: list[Any],
-        there: _Middle,
-    ) -> Any:  # fmt: skip
-        """∇φ·(x − m) for φ(x) = x·M∇F/‖x‖² and the middle m of the box; u, x, ∇F and H are those ``over`` all of it.
 
-        ``turned`` is Mᵀu.
-        """
-        n, (u, x, g, H), (low, high) = self.dimension, over, box.sides[0]
-        # A chord of the box keeps its directions, a convex cone, but comes closer to the source than its ends.
-        nearest = (low * _dot(u, there.u)).lower()
-        if not nearest > 0:
-            return arb(math.inf)
-        r = interval(nearest, high)
-        radial = 2 * (_dot(turned, g) / r)
-        forward, curved = _apply(M, g), _apply(H, turned)
-        slope = [(forward[j] / r + curved[j] - radial * u[j]) / r for j in range(n)]
-        return _dot(slope, [x[j] - there.x[j] for j in range(n)])
-
-
-@dataclass(frozen=True)
-class _Middle:
-    """A point r·u = x of a shell, as a box, with the gradient there, None where the field has no value."""
-
-    box: Box
-    r: Any
-    u: list[Any]
-    x: list[Any]
-    gradient: list[Any] | None
-
-
-def _middle(box: Box) -> Box:
-    """The point in the middle of the box; its radius is positive also where the box begins at the source."""
-    radius, *rest = centre(box.sides)
-    return box.at((box.sides[0][1] if box.sides[0][0].is_zero() else radius, *rest))
+def _mean_value(cell: Cell, over: Over, M: _Matrix, turned: list[Any]) -> Any:
+    """∇φ·(x − m) for φ(x) = x·M∇F/‖x‖² and the middle m of the cell; ``turned`` is Mᵀu."""
+    there, (low, high) = cell.middle, cell.box.sides[0]
+    # A chord of the box keeps its directions, a convex cone, but comes closer to the source than its ends.
+    nearest = (low * _dot(over.u, there.u)).lower()
+    if not nearest > 0:
+        return arb(math.inf)
+    r = interval(nearest, high)
+    radial = 2 * (_dot(turned, over.gradient) / r)
+    forward, curved = _apply(M, over.gradient), _apply(over.hessian, turned)
+    slope = [(forward[j] / r + curved[j] - radial * over.u[j]) / r for j in range(len(turned))]
+    return _dot(slope, [a - b for a, b in zip(over.x, there.x, strict=True)])
 
 
 def _dot(left: Sequence[Any], right: Sequence[Any]) -> Any:
@@ -262,11 +229,6 @@ def _transposed(M: _Matrix) -> _Matrix:
     return [list(column) for column in zip(*M, strict=True)]
 
 
-def _pair(u: Sequence[Any], M: _Matrix, g: Sequence[Any]) -> Any:
-    """u·M·g, by (Mᵀu)·g."""
-    return _dot(_apply(_transposed(M), u), g)
-
-
-def _square(entries: list[Any], n: int) -> _Matrix:
-    """The matrix that is given row by row."""
-    return [entries[i : i + n] for i in range(0, n * n, n)]
+def _pair(u: Sequence[Any], turning: _Matrix, g: Sequence[Any]) -> Any:
+    """u·M·g, by (Mᵀu)·g with Mᵀ = ``turning``."""
+    return _dot(_apply(turning, u), g)

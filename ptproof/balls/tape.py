@@ -129,14 +129,14 @@ class Tape:
         constants = iter(self._constants[bits])
         for operation, args, extra in self.code:
             if operation == "mul":
-                total, *rest = [slots[index] for index in args]
-                for factor in rest:
-                    total = total * factor
+                total = slots[args[0]]
+                for index in args[1:]:
+                    total = total * slots[index]
                 push(total)
             elif operation == "add":
-                total, *rest = [slots[index] for index in args]
-                for term in rest:
-                    total = total + term
+                total = slots[args[0]]
+                for index in args[1:]:
+                    total = total + slots[index]
                 push(total)
             elif operation == "pow":
                 push(arithmetic.integer_power(slots[args[0]], extra))

@@ -26,6 +26,7 @@ class Outcome:
     state: tuple[str, ...] = ()
     gradient: str = ""
     caveats: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
     reason: str = ""
 
 
@@ -38,6 +39,9 @@ class Outcome:
 @click.option("--timeout", type=float, default=60.0, show_default=True, help="Time limit, in seconds.")
 def average(file: str, as_json: bool, order: int | None, timeout: float) -> int:
     """Average the dither system in FILE.toml, and examine every assumption of the theorem.
+
+    Dithers may have powers of omega and frequencies of their own (power = "1 - p", frequency = "2"); with order = 2
+    brackets of three fields count too, and limits are decided for all powers that are allowed.
 
     With --order N: the averages of dX/dtau = A1(X) + A2(X)/sqrt(omega) + ..., the change of variables that leads to
     them, and what is left, put back into the system and checked.
@@ -92,6 +96,7 @@ def _study(path: str, order: int | None) -> Outcome:
         tuple(str(symbol) for symbol in problem.system.state),
         f"drift + ({gradient[0]}) * grad {gradient[1]}" if gradient else "",
         found.caveats if found.system is not None else (),
+        found.notes,
         f"{path}: {found.unexpanded}" if found.unexpanded else _reason(found, path),
     )
 
@@ -117,10 +122,13 @@ def _show(outcome: Outcome) -> None:
         if outcome.gradient:
             console.print(Text(outcome.gradient))
         console.print(Text(outcome.latex, style="dim"))
-        values = {key: value for key, value in data["v"].items() if value != "0"}
-        shown = ", ".join(f"v_{key} = {value}" for key, value in list(values.items())[:12])
-        more = f", and {len(values) - 12} more" if len(values) > 12 else ""
-        console.print(Text(f"coefficients that do not vanish: {shown or 'none'}{more}"))
+        if "gamma" in data:
+            _show_powers(console, data)
+        else:
+            values = {key: value for key, value in data["v"].items() if value != "0"}
+            shown = ", ".join(f"v_{key} = {value}" for key, value in list(values.items())[:12])
+            more = f", and {len(values) - 12} more" if len(values) > 12 else ""
+            console.print(Text(f"coefficients that do not vanish: {shown or 'none'}{more}"))
     else:
         console.print(Text("There is no average.", style="bold red"))
     rows = [
@@ -130,9 +138,24 @@ def _show(outcome: Outcome) -> None:
     console.print(plain_table(("assumption", "verdict", "detail"), rows))
     for caveat in outcome.caveats:
         console.print(Text(f"The average holds if this does, which was not shown: {caveat}", style="yellow"))
+    for note in outcome.notes:
+        console.print(Text(f"The cited theorem asks for more, the limit holds without it: {note}", style="yellow"))
     _show_expected(console, data["expected"])
     if data.get("orders"):
         _show_orders(console, outcome)
+
+
+def _show_powers(console: Any, data: dict[str, Any]) -> None:
+    """The coefficients with their powers of omega, and what becomes of them."""
+    from rich.text import Text
+
+    values = {key: value for key, value in data["gamma"].items() if value["value"] != "0"}
+    console.print(Text(f"coefficients that do not vanish for every omega: {'none' if not values else ''}".rstrip()))
+    for key, entry in list(values.items())[:24]:
+        limit = "no limit" if entry["limit"] is None else f"tends to {entry['limit']}"
+        console.print(Text(f"  gamma_{key} = {entry['value']}: {limit} ({entry['condition']})"))
+    if len(values) > 24:
+        console.print(Text(f"  and {len(values) - 24} more"))
 
 
 def _show_orders(console: Any, outcome: Outcome) -> None:

@@ -99,7 +99,7 @@ def design(
     Examples
     --------
     >>> import ptproof
-    >>> found = ptproof.design(ptproof.example("saturated"), "0.5", free=["omega", "mu"])
+    >>> found = ptproof.design(ptproof.example("saturated"), "0.5", free=["mu"])
     >>> str(found.verdict), found.certificate.final <= 0.5
     ('proved', True)
     """

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
+from functools import lru_cache
 from typing import Any
 
 import sympy as sp
@@ -20,7 +21,7 @@ from ptproof.gains.data import GainData
 from ptproof.gains.numbers import sign
 from ptproof.gains.tight import BoundCurve, distance_from_source, tight_bound
 from ptproof.problem import Problem
-from ptproof.problem.field import FieldBounds
+from ptproof.problem.field import Field, FieldBounds
 from ptproof.problem.model import TIME
 from ptproof.proof.verdict import Verdict
 
@@ -149,7 +150,7 @@ def study(
     ('within 2.82843 of the source, which is certified up to t = 1 for this start', 0)
     """
     until = None if problem.tuning.nu_min is not None else problem.tuning.T * _UNCLIPPED
-    curve = tight_bound(problem, known.get("x0_norm"), until=until)
+    curve = _curve(problem, known.get("x0_norm"), until)
     if curve.evidence.verdict is Verdict.PROVED:
         reach = _rounded_up(max(curve.distances))
         if radius is None:
@@ -160,13 +161,22 @@ def study(
             )
     if bounds is not None:
         return Study(problem, curve, None, gains(gain_data(problem, bounds, radius, **known)))
-    certificate = certify_field(
-        problem.field.expression, problem.variables, problem.source, problem.kappa, radius=radius, rtol=rtol
-    )
+    certificate = _certificate(problem.field, radius, rtol)
     answer = None
     if certificate.verdict is Verdict.PROVED:
         answer = gains(gain_data(problem, certificate.field_bounds(), radius, confined=True, **known))
     return Study(problem, curve, certificate, answer)
+
+
+@lru_cache(maxsize=16)
+def _curve(problem: Problem, x0_norm: sp.Expr | None, until: sp.Expr | None) -> BoundCurve:
+    """The certified bound, once for all questions about one problem."""
+    return tight_bound(problem, x0_norm, until=until)
+
+
+@lru_cache(maxsize=16)
+def _certificate(field: Field, radius: sp.Expr | None, rtol: float) -> FieldCertificate:
+    return certify_field(field, radius=radius, rtol=rtol)
 
 
 def _level_is_certified(problem: Problem, value: sp.Expr, bounds: FieldBounds) -> bool:

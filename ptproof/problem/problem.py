@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from types import MappingProxyType
 from typing import Any
 
@@ -222,4 +222,9 @@ class Problem:
         clock = self.seeker_clock(seeker)
         system = derive(self.field, self.drift, self.seeker(seeker), clock, frame, *more)
         name = f"{what}{seeker} seeker of {self.name} in {frame}"
-        return system if symbolic else replace(system.with_values(self.values), name=name)
+        return system if symbolic else replace(_with_values(system, tuple(self.values.items())), name=name)
+
+
+@lru_cache(maxsize=64)
+def _with_values(system: System, values: tuple[tuple[sp.Symbol, sp.Expr], ...]) -> System:
+    return system.with_values(dict(values))

@@ -30,7 +30,8 @@ def assert_average(
     ----------
     system
         A :class:`~ptproof.system.DitherSystem`; a :class:`~ptproof.averaging.DitherProblem`, which may have fast
-        states; or a :class:`~ptproof.system.System` together with ``omega``.
+        states; a :class:`~ptproof.averaging.PoweredSystem` or a :class:`~ptproof.averaging.PoweredProblem`; or a
+        :class:`~ptproof.system.System` together with ``omega``.
     expected
         The averaged right-hand side: a System in the same states, or n expressions, each SymPy or text. Text may
         use the names of the system's symbols and undefined functions, and ``Derivative(F(x), x)``.
@@ -60,7 +61,6 @@ def assert_average(
     >>> assert_average(System(tau, (x,), (rate,)), ["k/2*Derivative(F(x), x)"], omega=omega)
     """
     from ptproof.averaging import AveragingRefused, AveragingUndecided, split_dithers, study
-    from ptproof.averaging.problem import DitherProblem
 
     if isinstance(assuming, str):
         assuming = (assuming,)
@@ -68,8 +68,7 @@ def assert_average(
 
     def work() -> Any:
         dithered = split_dithers(system, omega) if isinstance(system, System) and omega is not None else system
-        problem = dithered if isinstance(dithered, DitherProblem) else DitherProblem(dithered)
-        return study(replace(problem, expected=tuple(wanted)))
+        return study(replace(_asked(dithered), expected=tuple(wanted)))
 
     try:
         found = within(seconds, work)
@@ -126,10 +125,23 @@ def _differs(system: System, wanted: Sequence[sp.Expr], evidence: Any) -> str:
     return lines(f"{title}: {evidence.verdict}", rows)
 
 
+def _asked(system: Any) -> Any:
+    """The problem without a claimed average."""
+    from ptproof.averaging import DitherProblem, PoweredProblem, PoweredSystem
+
+    if isinstance(system, PoweredSystem):
+        return PoweredProblem(system)
+    return system if isinstance(system, DitherProblem | PoweredProblem) else DitherProblem(system)
+
+
 def _plain(system: Any, omega: sp.Symbol | None) -> Any:
     """The object whose time, states and symbols the expected average may use; bad use is refused here."""
-    from ptproof.averaging.problem import DitherProblem
+    from ptproof.averaging import DitherProblem, PoweredProblem, PoweredSystem
 
+    if isinstance(system, PoweredProblem):
+        system = system.system
+    if isinstance(system, PoweredSystem):
+        return system.plain
     if isinstance(system, DitherProblem):
         return system.system
     if isinstance(system, DitherSystem):

@@ -7,6 +7,7 @@ import pytest
 
 from tests.averaging.test_command import TEXT, run
 
+pytestmark = pytest.mark.usefixtures("in_this_process")
 FAST = """
 [system.fast]
 state = ["z"]

@@ -5,7 +5,7 @@ import pytest
 import sympy as sp
 from flint import arb
 
-from ptproof.balls.cube import Box, Face, shell
+from ptproof.balls.cube import Box, Face, all_faces, shell
 from ptproof.balls.radial import RadialEnvelope
 from ptproof.errors import InputError
 from ptproof.problem import example
@@ -52,7 +52,7 @@ def test_between_two_weights_the_envelope_is_bounded_by_the_chord():
 @pytest.mark.parametrize("dimension", [1, 2, 3])
 def test_the_pieces_cover_every_direction(dimension):
     rng = np.random.default_rng(1)
-    pieces = shell(dimension, arb(1), arb(1), 4)
+    pieces = shell(all_faces(dimension), arb(1), arb(1), 4)
     for _ in range(50):
         u = rng.normal(size=dimension)
         u /= np.linalg.norm(u)
@@ -84,3 +84,38 @@ def test_what_is_too_near_for_a_float_lies_in_the_innermost_ball(radius):
     x = sp.Symbol("x", real=True)
     envelope = RadialEnvelope((x,), -(x**2), (sp.S.Zero,), sp.Integer(2), None, 2.0, (1.0,))
     assert envelope.boundary(envelope.shell(radius)) == 0
+
+
+X, Y = sp.symbols("x y", real=True)
+SQUARE, LONG = -(X**2) - Y**2, -(X**2) - 2 * Y**2
+SYMMETRIC = {
+    "a circle": (SQUARE, [[0, 1], [-1, 0]], 1),
+    "both coordinates": (LONG, [[1, 0], [0, -1]], 2),
+    "the middle alone": (LONG, [[1, 2], [0, 1]], 2),
+    "one coordinate": (SQUARE - X**3 / 4, [[0, 0], [0, 0]], 3),
+    "the field but not the rate": (LONG, [[0, 3], [0, 0]], 2),
+    "none": (SQUARE - X**3 / 4 + Y**3 / 5, [[0, 0], [1, 0]], 4),
+}
+
+
+def rates(field, E, radii):
+    """The envelope's first shell above the radius 1, and what is reached there over all directions."""
+    envelope = RadialEnvelope((X, Y), field, (sp.S.Zero,) * 2, sp.Integer(2), sp.ImmutableDenseMatrix(E), 1.0, (1.0,))
+    slope = sp.lambdify((X, Y), [sp.diff(field, X), sp.diff(field, Y)])
+    M = np.array(E, dtype=float) + np.eye(2)
+    return envelope, max(u @ M @ np.array(slope(*(r * u)), dtype=float) / r for r in radii for u in circle(1.0, 360))
+
+
+@pytest.mark.parametrize("name", SYMMETRIC)
+def test_directions_are_left_out_by_symmetry_and_none_that_is_needed(name):
+    field, E, faces = SYMMETRIC[name]
+    envelope, largest = rates(field, E, (1.0, 1.03, 1.06))
+    assert len(envelope._faces) == faces
+    assert largest - 1e-9 <= envelope.rate(0, 1.0, 1.0) <= largest + 0.1 * abs(largest) + 0.05
+
+
+def test_a_direction_that_is_needed_and_left_out_would_show():
+    field, E, _ = SYMMETRIC["none"]
+    envelope, largest = rates(field, E, (1.0,))
+    envelope.__dict__["_faces"] = (Face(0, 1, ((0, 1),)),)
+    assert envelope.rate(0, 1.0, 1.0) < largest - 0.1

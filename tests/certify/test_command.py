@@ -55,6 +55,7 @@ def test_undecided_goes_to_standard_error_with_what_was_tried():
     assert "kink" in result.stderr
 
 
+@pytest.mark.usefixtures("in_this_process")
 def test_picture_shows_the_band_and_the_quotients_between(tmp_path, saved):
     path = tmp_path / "picture.png"
     run("-x**2 - 3*y**2", "--vars", "x,y", "--kappa", "1", "--radius", "1", "--plot", str(path))
@@ -70,6 +71,7 @@ def test_picture_shows_the_band_and_the_quotients_between(tmp_path, saved):
     assert shown(path, right, radii, math.sqrt(12), "0.6") > 0.9
 
 
+@pytest.mark.usefixtures("in_this_process")
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [

@@ -4,21 +4,25 @@ import random
 
 import pytest
 
-from ptproof.proof import Verdict, load
+from ptproof.proof import Verdict
 from ptproof.proof.mutation.judging import Patience, judge
 from ptproof.proof.mutation.making import mutants, neighbours
 from ptproof.proof.mutation.outcomes import Word
 
-CLAIMS = [claim for claim in load().claims if claim.expected is Verdict.PROVED]
 SHARES, OF_EACH = 12, 6
-LOT = random.Random("a sample of corrupted claims")
-SAMPLE = LOT.sample(list(neighbours(CLAIMS)), SHARES * OF_EACH)
+
+
+@pytest.fixture(scope="module")
+def sample(claims):
+    lot = random.Random("a sample of corrupted claims")
+    proved = [claim for claim in claims if claim.expected is Verdict.PROVED]
+    return lot.sample(list(neighbours(proved)), SHARES * OF_EACH)
 
 
 @pytest.mark.parametrize("share", range(SHARES))
-def test_nothing_false_is_proved(share):
+def test_nothing_false_is_proved(sample, share):
     outcomes = []
-    for claim, others in SAMPLE[share::SHARES]:
+    for claim, others in sample[share::SHARES]:
         mutant = random.Random(claim.id).choice(mutants(claim, others, count=1))
         outcomes.append((claim.id, judge(mutant, Patience(step=4.0, question=0.3, attack=0.1))))
     assert [(id, found.change, found.why) for id, found in outcomes if found.alarm] == []

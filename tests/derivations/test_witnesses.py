@@ -2,14 +2,12 @@
 
 import sys
 
-from ptproof.proof import Verdict, load, refute
-
-CLAIMS = {claim.id: claim for claim in load().claims}
+from ptproof.proof import Verdict, refute
 
 
-def test_the_printed_decrease_holds_without_drift():
+def test_the_printed_decrease_holds_without_drift(claims):
     """The witness needs the drift: without one the same point is none."""
-    claim = CLAIMS["prop/decrease-printed"]
+    (claim,) = (claim for claim in claims if claim.id == "prop/decrease-printed")
     prop = sys.modules[claim.prove.__module__]
     values = {prop.F: -(prop.x1**2) - prop.x2**2, prop.f[0]: 0, prop.f[1]: 0, prop.x1: 1, prop.x2: 0,
               prop.source[0]: 0, prop.source[1]: 0, prop.kappa: 1, prop.k: 1, prop.a1: 1, prop.a2: 1, prop.b1: 2,

@@ -3,7 +3,7 @@
 import pytest
 import sympy as sp
 
-from ptproof.averaging import average, first_correction
+from ptproof.averaging import PoweredProblem, average, first_correction, with_powers
 from ptproof.averaging.problem import DitherProblem, FastStates
 from ptproof.errors import InputError
 from ptproof.system import DitherSystem, System
@@ -43,6 +43,16 @@ def test_a_plain_system_is_split_first():
 def test_fast_states_are_at_their_quasi_steady_state():
     dithered = DitherSystem(tau, theta, omega, (x,), (0,), ((1,), (k * z,)), (sp.cos(theta), sp.sin(theta)))
     assert_average(DitherProblem(dithered, FastStates((z,), (F - z,))), [k * F.diff(x) / 2])
+
+
+def test_powers_of_the_frequency():
+    dithers = (sp.cos(theta), sp.cos(2 * theta))
+    powered = with_powers(
+        DitherSystem(tau, theta, omega, (x,), (0,), ((1,), (k * F,)), dithers), [sp.Rational(2, 3)] * 2
+    )
+    assert_average(powered, ["-k/8*Derivative(F(x), x, x)"])
+    with pytest.raises(AssertionError, match="not the expected one"):
+        assert_average(PoweredProblem(powered), ["-3*k/8*Derivative(F(x), x, x)"])
 
 
 def test_the_average_of_square_waves_is_exact():

@@ -98,10 +98,9 @@ def test_under_unittest_the_last_frame_is_the_users(tmp_path):
     assert "in test_it" in frames(done.stderr)[-1]
 
 
-@pytest.mark.parametrize(
-    "name", ["casadi", "matplotlib", "z3", "flint", "scipy", "control", "sympy", "numpy", "pebble"]
-)
-def test_the_plugin_imports_nothing_heavy(name):
-    code = f"import sys, ptproof.testing.plugin; print({name!r} in sys.modules)"
+def test_the_plugin_imports_nothing_heavy():
+    heavy = {"casadi", "matplotlib", "z3", "flint", "scipy", "control", "sympy", "numpy", "pebble"}
+    code = "import sys, ptproof.testing.plugin; print(*sys.modules)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stdout.strip() == "False"
+    assert "ptproof.testing.plugin" in done.stdout.split()
+    assert heavy & set(done.stdout.split()) == set()

@@ -129,7 +129,13 @@ def _answers(
         start = time.perf_counter()
         printed = coq.ask(folder, file.name, _TO_START + 2 * timeout * len(left))
         heard = coq.heard(printed.output, theorems)
-        reasons = {theorem.name: printed.stopped(theorem) for theorem in theorems if theorem.name not in heard}
+        # What was proved before Coq was ended, and has not been looked at to the end, is asked again.
+        there = coq.proved(printed.output, theorems)
+        reasons = {
+            theorem.name: None if theorem.name in there else printed.stopped(theorem)
+            for theorem in theorems
+            if theorem.name not in heard
+        }
         moved = bool(heard) or any(reason is not None for reason in reasons.values())
         seconds = (time.perf_counter() - start) / len(left)
         again: list[Stated] = []

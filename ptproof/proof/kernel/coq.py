@@ -29,6 +29,7 @@ AXIOMS: Mapping[str, str] = {
 # The kernel's own machine integers and floats, with which Interval computes: nothing is assumed of the reals.
 _MACHINE = re.compile(r"(PrimInt63|Uint63|Uint63Axioms|PrimFloat|FloatAxioms|FloatOps|Sint63)\.\w+|(int|float)")
 _OPTIONS = ("-q", "-w", "none", "-Q", ".", "Ptproof")
+_KEPT = "kept"  # what has been proved so far
 _PACKAGES = "coq, libcoq-coquelicot and libcoq-interval (on Debian and Ubuntu: apt install them)"
 
 
@@ -147,40 +148,62 @@ def _run(command: list[str], folder: Path, typed: str | None, seconds: float) ->
 
 
 def source(theorems: Sequence[Theorem], seconds: float) -> str:
-    """A file in which each theorem states its proposition, proves it and prints what it says and what it rests on."""
+    """A file in which each theorem states its proposition, proves it and prints what it says.
+
+    What is proved is kept in one conjunction, whose axioms are printed at the end: Coq takes a second or two to find
+    those of a theorem, however short, and no longer for those of all.
+    """
     lines = ["From Coq Require Import Reals Lra Psatz Nsatz.", "From Coquelicot Require Import Coquelicot.",
-             f"From Ptproof Require Import {' '.join(LIBRARY)}.", "Open Scope R_scope.", ""]  # fmt: skip
-    for theorem in theorems:
+             f"From Ptproof Require Import {' '.join(LIBRARY)}.", "Open Scope R_scope.", "",
+             f"Definition {_KEPT}_0 := I."]  # fmt: skip
+    for number, theorem in enumerate(theorems, start=1):
         lines += [
             f"Definition {theorem.name} : Prop :=\n  {theorem.text}.\n",
             f"Theorem {theorem.proof} : {theorem.name}.",
             f"Proof. unfold {theorem.name}. Timeout {max(1, round(seconds))} ({theorem.script}). Qed.",
             "Abort All.",  # after a proof that failed; otherwise an error that nobody reads
             f"Check {theorem.proof}.",
-            f"Print Assumptions {theorem.proof}.\n",
+            f"Definition {_KEPT}_{number} := conj {_KEPT}_{number - 1} {theorem.proof}.",
+            # Refused where the line above was taken, which it is if there is a proof.
+            f"Definition {_KEPT}_{number} := {_KEPT}_{number - 1}.\n",
         ]
-    return "\n".join(lines)
+    last = f"{_KEPT}_{len(theorems)}"
+    return "\n".join([*lines, f"Check {last}.", f"Print Assumptions {last}.\n"])
+
+
+def proved(output: str, theorems: Sequence[Theorem]) -> dict[str, str]:
+    """By the name of each theorem of which Coq has a proof: nothing, or that it is of something else."""
+    asked = {theorem.proof: theorem for theorem in theorems}
+    found: dict[str, str] = {}
+    for stated, said, _ in _checked(output):
+        if (theorem := asked.get(stated)) is not None:
+            other = said != theorem.name or theorem.name in found
+            found[theorem.name] = "what Coq proved is not what was asked" if other else ""
+    return found
 
 
 def heard(output: str, theorems: Sequence[Theorem]) -> dict[str, str]:
     """By the name of each theorem that the kernel has accepted: nothing, or what speaks against it.
 
-    The kernel has printed the name, the proposition and the axioms of each; all three are looked at.
+    The kernel has printed the name and the proposition of each, the conjunction of those that it has kept, and the
+    axioms of that; all are looked at. An axiom of one speaks against all that stand beside it.
     """
+    kept = [(said, rest) for stated, said, rest in _checked(output) if stated == f"{_KEPT}_{len(theorems)}"]
+    if len(kept) != 1 or (reason := _against(kept[0][1])) is None:
+        return {}
+    names = set(re.findall(r"\w+", kept[0][0]))
+    return {name: found or reason for name, found in proved(output, theorems).items() if found or name in names}
+
+
+def _checked(output: str) -> list[tuple[str, str, str]]:
+    """What was checked: the name of each proof, the proposition that Coq printed, and what it printed after that."""
     text = re.sub(r"^Fetching opaque proofs .*\n", "", output, flags=re.MULTILINE)
-    places = [match.start() for match in re.finditer(r"^proof_of_\w+\s+:", text, re.MULTILINE)]
-    asked = {theorem.proof: theorem for theorem in theorems}
-    found: dict[str, str] = {}
-    for start, end in zip(places, [*places[1:], len(text)], strict=False):
-        stated, _, rest = text[start:end].partition("\n     : ")
-        said, _, assumed = rest.partition("\n")
-        theorem = asked.get(stated.strip())
-        if theorem is None:
-            continue
-        if said != theorem.name or theorem.name in found:
-            found[theorem.name] = "what Coq proved is not what was asked"
-        elif (reason := _against(assumed)) is not None:
-            found[theorem.name] = reason
+    places = [match.start() for match in re.finditer(rf"^(proof_of_\w+|{_KEPT}_\d+)\s+:", text, re.MULTILINE)]
+    parts = [text[start:end] for start, end in zip(places, [*places[1:], len(text)], strict=False)]
+    found = []
+    for stated, _, rest in (part.partition("\n     : ") for part in parts):
+        said, *more = re.split(r"\n(?! )", rest, maxsplit=1)  # a long one goes on in lines that are indented
+        found.append((stated.strip(), " ".join(said.split()), "".join(more)))
     return found
 
 
@@ -192,4 +215,10 @@ def _against(assumed: str) -> str | None:
         return None
     names = re.findall(r"^([A-Za-z_][\w.']*)\s*:", assumed[len("Axioms:") :], re.MULTILINE)
     foreign = [name for name in names if name not in AXIOMS and not _MACHINE.fullmatch(name)]
-    return f"it rests on {', '.join(foreign)}" if foreign else "" if names else "its axioms cannot be read"
+    return (
+        f"it or another of its file rests on {', '.join(foreign)}"
+        if foreign
+        else ""
+        if names
+        else "its axioms cannot be read"
+    )

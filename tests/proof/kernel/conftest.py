@@ -5,42 +5,72 @@ from __future__ import annotations
 import os
 import pickle
 import time
+from collections.abc import Callable, Iterator
+from importlib import import_module
+from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
 
-from ptproof.proof.kernel import Confirmation, check
+from ptproof.proof.kernel import Confirmation, check, coq
 from ptproof.proof.kernel.check import Effort
 
-_PATIENCE = 240  # seconds: for a worker that died while it asked
+_PATIENCE = 240  # seconds: for a worker that died while it made what others wait for
+
+
+def _once(factory: pytest.TempPathFactory, name: str, make: Callable[[Path], Any]) -> Any:
+    """What ``make(folder)`` gives, made by one of pytest's workers for all of them."""
+    base = factory.getbasetemp()
+    if "PYTEST_XDIST_WORKER" in os.environ:
+        base = base.parent
+    folder, found = base / f"{name}.folder", base / f"{name}.made"
+    try:
+        folder.mkdir()
+    except FileExistsError:
+        for _ in range(_PATIENCE):
+            if found.exists():
+                return pickle.loads(found.read_bytes())
+            time.sleep(1)
+        folder = factory.mktemp(name)
+    made = make(folder)
+    draft = base / f"{name}.{os.getpid()}"
+    draft.write_bytes(pickle.dumps(made))
+    draft.replace(found)
+    return made
+
+
+@pytest.fixture(scope="session")
+def library(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """The library of tactics, compiled once for all workers: Coq takes twenty seconds for it."""
+    place = _once(tmp_path_factory, "library", _compiled)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(coq, "_compiled", lambda: SimpleNamespace(name=place))
+        yield
+
+
+def _compiled(folder: Path) -> str:
+    coq.prepare(folder)
+    return str(folder)
 
 
 @pytest.fixture(scope="module")
-def answers(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> dict[str, Confirmation]:
+def answers(
+    request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory, library: None
+) -> dict[str, Confirmation]:
     """Of the module's ``TRUE`` and ``NOT_CONFIRMED`` with its ``EFFORT``; the latter have three seconds each.
 
     Coq is asked once, however many of pytest's workers share the module's tests.
     """
-    folder = tmp_path_factory.getbasetemp()
-    if "PYTEST_XDIST_WORKER" in os.environ:
-        folder = folder.parent
     name = request.module.__name__.rpartition(".")[2]
-    place, found = folder / f"{name}.asked", folder / f"{name}.answers"
-    try:
-        place.mkdir()
-    except FileExistsError:
-        for _ in range(_PATIENCE):
-            if found.exists():
-                answers: dict[str, Confirmation] = pickle.loads(found.read_bytes())
-                return answers
-            time.sleep(1)
-    asked = _asked(request.module)
-    draft = place / "draft"
-    draft.write_bytes(pickle.dumps(asked))
-    draft.replace(found)
-    return asked
+    answers: dict[str, Confirmation] = _once(tmp_path_factory, name, lambda folder: _asked(request.module))
+    return answers
 
 
 def _asked(module: Any) -> dict[str, Confirmation]:
+    """One file for what is true and one for what is not: Coq takes two seconds to read the library for each."""
     efforts: list[Effort] = [getattr(module, "EFFORT", "quick")]
-    return check(module.TRUE, timeout=20.0, efforts=efforts) | check(module.NOT_CONFIRMED, timeout=3.0, efforts=efforts)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(import_module("ptproof.proof.kernel.check"), "_IN_A_FILE", 100)
+        true = check(module.TRUE, timeout=20.0, efforts=efforts)
+        return true | check(module.NOT_CONFIRMED, timeout=3.0, efforts=efforts)
