@@ -41,7 +41,7 @@ def wind(first, second="0"):
 @pytest.mark.parametrize(
     ("changes", "why"),
     [
-        ({"drift": 'kind = "gradient"\nE = [["1", "0"], ["0", "-2"]]'}, "nothing keeps W"),
+        ({"drift": 'kind = "gradient"\nE = [["1", "0"], ["0", "-9"]]'}, "nothing keeps W"),
         ({"drift": wind("20")}, "nothing keeps W"),
         ({"drift": wind("1/(t - 1/2)")}, "may be zero"),
         ({"drift": wind("sign(t - 1/2)")}, "not shown to be smooth"),
