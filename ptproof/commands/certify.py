@@ -12,6 +12,7 @@ from ptproof.errors import InputError
 if TYPE_CHECKING:
     from ptproof.certify import LoopCertificate
     from ptproof.problem import Problem
+    from ptproof.simulation.attack import Attacked
 
 _VEHICLES = 1000
 
@@ -32,6 +33,10 @@ _VEHICLES = 1000
     "--tolerance", type=click.FloatRange(0.001, 10), default=0.12, show_default=True, help="Smaller: sharper, slower."
 )
 @click.option(
+    "--attack", type=click.IntRange(1, 10_000_000), metavar="N", help="Hold N simulated vehicles against the bound."
+)
+@click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Of the vehicles of --attack.")
+@click.option(
     "--smallest-omega",
     "varied",
     flag_value="omega",
@@ -45,8 +50,9 @@ _VEHICLES = 1000
 @options.plot("the bound over a thousand simulated vehicles")
 @options.as_json
 def certify(
-    problem: str, radius: str | None, filter_gap: str, seeker: str | None, tolerance: float, jobs: int | None,
-    cluster: str | None, plot: str | None, as_json: bool, varied: str | None, **numbers: str | None,
+    problem: str, radius: str | None, filter_gap: str, seeker: str | None, tolerance: float, attack: int | None,
+    seed: int, jobs: int | None, cluster: str | None, plot: str | None, as_json: bool, varied: str | None,
+    **numbers: str | None,
 ) -> int:  # fmt: skip
     """Prove a bound of the distance between the vehicle and the source, at every time up to the prescribed one.
 
@@ -73,13 +79,18 @@ def certify(
         given: dict[str, Any] = {"filter_gap": gap, "tolerance": tolerance, "workers": jobs, "client": client}
         if varied is not None:
             return frontier.show(problem, target, varied, start, given, plot, as_json)
-        found = certify_loop(target, start, **given)
-    outside = _draw(target, found, plot) if plot is not None and found.verdict is Verdict.PROVED else 0
+        found = certify_loop(target, start, explain=True, **given)
+    proved = found.verdict is Verdict.PROVED
+    attacked = _attack(target, found, attack, seed, jobs) if attack is not None and proved else None
+    outside = _draw(target, found, plot, jobs) if plot is not None and proved else 0
     if as_json:
-        options.print_json(found.to_json())
+        options.print_json(found.to_json() | ({} if attacked is None else {"attack": attacked.to_json()}))
     else:
-        click.echo(_text(problem, found))
-    return 0 if found.verdict is Verdict.PROVED and not outside else 1
+        click.echo("\n".join([_text(problem, found), *([] if attacked is None else [str(attacked)])]))
+    broken = outside + (0 if attacked is None else attacked.outside)
+    if broken:
+        click.echo(f"ptproof: {broken} simulated vehicles are outside the bound: please report this", err=True)
+    return 0 if proved and not broken else 1
 
 
 def retuned(problem: Problem, numbers: dict[str, str | None]) -> Problem:
@@ -98,7 +109,9 @@ def _text(name: str, found: LoopCertificate) -> str:
     head = f"{name}, the vehicle in closed loop, omega = {found.omega:.6g}, mu = {found.mu:.6g}"
     starts = f"every start within {found.start_radius:.6g}, every heading, a filter within {found.filter_gap:.6g} of F"
     if found.final is None:
-        return f"{head}\n{starts}\nundecided: {found.detail}"
+        boxes = [f"fails at {box}" for box in found.failing]
+        help = [] if found.help is None else [str(found.help)]
+        return "\n".join([head, starts, f"undecided: {found.detail}", *boxes, *help])
     marks = sorted({round(i * (len(found.times) - 1) / 8) for i in range(9)})
     rows = [f"  t = {found.times[i]:<10.4g} distance at most {found.distances[i]:.4g}" for i in marks]
     rest = [] if found.hover is None else [f"in the long run at most {found.hover:.4g}, if the last gain went on"]
@@ -106,20 +119,27 @@ def _text(name: str, found: LoopCertificate) -> str:
     return "\n".join([head, starts, last, *rest, *rows, found.detail])
 
 
-def _draw(problem: Problem, found: LoopCertificate, path: str) -> int:
-    """The bound over simulated vehicles; how many are outside, which would be an error of our own, and is said."""
+def _attack(problem: Problem, found: LoopCertificate, size: int, seed: int, jobs: int | None) -> Attacked:
+    """Simulated vehicles, with their progress on standard error."""
+    from ptproof.commands.terminal import progress
+    from ptproof.simulation.attack import attack_loop
+
+    with progress("vehicles", size) as advance:
+        return attack_loop(problem, found, size, seed=seed, workers=jobs, progress=advance)
+
+
+def _draw(problem: Problem, found: LoopCertificate, path: str, jobs: int | None) -> int:
+    """The bound over simulated vehicles; gives how many are outside, which would be an error of our own."""
     import numpy as np
 
+    from ptproof.simulation.attack import outside_of
     from ptproof.simulation.drawing import save
     from ptproof.simulation.fleet import fleet
 
-    share = 1.0 if problem.tuning.nu_min is not None else 0.9
-    many = fleet(problem, _VEHICLES, radius=found.start_radius, filter_gap=found.filter_gap, share=share)
+    many = fleet(problem, _VEHICLES, radius=found.start_radius, filter_gap=found.filter_gap, workers=jobs)
     worst = many.distances.max(axis=0)
-    outside = int((many.distances > found.bound(many.times) + 1e-6).any(axis=1).sum())
+    outside = outside_of(found.bound(many.times), many.distances)
     save(_figure(found, many.times, np.asarray(worst), many.distances, outside), path)
-    if outside:
-        click.echo(f"ptproof: {outside} simulated vehicles are outside the bound: please report this", err=True)
     return outside
 
 

@@ -143,6 +143,12 @@ class Batch:
                 count = math.ceil(samples * (b - a) / (edges[-1] - edges[0]) - 1e-9)
                 yield np.linspace(a, b, count + 1) if count > 1 else np.array([a, b])
 
+    def path_times(self, samples: int) -> Array:
+        """The times of :meth:`grids` in one, for members that share their edges."""
+        if (self.edges != self.edges[:, :1]).any():
+            raise ValueError("members whose way is sampled together share their edges")
+        return np.concatenate([self.edges[:1, 0], *(grid[1:] for grid in self.member(0).grids(samples))])
+
 
 @dataclass(frozen=True)
 class Run:
@@ -201,6 +207,14 @@ class Finals:
 
 
 @dataclass(frozen=True)
+class Paths:
+    """The way of many that share their times: times (m) and states (n × N × m), NaN where a run had ended before."""
+
+    time: Array
+    x: Array
+
+
+@dataclass(frozen=True)
 class Work:
     """What a question costs, as far as it is known beforehand, for an engine to say whether it wants it.
 
@@ -244,3 +258,17 @@ class Engine(ABC):
             np.stack([run.x[:, -1] for run in runs], axis=1),
             tuple(run.stop.outcome for run in runs),
         )
+
+    def paths(self, plan: Plan, batch: Batch, workers: int = 1) -> Paths:
+        """The way of many with one and the same edges, on up to ``workers`` threads; here one by one.
+
+        Each is sampled at the times of :meth:`Batch.grids`, to the error that is asked of a trajectory.
+        """
+        time = batch.path_times(plan.settings.samples)
+        x = np.full((*batch.initial.shape, len(time)), np.nan)
+        for i in range(batch.size):
+            run = self.trajectory(plan, batch.member(i))
+            at = np.minimum(np.searchsorted(time, run.time), len(time) - 1)
+            there = time[at] == run.time  # a run that stopped early ends between two of them
+            x[:, i, at[there]] = run.x[:, there]
+        return Paths(time, x)

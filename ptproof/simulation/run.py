@@ -16,7 +16,7 @@ from ptproof.problem import Problem
 from ptproof.problem import parameters as loop_parameters
 from ptproof.simulation.engines import fitting
 from ptproof.simulation.ensembles import Progress, engine_for, members, run_blocks
-from ptproof.simulation.plan import Array, Batch, Plan, Work
+from ptproof.simulation.plan import Array, Batch, Paths, Plan, Work
 from ptproof.simulation.question import Options, Question, asked
 from ptproof.simulation.sampled import NOISE_SEED, noise_seeds
 from ptproof.simulation.settings import Outcome, Settings
@@ -64,7 +64,7 @@ def simulate(
     Trajectory(x1, x2; 11 samples to t = 1, reached T, final distance 3.05549)
     """
     question, settings = asked(target, {**options, "seeker": seeker, "frame": frame})
-    job = (_once if question.plain else _job)(question, settings)
+    job = (_once if question.plain else prepared)(question, settings)
     begin = clock.perf_counter()
     run = engine_for(job.plan, job.engine).trajectory(job.plan, job.batch)
     return _trajectory(job, run, clock.perf_counter() - begin)
@@ -114,7 +114,7 @@ def ensemble(
     question, settings = asked(target, {**options, "seeker": seeker, "frame": frame})
     setup = question.setup()
     varied = _varied(question, setup, size, seed, vary)
-    job = _job(question, settings, setup, size, varied)
+    job = prepared(question, settings, setup, size, varied)
     begin = clock.perf_counter()
     finals = run_blocks(job.engine, job.plan, job.batch, workers, client, progress)
     seconds = clock.perf_counter() - begin
@@ -158,7 +158,7 @@ def _varied(question: Question, setup: Setup, size: int, seed: int, vary: Mappin
 
 
 @dataclass(frozen=True)
-class _Job:
+class Job:
     """A question made ready for an engine: its values by name (N each), and what the engine is given."""
 
     setup: Setup
@@ -172,11 +172,16 @@ class _Job:
     def states(self) -> tuple[str, ...]:
         return tuple(symbol.name for symbol in self.setup.system.state)
 
+    def way(self, workers: int) -> Paths:
+        """All members' states on the way, in the system's own time."""
+        return engine_for(self.plan, self.engine).paths(self.plan, self.batch, workers)
 
-def _job(
+
+def prepared(
     question: Question, settings: Settings, setup: Setup | None = None, size: int = 1,
     varied: Mapping[str, Array] | None = None,
-) -> _Job:  # fmt: skip
+) -> Job:  # fmt: skip
+    """A question made ready, with ``size`` members that differ in what is ``varied``."""
     setup, problem, varied = setup or question.setup(), question.problem, varied or {}
     rows = np.repeat(np.array(list(setup.defaults.values()), dtype=float)[:, None], size, axis=1)
     table = setup.completed(dict(zip(setup.defaults, rows, strict=True)) | dict(varied))
@@ -196,7 +201,7 @@ def _job(
     if problem is not None:
         about |= {name: getattr(question, name) for name in ("seeker", "frame", "coordinates", "model")}
         about |= {} if question.motion is None else {"motion": tuple(map(str, question.motion))}
-    return _Job(setup, table, batch, plan, engine, about)
+    return Job(setup, table, batch, plan, engine, about)
 
 
 def _engine(plan: Plan, batch: Batch, work: Work) -> str:
@@ -210,7 +215,7 @@ def _engine(plan: Plan, batch: Batch, work: Work) -> str:
     return "sampled"
 
 
-_once = lru_cache(maxsize=64)(_job)
+_once = lru_cache(maxsize=64)(prepared)
 _POSITIVE = tuple(name.name for name in vars(loop_parameters).values() if getattr(name, "is_positive", False))
 
 
@@ -249,7 +254,7 @@ def _tightening(setup: Setup, table: Mapping[str, Array], radians: float) -> flo
     return 10.0 ** -max(0, math.ceil(math.log10(max(turned, 1.0) / 100)))
 
 
-def _trajectory(job: _Job, run: Any, seconds: float) -> Trajectory:
+def _trajectory(job: Job, run: Any, seconds: float) -> Trajectory:
     setup, stop = job.setup, run.stop
     values = dict(setup.defaults)
     if stop.outcome is Outcome.REACHED:

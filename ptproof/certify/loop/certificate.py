@@ -8,6 +8,8 @@ from typing import Any
 import numpy as np
 
 from ptproof.balls.arrays import Array
+from ptproof.certify.loop.advice import Advice
+from ptproof.certify.loop.failing import Failing
 from ptproof.proof.verdict import Verdict
 
 
@@ -30,6 +32,10 @@ class LoopCertificate:
         In words: how, or what failed and what would help.
     seconds
         How long it took.
+    failing
+        The worst boxes on which the proof failed, where they were asked for.
+    help
+        What would probably be proved instead, likewise.
     """
 
     verdict: Verdict
@@ -42,6 +48,8 @@ class LoopCertificate:
     hover: float | None
     detail: str
     seconds: float
+    failing: tuple[Failing, ...] = ()
+    help: Advice | None = None
 
     @property
     def final(self) -> float | None:
@@ -61,4 +69,5 @@ class LoopCertificate:
             "verdict": str(self.verdict), "omega": self.omega, "mu": self.mu, "start_radius": self.start_radius,
             "filter_gap": self.filter_gap, "times": list(self.times), "distances": list(self.distances),
             "final": self.final, "hover": self.hover, "detail": self.detail, "seconds": round(self.seconds, 3),
+            "failing": [box.to_json() for box in self.failing], "help": self.help and self.help.to_json(),
         }  # fmt: skip

@@ -16,12 +16,10 @@ checked in ball arithmetic on covers of B, for all headings and all |q| ≤ Q.
 
 from __future__ import annotations
 
-import math
 import os
 import time as clock
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, replace
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -31,22 +29,23 @@ from ptproof.balls.arithmetic import Undefined
 from ptproof.balls.arrays import Array
 from ptproof.balls.ball import ball_from, precision
 from ptproof.balls.rounding import up
+from ptproof.certify.loop.advice import Advice, advice
 from ptproof.certify.loop.certificate import LoopCertificate
-from ptproof.certify.loop.cover import farthest, guide, rates
-from ptproof.certify.loop.levels import Levels, Slice, fallen
+from ptproof.certify.loop.cover import farthest
+from ptproof.certify.loop.failing import Failing, failing
+from ptproof.certify.loop.levels import fallen
 from ptproof.certify.loop.model import Model
-from ptproof.certify.loop.setup import Phase, Unfit, models, phases, slices
-from ptproof.certify.loop.stage import NoCertificate, Stage, set_stage
+from ptproof.certify.loop.scene import NEAR, ORDERS, Scene, Task, held, hover, no_long_run, tasks
+from ptproof.certify.loop.setup import Phase, Unfit
+from ptproof.certify.loop.stage import NoCertificate, Place, Stage
 from ptproof.errors import InputError
 from ptproof.problem import Problem
 from ptproof.problem.model import number
 from ptproof.proof.verdict import Verdict
 
-_ORDERS = 3, 1, 3
-_NEAR = 6  # radii of the circle: a bound above that and above the start's distance is none
+_PRECISION = 128
 _CLOSE = 0.005
 _ROUNDING = 1e-9  # covers that times are shown as floats
-_WEIGHT = 0.02
 SHAPES = "distance", "field"
 _NAMES = {"distance": "half the squared distance", "field": "the field below its peak"}
 
@@ -57,7 +56,7 @@ _Curve: TypeAlias = tuple[tuple[float, ...], tuple[float, ...], float | None, st
 
 def certify_loop(
     problem: Problem, radius: Any = None, *, filter_gap: Any = 0, tolerance: float = 0.12, workers: int | None = None,
-    client: Any = None, shapes: Sequence[str] | None = None,
+    client: Any = None, shapes: Sequence[str] | None = None, explain: bool = False,
 ) -> LoopCertificate:  # fmt: skip
     """Bound the distance of the prescribed-time seeker from the source over [t₀, t₀ + T], whatever its heading.
 
@@ -75,7 +74,9 @@ def certify_loop(
         What V is tried: half the squared distance from the source, F(x*) − F; the first that leads to a proof counts.
         Left out: both, F(x*) − F first where the drift goes along the field's slope.
     workers, client
-        Threads (left out: one per processor), or a ``distributed.Client``.
+        Threads (left out: one per processor), or a ``distributed.Client``; neither changes the result.
+    explain
+        Whether to look for the boxes that fail and for what would help where nothing is proved.
 
     Returns
     -------
@@ -95,26 +96,44 @@ def certify_loop(
     ('proved', True)
     """
     begin = clock.perf_counter()
+    size, gap = _sizes(problem, radius, filter_gap)
+    reasons, places, tuning = [], dict[str, Place | None](), problem.tuning
+    found: _Curve | None = None
+    for shape in _shapes(problem) if shapes is None else shapes:
+        try:
+            with precision(_PRECISION):
+                found = _curve(problem, size, gap, shape, tolerance, workers, client)
+            break
+        except (NoCertificate, Unfit, Undefined) as error:
+            reasons.append(f"with V {_NAMES[shape]}: {error}")
+            places[shape] = error.place if isinstance(error, NoCertificate) else None
+    verdict = Verdict.UNDECIDED if found is None else Verdict.PROVED
+    times, distances, resting, detail = ((), (), None, "; ".join(reasons)) if found is None else found
+    boxes, help_ = _explained(problem, size, gap, places) if explain and found is None else ((), None)
+    return LoopCertificate(
+        verdict, float(tuning.omega), float(tuning.mu), float(size), float(gap), times, distances, resting, detail,
+        clock.perf_counter() - begin, boxes, help_,
+    )  # fmt: skip
+
+
+def _explained(
+    problem: Problem, radius: sp.Expr, gap: sp.Expr, places: Mapping[str, Place | None]
+) -> tuple[tuple[Failing, ...], Advice | None]:
+    """The boxes that fail, and what would help where any of the shapes can be tried at all."""
+    with precision(_PRECISION):
+        boxes = [box for shape, place in places.items() if place for box in failing(problem, shape, place)]
+        tried = next((shape for shape, place in places.items() if place), None)
+        return tuple(boxes), None if tried is None else advice(problem, radius, gap, tried)
+
+
+def _sizes(problem: Problem, radius: Any, filter_gap: Any) -> tuple[sp.Expr, sp.Expr]:
+    """The radius and the gap as exact numbers; neither is negative."""
     size = start_distance(problem) if radius is None else number(sp.sympify(radius), "radius")
     gap = number(sp.sympify(filter_gap), "filter_gap")
     for where, value in (("radius", size), ("filter_gap", gap)):
         if not value >= 0:
             raise InputError(f"{where}: must not be negative, got {value}")
-    reasons, tuning = [], problem.tuning
-    found: _Curve | None = None
-    for shape in _shapes(problem) if shapes is None else shapes:
-        try:
-            with precision(128):
-                found = _curve(problem, size, gap, shape, tolerance, workers, client)
-            break
-        except (NoCertificate, Unfit, Undefined) as error:
-            reasons.append(f"with V {_NAMES[shape]}: {error}")
-    verdict = Verdict.UNDECIDED if found is None else Verdict.PROVED
-    times, distances, hover, detail = ((), (), None, "; ".join(reasons)) if found is None else found
-    return LoopCertificate(
-        verdict, float(tuning.omega), float(tuning.mu), float(size), float(gap), times, distances, hover, detail,
-        clock.perf_counter() - begin,
-    )  # fmt: skip
+    return size, gap
 
 
 def _shapes(problem: Problem) -> tuple[str, ...]:
@@ -131,53 +150,47 @@ def start_distance(problem: Problem) -> sp.Expr:
 def _curve(
     problem: Problem, radius: sp.Expr, gap: sp.Expr, shape: str, tolerance: float, workers: int | None, client: Any
 ) -> _Curve:
-    spans = phases(problem)
-    tuning = problem.tuning
-    omega = ball_from(tuning.omega)
-    reach = up(ball_from(radius) + 1 / omega.sqrt())
-    filter_start = up(ball_from(gap) / (ball_from(tuning.mu) * omega.sqrt()))
-    tallest, steepest = _sizes(problem, reach, shape)
-    m = float(tuning.mu * tuning.omega)
-    typical = float(tuning.k) / (2 * (1 + m**2)) * steepest / tallest  # of −(dW/dτ)/W
-    prepared = models(problem, spans, shape, _ORDERS, _WEIGHT * tallest / steepest, typical)
-    stage = set_stage(prepared, spans, reach, filter_start)
-    work = [(model, part) for model, span in zip(prepared, spans, strict=True) for part in slices(problem, span)]
-    bounds = _all_rates(stage, work, tolerance * typical, workers, client)
-    times, reached = _levels(stage, work, bounds)
-    level, steady = reached[-1], work[-1][1].steady
-    if level > stage.start and not _held(stage.levels, bounds[-1], level):
+    scene = Scene.of(problem, radius, gap, shape)
+    prepared, stage, work = scene.prepared, scene.stage, scene.work
+    bounds = _all_rates(scene, tolerance * scene.typical, workers, client)
+    times, reached = _levels(scene, bounds)
+    level, endless = reached[-1], no_long_run(scene)
+    if level > stage.start and not held(stage.levels, bounds[-1], level):
         raise NoCertificate(
-            "no level of W is shown to decrease at the end: a larger omega or a smaller start would help"
+            "no level of W is shown to decrease at the end: a larger omega or a smaller start would help",
+            scene.place(-1, level),
         )
-    hover_level = _hover(stage.levels, bounds[-1], level) if steady else None
+    hover_level = None if endless else hover(stage.levels, bounds[-1], level)
     counts = [len(part.parts) or 1 for _, part in work]
-    held = [model for (model, _), count in zip(work, counts, strict=True) for _ in range(count)]
-    distances, hover = _distances(list(zip(prepared, spans, strict=True)), held, stage, reached, hover_level)
-    near = max(up(ball_from(radius)), _NEAR * prepared[0].reach)
+    holding = [model for (model, _), count in zip(work, counts, strict=True) for _ in range(count)]
+    phased = list(zip(prepared, scene.spans, strict=True))
+    distances, last = _distances(phased, holding, stage, reached, hover_level)
+    near = max(up(ball_from(radius)), NEAR * prepared[0].reach)
     if distances[-1] > near:
         raise NoCertificate(
             f"the vehicle is shown to stay within {max(distances):.4g}, but not to come "
-            f"closer than {near:.4g}: a larger omega, k or T would help"
+            f"closer than {near:.4g}: a larger omega, k or T would help",
+            scene.place(-1, level),
         )
     detail = (
-        f"V is {_NAMES[shape]}, corrected to order {_ORDERS[0]} in 1/sqrt(omega); rates proved on {stage.levels.bands} "
-        f"bands of levels, all headings and filter states, over {len(work)} stretches of time"
+        f"V is {_NAMES[shape]}, corrected to order {ORDERS[0]} in 1/sqrt(omega); rates proved on {stage.levels.bands} "
+        f"bands of levels, all headings and filter states, over {len(work)} stretches of time{endless}"
     )
-    return times, distances, hover, detail
+    return times, distances, last, detail
 
 
-def _levels(
-    stage: Stage, work: Sequence[tuple[Model, Slice]], bounds: Sequence[Array]
-) -> tuple[tuple[float, ...], list[float]]:
+def _levels(scene: Scene, bounds: Sequence[Array]) -> tuple[tuple[float, ...], list[float]]:
     """The times at the ends of the stretches, and levels that W is not above there."""
+    work, stage = scene.work, scene.stage
     times, reached = [work[0][1].start], [stage.start]
-    for (_, part), found in zip(work, bounds, strict=True):
+    for at, ((_, part), found) in enumerate(zip(work, bounds, strict=True)):
         for piece in part.parts or (part,):
             level = fallen(reached[-1], found, stage.levels, piece.shortest, piece.longest)
             if not level < stage.levels.edges[-1]:
                 raise NoCertificate(
                     f"W is not shown to stay below {stage.levels.edges[-1]:.4g} at t = {piece.end:.4g}: "
-                    "a larger omega or a smaller start would help, or a weaker drift"
+                    "a larger omega or a smaller start would help, or a weaker drift",
+                    scene.place(at, reached[-1]),
                 )
             times.append(piece.end)
             reached.append(level)
@@ -207,85 +220,18 @@ def _distances(
     return tuple(found.tolist()), last
 
 
-def _sizes(problem: Problem, reach: float, shape: str) -> tuple[float, float]:
-    """About how large V and ‖∇F‖² are at a distance from the source; any positive numbers would do."""
-    angles = np.linspace(0, 2 * np.pi, 64, endpoint=False)
-    field = sp.lambdify(problem.variables, [problem.peak - problem.field.expression, *problem.field.gradient], "numpy")
-    around = (float(c) + reach * f(angles) for c, f in zip(problem.source, (np.cos, np.sin), strict=True))
-    with np.errstate(all="ignore"):
-        height, first, second = (np.broadcast_to(item, angles.shape) for item in field(*around))
-        tallest, steepest = float(np.max(np.abs(height))), float(np.max(first**2 + second**2))
-    if not (0 < tallest < math.inf and 0 < steepest < math.inf):
-        raise NoCertificate("the field has no slope or no value around the start")
-    return (tallest, steepest) if shape == "field" else (reach**2 / 2, reach * math.sqrt(steepest))
-
-
-@dataclass(frozen=True, eq=False)
-class _Task:
-    """The rates of one stretch of time, to be bounded apart from the others."""
-
-    model: Model
-    part: Slice
-    stage: Stage
-    window: tuple[float, float] = (0.0, math.inf)
-    seen: Array | None = None
-    slack: float = math.inf
-
-    def expected(self) -> Array:
-        """About what the rates are."""
-        return guide(self.model, self.stage.levels, self.stage.half, self.part.interval)
-
-    def bounds(self) -> Array:
-        """Bounds of the rates."""
-        stage, seen = self.stage, self.expected() if self.seen is None else self.seen
-        return rates(
-            self.model, stage.levels, stage.filter_bands, stage.half, self.part.interval, self.window, seen, self.slack
-        )
-
-
-def _all_rates(
-    stage: Stage, work: Sequence[tuple[Model, Slice]], slack: float, workers: int | None, client: Any
-) -> list[Array]:
-    """Bounds of the rates on all stretches, sharp about the levels at which W is expected there."""
-    if len({id(model) for model, _ in work}) == 1 and all(part.steady for _, part in work):
-        task = _Task(*work[0], stage, slack=slack)
-        seen = task.expected()
-        rest = _hover(stage.levels, seen + 2 * slack * stage.levels.edges[1:], stage.start)
-        return [replace(task, seen=seen, window=(rest or 0.0, 1.05 * stage.start)).bounds()] * len(work)
-    level, passed, tasks = stage.start, 0.0, []
-    for model, part in work:
-        task = _Task(model, part, stage, slack=slack)
-        seen = task.expected()
-        after = min(fallen(level, seen, stage.levels, part.shortest, part.longest), float(stage.levels.edges[-1]))
-        passed += min(part.longest, 1e6)
-        if part.steady:
-            after = max(after, _hover(stage.levels, seen + 2 * slack * stage.levels.edges[1:], level) or 0.0)
-        worse = math.exp(min(slack * passed, 5.0))
-        tasks.append(replace(task, seen=seen, window=(0.8 * min(level, after), 1.1 * worse * max(level, after))))
-        if not after < stage.levels.edges[-1]:
-            raise NoCertificate(
-                f"nothing keeps W from leaving its largest level at t = {part.end:.4g}: a larger omega, a smaller "
-                "start or a weaker drift would help"
-            )
-        level = after
+def _all_rates(scene: Scene, slack: float, workers: int | None, client: Any) -> list[Array]:
+    """Bounds of the rates on all stretches of time."""
+    asked = tasks(scene, slack)
+    if scene.still:
+        return [asked[0].bounds()] * len(scene.work)
     if client is not None:
-        return list(client.gather(client.map(_Task.bounds, tasks, pure=False)))
+        return list(client.gather(client.map(_elsewhere, asked, pure=False)))
     with ThreadPoolExecutor(workers or os.cpu_count() or 1) as pool:
-        return list(pool.map(_Task.bounds, tasks))
+        return list(pool.map(Task.bounds, asked))
 
 
-def _held(levels: Levels, found: Array, level: float) -> bool:
-    """Whether W is kept from rising at a level: it falls in the band below or above."""
-    at = int(np.searchsorted(levels.edges, level, side="left"))
-    return bool((found[max(at - 1, 0) : at + 1] < 0).any())
-
-
-def _hover(levels: Levels, found: Array, level: float) -> float | None:
-    """The level to which W falls from ``level`` in the end if a stretch goes on; None where it does not fall."""
-    falling = found < 0
-    band = min(int(np.searchsorted(levels.edges, level, side="left")) - 1, levels.bands - 1)
-    if band < 0 or not falling[band]:
-        return None
-    while band > 0 and falling[band - 1]:
-        band -= 1
-    return float(levels.edges[band])
+def _elsewhere(task: Task) -> Array:
+    """The rates of a stretch in another process, in the precision of this one; a function that a cluster can call."""
+    with precision(_PRECISION):
+        return task.bounds()

@@ -72,6 +72,56 @@ def rates(
     return found
 
 
+@dataclass(frozen=True)
+class Tried:
+    """What one box said of one band of levels, at the worst of the bands of |q|.
+
+    Attributes
+    ----------
+    first, second, half
+        The box.
+    filter
+        The band of |q|.
+    level, rate
+        The band of levels, and the bound of dW/dτ on it.
+    middle
+        About the largest rate at the middle with q = 0: no bound.
+    """
+
+    first: float
+    second: float
+    half: float
+    filter: tuple[float, float]
+    level: tuple[float, float]
+    rate: float
+    middle: float
+
+
+def tried(
+    model: Model, boxes: Boxes, levels: Levels, filter_bands: Array, time: Intervals, band: int | None
+) -> list[Tried]:
+    """What boxes say of a band of levels, for those that it touches; with no ``band``, of the lowest that each has."""
+    found, unit = [], model.typical * _CLASS
+    for part in boxes.parts(_CHUNK):
+        look = _Look.at(model, part, levels, filter_bands, time)
+        at = np.full(look.first.shape, band) if band is not None else np.minimum(look.first, levels.bands - 1)
+        kappa = look.slopes * unit
+        value = look.rates - np.minimum(kappa * levels.edges[at], kappa * levels.edges[at + 1])
+        touched = (look.first <= at) & (at < look.last) if band is not None else look.first < levels.bands
+        order = np.where(touched, value if band is not None else -at, -np.inf)
+        worst = order.argmax(axis=0)
+        for i in np.flatnonzero(np.isfinite(order.max(axis=0))):
+            q, j = worst[i], at[worst[i], i]
+            found.append(
+                Tried(
+                    float(part.first[i]), float(part.second[i]), part.half,
+                    (float(filter_bands[q]), float(filter_bands[q + 1])),
+                    (float(levels.edges[j]), float(levels.edges[j + 1])), float(value[q, i]), float(look.value[i]),
+                )
+            )  # fmt: skip
+    return found
+
+
 def farthest(model: Model, wanted: Array, filter_bands: Array, half: float, time: Intervals, tolerance: float) -> Array:
     """For each of the increasing levels ``wanted`` a bound of |y| where W is not above it, for y in [−half, half]².
 

@@ -130,6 +130,13 @@ def jets_of(problem: Problem, phase: Phase, order: int) -> Jets:
     return Jets((first, second), TIME, expressions, factor, order)
 
 
+def drift_factor(jets: Jets, start: float, end: float) -> tuple[float, float]:
+    """About the least and the largest dt/dτ between two instants; it is monotone, and 0 where the gain is infinite."""
+    ends = [sp.sympify(jets.factor).subs(TIME, sp.Float(time)) for time in (start, end)]
+    found = sorted(abs(float(value)) if value.is_finite else 0.0 for value in ends)
+    return found[0], found[1]
+
+
 def models(
     problem: Problem, spans: Sequence[Phase], shape: str, orders: tuple[int, int, int], weight: float, typical: float
 ) -> tuple[Model, ...]:

@@ -20,8 +20,36 @@ _BANDS = 150  # of levels, per factor of ten
 _FILTER = np.concatenate([[0.0], 2.0 ** np.arange(-12, 1)])
 
 
+@dataclass(frozen=True, eq=False)
+class Place:
+    """Where a proof fails.
+
+    Attributes
+    ----------
+    model, half, filter_bands, levels
+        W on [−half, half]², the bands of |q|, and the levels.
+    time, start, end
+        The stretch of time, as an interval in t and as floats for people.
+    level
+        The level that W is not shown to leave downward; None where the levels around a start are not closed.
+    """
+
+    model: Model
+    half: float
+    filter_bands: Array
+    levels: Levels
+    time: Intervals
+    start: float
+    end: float
+    level: float | None = None
+
+
 class NoCertificate(Exception):
-    """Why there is none, in words."""
+    """Why there is none, in words, and where."""
+
+    def __init__(self, why: str, place: Place | None = None) -> None:
+        super().__init__(why)
+        self.place = place
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,7 +67,7 @@ def set_stage(prepared: Sequence[Model], spans: Sequence[Phase], reach: float, f
 
     Raises :class:`NoCertificate` where none are found.
     """
-    half = reach * 1.25
+    half, tried = reach * 1.25, []
     for _ in range(5):
         half = math.ceil(half * 1024) / 1024
         start, deviation = _start(prepared[0], half, reach, filter_start, spans[0].interval())
@@ -54,11 +82,20 @@ def set_stage(prepared: Sequence[Model], spans: Sequence[Phase], reach: float, f
             bottom = min(_bottom(prepared[0]), start / 10)
             count = math.ceil(_BANDS * math.log10(top / bottom))
             return Stage(half, bands, Levels.geometric(bottom, top, count), start)
+        tried.append((top, half, bands))
         half *= 1.3
+    top, half, bands = max(tried, key=lambda item: item[0])
     raise NoCertificate(
         f"the level sets of W around the start are not shown to be closed (W ≤ {start:.4g} at the start, ≥ {top:.4g} "
-        "around it): a larger omega or a smaller start would help"
+        "around it): a larger omega or a smaller start would help",
+        _open_border(prepared[0], spans[0], half, bands, min(0.5 * top, 2 * top, 0.9 * start), 1.5 * start),
     )
+
+
+def _open_border(model: Model, span: Phase, half: float, bands: Array, low: float, high: float) -> Place:
+    """The border on which W is too small, with levels that show how small."""
+    levels = Levels(np.linspace(low, high, 401))
+    return Place(model, half, bands, levels, span.interval(), float(span.start), float(span.end))
 
 
 def _start(model: Model, half: float, reach: float, filter_start: float, time: Intervals) -> tuple[float, float]:

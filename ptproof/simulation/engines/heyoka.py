@@ -9,17 +9,17 @@ from __future__ import annotations
 import copy
 import importlib.util
 import itertools
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 from sympy.core.relational import Relational
 
 from ptproof.errors import InputError
-from ptproof.simulation.plan import Array, Batch, Engine, Finals, Plan, Run, Samples, Work
+from ptproof.simulation.plan import Array, Batch, Engine, Finals, Paths, Plan, Run, Samples, Work
 from ptproof.simulation.settings import Budget, Outcome, Stop
 from ptproof.simulation.smooth import picker
 from ptproof.simulation.taylor_form import equations
@@ -27,6 +27,7 @@ from ptproof.system import System
 
 _STEPS_A_CALL = 20_000
 _BATCH_STEPS = 200_000
+_SAMPLES_A_CALL = 100
 # Measured: vectors of eight cost less a member than the width that heyoka recommends for the processor. Divides the
 # blocks of an ensemble, so that groups are the same however the members are shared out.
 WIDTH = 8
@@ -34,6 +35,8 @@ WIDTH = 8
 _BUILD = {"fast_math": True}
 # A turn takes the default engine a thousandth of a second or so; from here on compiling is worth it.
 _MANY_TURNS = 3000
+# For each piece of time its place among the edges, heyoka's constants (m × N), and a compiled integrator.
+_Solvers: TypeAlias = list[tuple[int, Array, Any]]
 
 
 @lru_cache(maxsize=64)
@@ -174,23 +177,8 @@ class _Taylor(Engine):
 
     def finals(self, plan: Plan, batch: Batch, workers: int = 1) -> Finals:
         """End states of many, in SIMD groups of a fixed order, spread over ``workers`` threads."""
-        groups = [np.arange(first, first + WIDTH) for first in range(0, batch.size, WIDTH)]
         time, x = batch.edges[-1].copy(), np.full_like(batch.initial, np.nan)
-        pieces = [(row, system, equations(system).constants(batch.parameters)) for row, system in _pieces(plan, batch)]
-
-        def work(share: Iterable[Any], thread: int) -> list[int]:
-            solvers = [(row, values, batched(system, _tolerance(plan), thread)) for row, system, values in pieces]
-            return [i for group in share for i in _group(batch, solvers, group, x)]
-
-        if workers == 1 or len(groups) < 2 * workers:
-            unfinished = work(groups, 0)
-        else:
-            # Each thread has integrators of its own; heyoka lets other threads run while it integrates.
-            with ThreadPoolExecutor(workers) as pool:
-                # They take the next group from one list, so that none waits for another whose core is busy.
-                queue = iter(groups)
-                shares = [pool.submit(work, queue, thread) for thread in range(workers)]
-            unfinished = [i for share in shares for i in share.result()]
+        unfinished = _by_groups(plan, batch, workers, lambda solvers, group: _group(batch, solvers, group, x))
         unfinished += np.flatnonzero(~(plan.distance(x) <= plan.radius)).tolist()
         outcomes = [Outcome.REACHED] * batch.size
         for i in sorted(set(unfinished)):
@@ -198,14 +186,48 @@ class _Taylor(Engine):
             time[i], x[:, i], outcomes[i] = run.time[-1], run.x[:, -1], run.stop.outcome
         return Finals(time, x, tuple(outcomes))
 
+    def paths(self, plan: Plan, batch: Batch, workers: int = 1) -> Paths:
+        """The way of many, in the groups of :meth:`finals`; the samples come from the Taylor series of the steps."""
+        time, grids = batch.path_times(plan.settings.samples), list(batch.member(0).grids(plan.settings.samples))
+        x = np.full((*batch.initial.shape, len(time)), np.nan)
+        unfinished = _by_groups(
+            plan, batch, workers, lambda solvers, group: _group_path(batch, solvers, group, grids, x)
+        )
+        for i in sorted(unfinished):
+            x[:, i] = super().paths(plan, batch.member(i)).x[:, 0]
+        return Paths(time, x)
 
-def _group(batch: Batch, solvers: list[tuple[int, Array, Any]], group: Any, x: Array) -> list[int]:
+
+def _by_groups(plan: Plan, batch: Batch, workers: int, integrate: Callable[[_Solvers, Array], list[int]]) -> list[int]:
+    """All groups, spread over ``workers`` threads; gives the members that ``integrate`` gave back as unfinished."""
+    groups = [np.arange(first, first + WIDTH) for first in range(0, batch.size, WIDTH)]
+    pieces = [(row, system, equations(system).constants(batch.parameters)) for row, system in _pieces(plan, batch)]
+
+    def work(share: Iterable[Any], thread: int) -> list[int]:
+        solvers = [(row, values, batched(system, _tolerance(plan), thread)) for row, system, values in pieces]
+        return [i for group in share for i in integrate(solvers, group)]
+
+    if workers == 1 or len(groups) < 2 * workers:
+        return work(groups, 0)
+    # Each thread has integrators of its own; heyoka lets other threads run while it integrates.
+    with ThreadPoolExecutor(workers) as pool:
+        # They take the next group from one list, so that none waits for another whose core is busy.
+        queue = iter(groups)
+        shares = [pool.submit(work, queue, thread) for thread in range(workers)]
+    return [i for share in shares for i in share.result()]
+
+
+def _members(batch: Batch, group: Any) -> tuple[Any, Any]:
+    """The members whose lanes a group fills, and those that count: the last is filled up with its last member."""
+    index = np.minimum(group, batch.size - 1)
+    return index, index[: max(0, min(len(group), batch.size - int(group[0])))]
+
+
+def _group(batch: Batch, solvers: _Solvers, group: Any, x: Array) -> list[int]:
     """Integrate one group into ``x``; the members of a group that didn't get through are returned."""
     import heyoka as hy
 
-    # The last group is filled up with copies of its last member.
-    index = np.minimum(group, batch.size - 1)
-    kept = index[: max(0, min(len(group), batch.size - int(group[0])))]
+    index, kept = _members(batch, group)
     state = batch.initial[:, index]
     for piece, values, solver in solvers:
         solver.set_time(batch.edges[piece, index])
@@ -216,6 +238,33 @@ def _group(batch: Batch, solvers: list[tuple[int, Array, Any]], group: Any, x: A
             return [int(i) for i in kept]
     x[:, kept] = state[:, : len(kept)]
     return []
+
+
+def _group_path(batch: Batch, solvers: _Solvers, group: Any, grids: Sequence[Array], x: Array) -> list[int]:
+    """Integrate one group and sample it into ``x`` (n × N × m), as :func:`_group` does the ends."""
+    import heyoka as hy
+
+    index, kept = _members(batch, group)
+    x[:, kept, 0] = batch.initial[:, kept]
+    state, at = batch.initial[:, index], 1
+    for (_, values, solver), grid in zip(solvers, grids, strict=True):
+        for part in _portions(grid):
+            solver.set_time(np.full(WIDTH, part[0]))
+            solver.state[:], solver.pars[:] = state, values[:, index]
+            _, rows = solver.propagate_grid(np.repeat(part[:, None], WIDTH, axis=1), max_steps=_BATCH_STEPS)
+            state = rows[-1].copy()
+            ended = any(result[0] != hy.taylor_outcome.time_limit for result in solver.propagate_res)
+            if ended or not np.isfinite(state).all():
+                return [int(i) for i in kept]
+            x[:, kept, at : at + len(part) - 1] = rows[1:, :, : len(kept)].transpose(1, 2, 0)
+            at += len(part) - 1
+    return []
+
+
+def _portions(grid: Array) -> Iterator[Array]:
+    """A grid in parts that share their ends: the limit on the steps of a call is for one of them."""
+    for first in range(0, len(grid) - 1, _SAMPLES_A_CALL):
+        yield grid[first : first + _SAMPLES_A_CALL + 1]
 
 
 def _pieces(plan: Plan, batch: Batch) -> list[tuple[int, System]]:

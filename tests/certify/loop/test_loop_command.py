@@ -7,11 +7,17 @@ import pytest
 from click.testing import CliRunner
 
 import ptproof.certify as door
+from ptproof.certify.loop.advice import Advice
+from ptproof.certify.loop.failing import Failing
 from ptproof.commands.certify import certify
 from ptproof.errors import InputError
+from ptproof.proof.verdict import Verdict
 from tests.certify.loop.test_loop_certificate import found
 
-KEYS = {"verdict", "omega", "mu", "start_radius", "times", "distances", "final", "hover", "detail", "seconds"}
+KEYS = {
+    "verdict", "omega", "mu", "start_radius", "times", "distances", "final", "hover", "detail", "seconds", "failing",
+    "help",
+}  # fmt: skip
 NAME = ("saturated", "--seeker", "pt")
 
 
@@ -83,11 +89,47 @@ def test_a_vehicle_outside_is_said_and_is_status_one(monkeypatch, tmp_path, caps
     assert "outside the bound: please report this" in result.output
 
 
-def test_undecided_is_status_one_and_says_what_would_help():
-    result = run(*NAME, "--omega", "2", "--mu", "1/2", "--tolerance", "1", "--json")
-    data = json.loads(result.stdout)
-    assert (result.return_value, data["verdict"], data["final"]) == (1, "undecided", None)
-    assert "would help" in data["detail"] or "not above" in data["detail"]
+def test_an_attack_is_shown_and_is_repeated_by_its_seed(known):
+    found = [json.loads(run(*NAME, "--attack", "50", "--seed", seed, "--json").stdout)["attack"] for seed in "001"]
+    assert found[0] == found[1] != found[2]
+    assert found[0]["outside"] == 0
+    assert 0.5 < found[0]["tightest"] <= 1
+    assert found[0]["until"] == pytest.approx(1)
+    assert "attacked: 50 simulated vehicles" in run(*NAME, "--attack", "50").stdout
+
+
+def test_an_attack_that_hits_is_said_and_is_status_one(monkeypatch):
+    false = replace(found(), distances=tuple(0.5 * value for value in found().distances))
+    monkeypatch.setattr(door, "certify_loop", lambda *_, **__: false)
+    result = run(*NAME, "--attack", "40", "--json")
+    attack = json.loads(result.stdout)["attack"]
+    assert result.return_value == 1
+    assert attack["outside"] > 20
+    assert attack["tightest"] > 1
+    assert "outside the bound: please report this" in result.stderr
+
+
+@pytest.mark.parametrize("json_too", [True, False])
+def test_undecided_is_status_one_and_says_where_and_what_would_help(monkeypatch, json_too):
+    box = Failing("distance", (0, 1), ((1, 2), (3, 4)), (0, 6.28), (0, 0.1), (0.09, 1), (5, 6), 0.7, -0.1)
+    open_ = replace(
+        found(), verdict=Verdict.UNDECIDED, times=(), distances=(), hover=None, detail="too slow", failing=(box,),
+        help=Advice(48.0, 0.001, None),
+    )  # fmt: skip
+    asked = {}
+    monkeypatch.setattr(door, "certify_loop", lambda *_, **options: asked.update(options) or open_)
+    result = run(*NAME, *(["--json"] if json_too else []), "--attack", "5")
+    assert asked["explain"]
+    assert result.return_value == 1
+    if json_too:
+        data = json.loads(result.stdout)
+        assert (data["verdict"], data["final"], data["help"]["omega"]) == ("undecided", None, 48.0)
+        assert data["failing"][0]["position"] == [[1, 2], [3, 4]]
+        assert {"heading", "filter", "drift_factor", "level", "rate", "middle", "time"} <= set(data["failing"][0])
+    else:
+        assert "fails at t in [0, 1], circle's centre in [1, 2], [3, 4]" in result.stdout
+        assert "dW/dtau is at most 0.7 (about -0.1 at its middle)" in result.stdout
+        assert "omega = 48 with mu = 0.001" in result.stdout
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,180 @@
+"""What is proved about, set up: W on each phase, the square, the levels, and the stretches of time with their tasks."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+import sympy as sp
+
+from ptproof.balls.arrays import Array
+from ptproof.balls.ball import ball_from
+from ptproof.balls.rounding import up
+from ptproof.certify.loop.cover import guide, rates
+from ptproof.certify.loop.levels import Levels, Slice, fallen
+from ptproof.certify.loop.model import Model
+from ptproof.certify.loop.setup import Phase, models, phases, slices
+from ptproof.certify.loop.stage import NoCertificate, Place, Stage, set_stage
+from ptproof.problem import Problem
+
+ORDERS = 3, 1, 3
+NEAR = 6  # radii of the circle: a bound above that and above the start's distance is none
+_WEIGHT = 0.02
+
+
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """A problem made ready for a proof.
+
+    Attributes
+    ----------
+    spans, prepared
+        The phases of the gain, and W with its rate on each.
+    stage
+        Square, bands and levels.
+    work
+        The stretches of time, each with the model of its phase.
+    typical
+        About how large −(dW/dτ)/W is.
+    """
+
+    spans: tuple[Phase, ...]
+    prepared: tuple[Model, ...]
+    stage: Stage
+    work: tuple[tuple[Model, Slice], ...]
+    typical: float
+
+    @staticmethod
+    def of(problem: Problem, radius: sp.Expr, gap: sp.Expr, shape: str) -> Scene:
+        """From a problem, the radius of the starts, the filter's gap and the shape of V.
+
+        Raises :class:`NoCertificate` where the levels around the start are not closed.
+        """
+        spans = phases(problem)
+        tuning = problem.tuning
+        omega = ball_from(tuning.omega)
+        reach = up(ball_from(radius) + 1 / omega.sqrt())
+        filter_start = up(ball_from(gap) / (ball_from(tuning.mu) * omega.sqrt()))
+        tallest, steepest = _sizes(problem, reach, shape)
+        m = float(tuning.mu * tuning.omega)
+        typical = float(tuning.k) / (2 * (1 + m**2)) * steepest / tallest  # of −(dW/dτ)/W
+        prepared = models(problem, spans, shape, ORDERS, _WEIGHT * tallest / steepest, typical)
+        stage = set_stage(prepared, spans, reach, filter_start)
+        work = [(model, part) for model, span in zip(prepared, spans, strict=True) for part in slices(problem, span)]
+        return Scene(spans, prepared, stage, tuple(work), typical)
+
+    def place(self, at: int, level: float) -> Place:
+        """Where a proof fails on the stretch of that number."""
+        model, part = self.work[at]
+        stage = self.stage
+        return Place(
+            model, stage.half, stage.filter_bands, stage.levels, part.interval, part.start, part.end, level
+        )  # fmt: skip
+
+    def expected(self, at: int) -> Array:
+        """About what the rates are on the stretch of that number."""
+        model, part = self.work[at]
+        return guide(model, self.stage.levels, self.stage.half, part.interval)
+
+    @property
+    def still(self) -> bool:
+        """Whether one bound of the rates serves for all stretches."""
+        return len({id(model) for model, _ in self.work}) == 1 and all(part.steady for _, part in self.work)
+
+
+def _sizes(problem: Problem, reach: float, shape: str) -> tuple[float, float]:
+    """About how large V and ‖∇F‖² are at a distance from the source; any positive numbers would do."""
+    angles = np.linspace(0, 2 * np.pi, 64, endpoint=False)
+    field = sp.lambdify(problem.variables, [problem.peak - problem.field.expression, *problem.field.gradient], "numpy")
+    around = (float(c) + reach * f(angles) for c, f in zip(problem.source, (np.cos, np.sin), strict=True))
+    with np.errstate(all="ignore"):
+        height, first, second = (np.broadcast_to(item, angles.shape) for item in field(*around))
+        tallest, steepest = float(np.max(np.abs(height))), float(np.max(first**2 + second**2))
+    if not (0 < tallest < math.inf and 0 < steepest < math.inf):
+        raise NoCertificate("the field has no slope or no value around the start")
+    return (tallest, steepest) if shape == "field" else (reach**2 / 2, reach * math.sqrt(steepest))
+
+
+@dataclass(frozen=True, eq=False)
+class Task:
+    """The rates of one stretch of time, to be bounded apart from the others."""
+
+    model: Model
+    part: Slice
+    stage: Stage
+    window: tuple[float, float] = (0.0, math.inf)
+    seen: Array | None = None
+    slack: float = math.inf
+
+    def expected(self) -> Array:
+        """About what the rates are."""
+        return guide(self.model, self.stage.levels, self.stage.half, self.part.interval)
+
+    def bounds(self) -> Array:
+        """Bounds of the rates."""
+        stage, seen = self.stage, self.expected() if self.seen is None else self.seen
+        return rates(
+            self.model, stage.levels, stage.filter_bands, stage.half, self.part.interval, self.window, seen, self.slack
+        )
+
+
+def tasks(scene: Scene, slack: float) -> list[Task]:
+    """One for each stretch of time, or one alone, sharp about the levels at which W is expected there."""
+    stage, work = scene.stage, scene.work
+    if scene.still:
+        task = Task(*work[0], stage, slack=slack)
+        seen = task.expected()
+        rest = hover(stage.levels, seen + 2 * slack * stage.levels.edges[1:], stage.start)
+        return [replace(task, seen=seen, window=(rest or 0.0, 1.05 * stage.start))]
+    level, passed, found = stage.start, 0.0, []
+    for at, (model, part) in enumerate(work):
+        task = Task(model, part, stage, slack=slack)
+        seen = task.expected()
+        after = min(fallen(level, seen, stage.levels, part.shortest, part.longest), float(stage.levels.edges[-1]))
+        passed += min(part.longest, 1e6)
+        if part.steady:
+            after = max(after, hover(stage.levels, seen + 2 * slack * stage.levels.edges[1:], level) or 0.0)
+        worse = math.exp(min(slack * passed, 5.0))
+        found.append(replace(task, seen=seen, window=(0.8 * min(level, after), 1.1 * worse * max(level, after))))
+        if not after < stage.levels.edges[-1]:
+            raise NoCertificate(
+                f"nothing keeps W from leaving its largest level at t = {part.end:.4g}: a larger omega, a smaller "
+                "start or a weaker drift would help",
+                scene.place(at, level),
+            )
+        level = after
+    return found
+
+
+def held(levels: Levels, found: Array, level: float) -> bool:
+    """Whether W is kept from rising at a level: it falls in the band below or above."""
+    at = int(np.searchsorted(levels.edges, level, side="left"))
+    return bool((found[max(at - 1, 0) : at + 1] < 0).any())
+
+
+def hover(levels: Levels, found: Array, level: float) -> float | None:
+    """The level to which W falls from ``level`` in the end if a stretch goes on; None where it does not fall."""
+    falling = found < 0
+    band = min(int(np.searchsorted(levels.edges, level, side="left")) - 1, levels.bands - 1)
+    if band < 0 or not falling[band]:
+        return None
+    while band > 0 and falling[band - 1]:
+        band -= 1
+    return float(levels.edges[band])
+
+
+def no_long_run(scene: Scene) -> str:
+    """Why there is no distance for the long run, for the end of a sentence; empty where there is one."""
+    if math.isinf(scene.work[-1][1].longest):
+        return "; nothing is said of a long run, since the gain is infinite at T, where this bound ends"
+    if not scene.work[-1][1].steady:
+        return "; nothing is said of a long run, since the drift changes with time or the gain grows until T"
+    return ""
+
+
+def reached_distance(scene: Scene, level: float, shape: str) -> float:
+    """About how far the vehicle is where W is at a level: as if W were V, and V quadratic."""
+    start = scene.stage.half / 1.25
+    away = math.sqrt(2 * level) if shape == "distance" else start * math.sqrt(level / scene.stage.start)
+    return away + scene.prepared[0].reach
