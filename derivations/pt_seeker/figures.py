@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ptproof.balls.rounding import at_least, at_most
 from ptproof.report.content import Figure, Table
 
 if TYPE_CHECKING:
@@ -97,9 +98,9 @@ def _guarantees() -> Table:
 
     def words(row: dict[str, Any]) -> tuple[str, ...]:
         known = row["verdict"] == "proved"
-        hover = "" if row["hover"] is None else f"{row['hover']:.3g}"
-        said = f"{row['final']:.3g}" if known else "no guarantee is known"
-        numbers = (f"{row['omega']:g}", f"{row['mu']:.3g}", f"{row['start_radius']:.4g}")
+        hover = "" if row["hover"] is None else at_most(row["hover"], 3)
+        said = at_most(row["final"], 3) if known else "no guarantee is known"
+        numbers = (f"{row['omega']:g}", f"{row['mu']:.3g}", at_least(row["start_radius"]))
         return (row["command"], *numbers, said, hover, f"{row['seconds']:.0f}", "" if known else row["detail"])
 
     return Table(

@@ -33,3 +33,17 @@ def decimal_up(value: float, digits: int) -> Decimal:
 def decimal_down(value: float, digits: int) -> Decimal:
     """The decimal of ``digits`` digits that is not above ``value`` and nearest to it."""
     return Context(prec=digits, rounding=ROUND_FLOOR).plus(Decimal(value))
+
+
+def at_most(value: float, digits: int = 4) -> str:
+    """An upper bound as a person reads it: never a smaller number than was proved.
+
+    >>> at_most(0.24191, 4), at_most(2.0), at_least(2.8284271, 6), at_least(0.3)
+    ('0.2420', '2', '2.82842', '0.3')
+    """
+    return f"{decimal_up(value, digits):g}"
+
+
+def at_least(value: float, digits: int = 4) -> str:
+    """How far something that was proved reaches, as a person reads it; the number 0.3 is not read as 0.2999."""
+    return f"{Context(prec=digits, rounding=ROUND_FLOOR).create_decimal(repr(value)):g}"

@@ -9,6 +9,7 @@ import sympy as sp
 from flint import arb
 
 from ptproof.balls.ball import ball_from, precision
+from ptproof.balls.rounding import at_most
 from ptproof.balls.tape import Undefined
 from ptproof.certify.loop import LoopCertificate, certify_loop
 from ptproof.errors import InputError
@@ -61,8 +62,10 @@ def certified(goal: Goal, problem: Problem, *, tolerance: float = 0.12) -> Evide
         for limit, part in zip(limits, said.parts, strict=True):
             square, asked = arb(bound) ** 2, ball_from(limit)
             if not (square < asked or (part.sign == "<=" and square <= asked)):
-                return _undecided(f"the distance is shown to be at most {bound:.6g}, which does not show {part}")
-    return Evidence(NAME, Verdict.PROVED, f"the distance is at most {bound:.6g}: {found.detail}")
+                return _undecided(
+                    f"the distance is shown to be at most {at_most(bound, 6)}, which does not show {part}"
+                )
+    return Evidence(NAME, Verdict.PROVED, f"the distance is at most {at_most(bound, 6)}: {found.detail}")
 
 
 def _undecided(reason: str) -> Evidence:

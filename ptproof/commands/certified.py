@@ -35,10 +35,12 @@ def certified(problem: Problem) -> LoopCertificate:
 
 def words(certificate: LoopCertificate) -> list[str]:
     """The lines for people."""
-    starts = f"every vehicle that starts within {certificate.start_radius:.6g}, from every heading"
+    from ptproof.balls.rounding import at_least, at_most
+
+    starts = f"every vehicle that starts within {at_least(certificate.start_radius, 6)}, from every heading"
     if certificate.final is None:
         return [f"no certificate for {starts}: {certificate.detail}"]
-    return [f"certified for {starts}: distance at most {certificate.final:.6g} at T"]
+    return [f"certified for {starts}: distance at most {at_most(certificate.final, 6)} at T"]
 
 
 def draw(figure: Any, certificate: LoopCertificate) -> None:

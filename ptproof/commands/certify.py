@@ -106,16 +106,19 @@ def retuned(problem: Problem, numbers: dict[str, str | None]) -> Problem:
 
 
 def _text(name: str, found: LoopCertificate) -> str:
+    from ptproof.balls.rounding import at_least, at_most
+
     head = f"{name}, the vehicle in closed loop, omega = {found.omega:.6g}, mu = {found.mu:.6g}"
-    starts = f"every start within {found.start_radius:.6g}, every heading, a filter within {found.filter_gap:.6g} of F"
+    radius, gap = at_least(found.start_radius, 6), at_least(found.filter_gap, 6)
+    starts = f"every start within {radius}, every heading, a filter within {gap} of F"
     if found.final is None:
         boxes = [f"fails at {box}" for box in found.failing]
         help = [] if found.help is None else [str(found.help)]
         return "\n".join([head, starts, f"undecided: {found.detail}", *boxes, *help])
     marks = sorted({round(i * (len(found.times) - 1) / 8) for i in range(9)})
-    rows = [f"  t = {found.times[i]:<10.4g} distance at most {found.distances[i]:.4g}" for i in marks]
-    rest = [] if found.hover is None else [f"in the long run at most {found.hover:.4g}, if the last gain went on"]
-    last = f"proved: within {found.final:.4g} of the source at t = {found.times[-1]:.6g}"
+    rows = [f"  t = {found.times[i]:<10.4g} distance at most {at_most(found.distances[i])}" for i in marks]
+    rest = [] if found.hover is None else [f"in the long run at most {at_most(found.hover)}, if the last gain went on"]
+    last = f"proved: within {at_most(found.final)} of the source at t = {found.times[-1]:.6g}"
     return "\n".join([head, starts, last, *rest, *rows, found.detail])
 
 

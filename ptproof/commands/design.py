@@ -108,11 +108,12 @@ def _text(found: Design) -> str:
     certificate = found.certificate
     if certificate is None:
         return f"no numbers found: {found.detail}"
+    from ptproof.balls.rounding import at_least, at_most
     from ptproof.design.answer import decimal_text
 
     rows = [
-        f"the vehicle itself is certified to be within {certificate.final:.6g} of the source at t0 + T, for every",
-        f"heading and every start within {certificate.start_radius:.6g}",
+        f"the vehicle itself is certified to be within {at_most(certificate.distances[-1], 6)} of the source at t0 + T,",
+        f"for every heading and every start within {at_least(certificate.start_radius, 6)}",
         "",
         "[seeker]",
         *(f'{name} = "{decimal_text(value)}"' for name, value in found.numbers.items()),
@@ -120,8 +121,10 @@ def _text(found: Design) -> str:
     ]
     for name, value in (("u1", found.u1_peak), ("|u2|", found.u2_peak)):
         if value is not None and value < float("inf"):
-            rows.append(f"{name} certainly stays below {value:.6g}")
-    rows.append(f"on the way at most {max(certificate.distances):.6g} from the source; {len(found.trials)} tried")
+            rows.append(f"{name} certainly stays below {at_most(value, 6)}")
+    rows.append(
+        f"on the way at most {at_most(max(certificate.distances), 6)} from the source; {len(found.trials)} tried"
+    )
     if found.problem.saturation is not None:
         rows.append(
             "all this is about the seeker pt: what a saturated angular acceleration makes of it is not certified"

@@ -38,18 +38,21 @@ def show(
 
 def text(name: str, found: Frontier) -> str:
     """What was tried, the farthest that is proved, and that nothing is said beyond it."""
+    from ptproof.balls.rounding import at_least, at_most
+
     rows = [f"{name}, the vehicle in closed loop: {_HEADS[found.varied]}"]
     for item in found.tries:
         final = item.certificate.final
-        said = "undecided" if final is None else f"proved, within {final:.4g} at the end"
+        said = "undecided" if final is None else f"proved, within {at_most(final)} at the end"
         rows.append(f"  {found.varied} = {float(item.value):<10.4g} {said}")
     best, beyond = found.best, found.beyond
     if best is None or best.certificate.final is None:
         rows.append("no guarantee was found at any of these values: nothing is said of vehicles there")
     else:
+        end, radius = at_most(best.certificate.final), at_least(best.certificate.start_radius, 6)
         rows.append(
-            f"proved at {found.varied} = {float(best.value):.6g}: within {best.certificate.final:.4g} of the source at "
-            f"t = {best.certificate.times[-1]:.6g}, from every start within {best.certificate.start_radius:.6g}"
+            f"proved at {found.varied} = {float(best.value):.6g}: within {end} of the source at "
+            f"t = {best.certificate.times[-1]:.6g}, from every start within {radius}"
         )
     if beyond is not None:
         rows.append(

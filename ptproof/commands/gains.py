@@ -219,6 +219,8 @@ def _table(answer: Gains) -> None:
 
 def _summary(result: Study, simulated: Simulated) -> None:
     """The answer first: how far the average is at the end; then the constants, and everything else."""
+    from ptproof.balls.rounding import at_most
+
     certificate, curve, worst = result.certificate, result.curve, simulated.worst
     click.secho(
         f"The average at t₀ + T, from {float(curve.initial):.6g} away, with drift and clip (no bound of the vehicle):",
@@ -233,7 +235,7 @@ def _summary(result: Study, simulated: Simulated) -> None:
     for name, value in result.bounds_at_end.items():
         label, key = names[name]
         found = None if result.answer is None or key is None else result.answer[key]
-        text = f"{value:.6g}" if value is not None else None if found is None else found.text
+        text = at_most(value, 6) if value is not None else None if found is None else found.text
         shown, ratio = "—" if text is None else f"≤ {text}", ratios.get(name)
         click.echo(f"  {label:<26} {shown:<14}" + ("" if ratio is None else f"{ratio:.3g} × the worst simulated"))
     if worst is None:

@@ -17,6 +17,7 @@ from typing import Any
 
 import sympy as sp
 
+from ptproof.balls.rounding import at_most
 from ptproof.certify.loop.certificate import LoopCertificate
 from ptproof.certify.loop.certify import certify_loop
 from ptproof.design.answer import NAMES, Design, Trial, numbers_of
@@ -119,7 +120,7 @@ def design(
         )
     chosen, certificate = found
     peaks = forward_peak(chosen), angular_peak(chosen, max(certificate.distances), asked.gap)
-    detail = f"{len(asked.trials)} tried; the vehicle ends within {certificate.final:.6g}"
+    detail = f"{len(asked.trials)} tried; the vehicle ends within {at_most(certificate.distances[-1], 6)}"
     return Design(Verdict.PROVED, chosen, asked.residual, certificate, *peaks, tuple(asked.trials), detail, seconds)
 
 
@@ -267,7 +268,7 @@ def _certified(
     if final is None:
         why = certificate.detail
     elif final > wanted:
-        why = f"the vehicle is certain to end within {final:.4g} only"
+        why = f"the vehicle is certain to end within {at_most(final)} only"
     else:
         peak = angular_peak(choice, max(certificate.distances), asked.gap)
         why = asked.limits.excess(forward_peak(choice), peak)

@@ -28,7 +28,7 @@ import sympy as sp
 from ptproof.balls.arithmetic import Undefined
 from ptproof.balls.arrays import Array
 from ptproof.balls.ball import ball_from, precision
-from ptproof.balls.rounding import up
+from ptproof.balls.rounding import at_most, up
 from ptproof.certify.loop.advice import Advice, advice
 from ptproof.certify.loop.certificate import LoopCertificate
 from ptproof.certify.loop.cover import farthest
@@ -168,8 +168,8 @@ def _curve(
     near = max(up(ball_from(radius)), NEAR * prepared[0].reach)
     if distances[-1] > near:
         raise NoCertificate(
-            f"the vehicle is shown to stay within {max(distances):.4g}, but not to come "
-            f"closer than {near:.4g}: a larger omega, k or T would help",
+            f"the vehicle is shown to stay within {at_most(max(distances))}, but not to come "
+            f"closer than {at_most(near)}: a larger omega, k or T would help",
             scene.place(-1, level),
         )
     detail = (

@@ -1,6 +1,7 @@
 """``ptproof certify``: the JSON contract, sentences, the picture, the status, and bad input."""
 
 import json
+import re
 from dataclasses import replace
 
 import pytest
@@ -76,8 +77,15 @@ def test_the_options_are_the_numbers_that_are_certified(known):
 def test_people_get_the_answer_and_what_it_is_about(known, tmp_path):
     result = run(*NAME, "--plot", str(tmp_path / "bound.png"))
     assert "the vehicle in closed loop, omega = 30" in result.stdout
-    assert "every start within 2.82843, every heading" in result.stdout
-    assert "proved: within 0." in result.stdout
+    assert "every start within 2.82842, every heading" in result.stdout  # 2.82843 is more than 2 sqrt(2)
+    data = json.loads(run(*NAME, "--json").stdout)
+    said = re.findall(r"within ([0-9.]+) of the source|at most ([0-9.]+)", result.stdout)
+    written = [float(first or second) for first, second in said]
+    assert len(written) == 11
+    assert written[0] >= data["final"]
+    assert written[1] >= data["hover"]
+    assert written[2] >= data["distances"][0]
+    assert written[-1] >= data["final"]
     assert (tmp_path / "bound.png").stat().st_size > 10_000
 
 
