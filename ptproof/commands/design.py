@@ -112,8 +112,8 @@ def _text(found: Design) -> str:
     from ptproof.design.answer import decimal_text
 
     rows = [
-        f"the vehicle itself is certified to be within {at_most(certificate.distances[-1], 6)} of the source at t0 + T,",
-        f"for every heading and every start within {at_least(certificate.start_radius, 6)}",
+        f"the vehicle itself is certified to be within {at_most(certificate.distances[-1], 6)} of the source",
+        f"at t0 + T, for every heading and every start within {at_least(certificate.start_radius, 6)}",
         "",
         "[seeker]",
         *(f'{name} = "{decimal_text(value)}"' for name, value in found.numbers.items()),
