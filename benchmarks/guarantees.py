@@ -1,7 +1,8 @@
 """What is certified of the vehicle in the paper's examples: ``python -m benchmarks.guarantees [ROW …]``.
 
 Each row is a call of ``ptproof certify``; ROW is its number in ``ROWS``, all of them where left out. What is found
-replaces those rows of ``derivations/pt_seeker/guarantees.json``, from which the report takes its table.
+replaces those rows of ``derivations/pt_seeker/guarantees.json``, from which the report takes its table. The rows at the
+edge of what is found come from ``ptproof certify … --smallest-omega`` and ``--largest-start``.
 """
 
 from __future__ import annotations
@@ -57,10 +58,15 @@ class Row:
 ROWS = (
     Row("saturated"),
     Row("saturated", omega="300"),
+    Row("saturated", omega="63/5", mu="1/420", tolerance=0.3),
+    Row("saturated", omega="121/10", mu="3/1210", tolerance=0.3),
+    Row("saturated", radius="617/100", tolerance=0.3),
+    Row("saturated", radius="161/25", tolerance=0.3),
     Row("vanishing", omega="3000", mu="1/99000", tolerance=0.05),
     Row("vanishing", omega="300", mu="1/9900", tolerance=0.06),
     Row("vanishing", omega="100", mu="1/3300", tolerance=0.06),
-    Row("vanishing", radius="1", tolerance=0.3),
+    Row("vanishing", radius="31/25", tolerance=0.3),
+    Row("vanishing", radius="13/10", tolerance=0.3),
     Row("vanishing", tolerance=0.3),
     Row("nonvanishing", omega="3000", mu="1/99000", tolerance=0.25),
     Row("nonvanishing", tolerance=0.3),
