@@ -35,6 +35,14 @@ def run(tmp_path: Path, capsys: pytest.CaptureFixture[str], text: str, *options:
     return int(end.value.code or 0), out.out, out.err
 
 
+def refused_with(tmp_path: Path, capsys: pytest.CaptureFixture[str], text: str, sentence: str) -> None:
+    """That the command refuses the file by one sentence, and prints nothing else."""
+    status, out, err = run(tmp_path, capsys, text, "--json")
+    assert (status, out) == (2, "")
+    assert f"seeker.toml: {sentence}" in err
+    assert len(err.strip().splitlines()) == 1
+
+
 def test_the_json_contract(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     status, out, err = run(tmp_path, capsys, TEXT, "--json")
     data: dict[str, Any] = json.loads(out)

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.averaging.test_command import run
+from tests.averaging.test_command import refused_with, run
 
 THREE = """
 [system]
@@ -92,8 +92,4 @@ WRONG = {
 
 @pytest.mark.parametrize("name", WRONG)
 def test_what_cannot_be_stated_is_one_sentence(tmp_path: Path, capsys: pytest.CaptureFixture[str], name: str) -> None:
-    text, sentence = WRONG[name]
-    status, out, err = run(tmp_path, capsys, text, "--json")
-    assert (status, out) == (2, "")
-    assert f"seeker.toml: {sentence}" in err
-    assert len(err.strip().splitlines()) == 1
+    refused_with(tmp_path, capsys, *WRONG[name])

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from tests.averaging.test_command import TEXT, run
+from tests.averaging.test_command import TEXT, refused_with, run
 
 pytestmark = pytest.mark.usefixtures("in_this_process")
 FAST = """
@@ -86,11 +86,7 @@ WRONG = {
 
 @pytest.mark.parametrize("name", WRONG)
 def test_a_wrong_rate_is_one_sentence(tmp_path: Path, capsys: pytest.CaptureFixture[str], name: str) -> None:
-    text, sentence = WRONG[name]
-    status, out, err = run(tmp_path, capsys, text, "--json")
-    assert (status, out) == (2, "")
-    assert f"seeker.toml: {sentence}" in err
-    assert len(err.strip().splitlines()) == 1
+    refused_with(tmp_path, capsys, *WRONG[name])
 
 
 NO = {

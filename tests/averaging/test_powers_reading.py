@@ -8,10 +8,10 @@ import pytest
 import sympy as sp
 
 from ptproof.averaging import PoweredProblem, read_dither_system, study
-from ptproof.errors import InputError
 from ptproof.proof.verdict import Verdict
 from tests.averaging.test_command import TEXT as PLAIN
 from tests.averaging.test_command import run
+from tests.averaging.test_reading import named_when_changed
 
 TEXT = '''
 [system]
@@ -204,11 +204,7 @@ def test_orders_in_the_root_are_for_plain_powers(tmp_path: Path, capsys: pytest.
     ],
 )  # fmt: skip
 def test_what_is_wrong_is_named(old: str, new: str, message: str) -> None:
-    assert old in TEXT
-    with pytest.raises(InputError) as caught:
-        read_dither_system(TEXT.replace(old, new, 1), "seeker.toml")
-    assert str(caught.value).startswith("seeker.toml: ")
-    assert message in str(caught.value)
+    named_when_changed(TEXT, old, new, message)
 
 
 SMOOTH = [

@@ -80,6 +80,16 @@ def test_mu_is_free_without_fast_states() -> None:
     assert read_dither_system(before + "[expected]" + after.split("[expected]")[1]).fast is None
 
 
+def named_when_changed(text: str, old: str, new: str, message: str) -> None:
+    """That the text with ``new`` in place of ``old`` is refused by one line that has the message."""
+    assert old in text
+    with pytest.raises(InputError) as caught:
+        read_dither_system(text.replace(old, new, 1), "seeker.toml")
+    assert str(caught.value).startswith("seeker.toml: ")
+    assert message in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
 WRONG = [
     ("[system]", "[sytem]", "unknown table: 'sytem' (did you mean 'system'?)"),
     ("period ", "periode ", "'periode' (did you mean 'period'?)"),
@@ -118,12 +128,7 @@ WRONG = [
 
 @pytest.mark.parametrize(("old", "new", "message"), WRONG, ids=[message for _, _, message in WRONG])
 def test_what_is_wrong_is_named(old: str, new: str, message: str) -> None:
-    assert old in TEXT
-    with pytest.raises(InputError) as caught:
-        read_dither_system(TEXT.replace(old, new, 1), "seeker.toml")
-    assert str(caught.value).startswith("seeker.toml: ")
-    assert message in str(caught.value)
-    assert "\n" not in str(caught.value)
+    named_when_changed(TEXT, old, new, message)
 
 
 @pytest.mark.parametrize("content", [b"\xff\xfe", b""])
