@@ -2,33 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any
-
 import sympy as sp
 
 from ptproof.proof import ge, lt
+from ptproof.report.alphabet import Alphabet
 
-
-@dataclass(frozen=True)
-class Entry:
-    """One letter of the paper."""
-
-    symbol: Any
-    glyph: str
-    unit: str
-    meaning: str
-
-
-NOTATION: list[Entry] = []
-
-
-def letter(name: str, glyph: str, unit: str, meaning: str, **known: bool) -> sp.Symbol:
-    """Declare a symbol and record it."""
-    symbol = sp.Symbol(name, **(known or {"real": True}))
-    NOTATION.append(Entry(symbol, glyph, unit, meaning))
-    return symbol
-
+alphabet = Alphabet()
+letter = alphabet.letter
+NOTATION = alphabet.entries
 
 # Times. All are real, never positive: one-sided limits go wrong with positive times.
 t = letter("t", "t", "s", "time")
@@ -127,4 +108,4 @@ h1 = k * c(1) ** 2 / (4 * kappa)
 h2 = c(2) / (2 * kappa)
 
 # How SymPy's printer writes the letters, for the report.
-GLYPHS = {entry.symbol: entry.glyph for entry in NOTATION}
+GLYPHS = alphabet.glyphs

@@ -22,6 +22,8 @@ from .engines.witnesses import refute as refute
 from .facts import Fact as Fact
 from .lemmas import cosine_parabola as cosine_parabola
 from .lemmas import cosine_quartic as cosine_quartic
+from .lemmas import exp_line as exp_line
+from .lemmas import exp_line_strict as exp_line_strict
 from .lemmas import exp_monotone as exp_monotone
 from .lemmas import norm_below as norm_below
 from .lemmas import power_monotone as power_monotone

@@ -54,6 +54,19 @@ def exp_monotone(lower: sp.Expr, upper: sp.Expr) -> Implication:
 
 
 @lemma
+def exp_line(argument: sp.Expr) -> Implication:
+    """1 + u ≤ e^u: the exponential is convex, and its tangent at 0 is below it."""
+    return Implication((), le(1 + argument, sp.exp(argument)), "exponential above its tangent")
+
+
+@lemma
+def exp_line_strict(argument: sp.Expr) -> Implication:
+    """u ≠ 0 gives 1 + u < e^u: the exponential is strictly convex."""
+    hypotheses = (Relation(argument, "!=", sp.S.Zero),)
+    return Implication(hypotheses, lt(1 + argument, sp.exp(argument)), "exponential strictly above its tangent")
+
+
+@lemma
 def cosine_parabola(argument: sp.Expr) -> Implication:
     """1 − u²/2 ≤ cos u: both sides and their slopes agree at 0, and −1 ≤ −cos u compares the second derivatives."""
     return Implication((), ge(sp.cos(argument), 1 - argument**2 / 2), "cosine parabola")

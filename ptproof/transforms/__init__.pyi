@@ -20,6 +20,7 @@ from .solutions import bring_solution as bring_solution
 from .solutions import carry_solution as carry_solution
 from .solutions import solves as solves
 from .states import change_variable as change_variable
+from .states import change_variables as change_variables
 from .states import solve_state as solve_state
 from .time import contract as contract
 from .time import dilate as dilate

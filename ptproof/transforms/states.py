@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 
 import sympy as sp
@@ -30,28 +31,77 @@ def change_variable(system: System, replaced: sp.Symbol, by: sp.Symbol, forward:
         Unless ``forward`` and ``backward`` are differentiable for all values of time and states, have values of the
         kind that the letters are declared to be, and undo each other by exact algebra.
     """
-    where = f"{system.name}: {by} = {forward} and {replaced} = {backward}"
-    forward, backward = sp.sympify(forward), sp.sympify(backward)
-    _check_state(system, replaced)
-    fresh(by, system.symbols, system.name)
-    if by in forward.free_symbols or replaced in backward.free_symbols:
-        raise InputError(f"{where}: {by} has to be given by {replaced}, and {replaced} by {by}")
-    if not (vanishes(forward.subs(replaced, backward) - by) and vanishes(backward.subs(by, forward) - replaced)):
+    return change_variables(system, {replaced: backward}, {by: forward})
+
+
+def change_variables(
+    system: System, backward: Mapping[sp.Symbol, sp.Expr], forward: Mapping[sp.Symbol, sp.Expr]
+) -> System:
+    """Exchange several states at once, such as a position for the same in a frame that turns.
+
+    Parameters
+    ----------
+    backward
+        The old states, in terms of the new ones, the states that stay, and time.
+    forward
+        The new states, letters that the system does not use, in terms of the old ones, those that stay, and time. The
+        n-th of them takes the place of the n-th old state.
+
+    Raises
+    ------
+    InputError
+        As :func:`change_variable` does, or if there are not as many new states as old ones.
+    """
+    backward = {old: sp.sympify(value) for old, value in backward.items()}
+    forward = {new: sp.sympify(value) for new, value in forward.items()}
+    where = f"{system.name}: {', '.join(f'{letter} = {value}' for letter, value in (forward | backward).items())}"
+    if len(forward) != len(backward):
+        raise InputError(f"{where}: {len(forward)} states for {len(backward)}")
+    for replaced in backward:
+        _check_state(system, replaced)
+    for by in forward:
+        fresh(by, system.symbols, system.name)
+    _check_inverse(system, backward, forward, where)
+    rates = {by: sp.expand(_put(system.derivative_along(value), backward)) for by, value in forward.items()}
+    stay = {
+        state: _put(rate, backward)
+        for state, rate in zip(system.state, system.rhs, strict=True)
+        if state not in backward
+    }
+    names = dict(zip(backward, forward, strict=True))
+    states = tuple(names.get(state, state) for state in system.state)
+    return replace(system, state=states, rhs=tuple((rates | stay)[state] for state in states), parameters=None)
+
+
+def _check_inverse(
+    system: System, backward: Mapping[sp.Symbol, sp.Expr], forward: Mapping[sp.Symbol, sp.Expr], where: str
+) -> None:
+    """Refuse what does not undo each other, is not differentiable, or has values of another kind."""
+    old, new = set(backward), set(forward)
+    if any(new & value.free_symbols for value in forward.values()) or any(
+        old & value.free_symbols for value in backward.values()
+    ):
+        new_names, old_names = (", ".join(map(str, letters)) for letters in (forward, backward))
+        raise InputError(f"{where}: {new_names} has to be given by {old_names}, and {old_names} by {new_names}")
+    there_and_back = [
+        *(_put(value, backward) - by for by, value in forward.items()),
+        *(_put(value, forward) - replaced for replaced, value in backward.items()),
+    ]
+    if not all(map(vanishes, there_and_back)):
         raise InputError(f"{where} do not undo each other")
-    others = [symbol for symbol in (system.time, *system.state) if symbol != replaced]
-    if not (is_differentiable(forward, [*others, replaced]) and is_differentiable(backward, [*others, by])):
+    stay = [symbol for symbol in (system.time, *system.state) if symbol not in old]
+    if not all(
+        is_differentiable(value, [*stay, *letters])
+        for values, letters in ((forward, backward), (backward, forward))
+        for value in values.values()
+    ):
         raise InputError(f"{where} are not shown to be differentiable for all values of time and states")
-    if not (is_of_kind(by, forward) and is_of_kind(replaced, backward)):
-        raise InputError(
-            f"{where} are not shown to have values of the kind that {by} and {replaced} are declared to be"
-        )
-    old = {replaced: backward}
-    rate = system.derivative_along(forward).subs(old)
-    rhs = tuple(
-        sp.expand(rate) if variable == replaced else entry.subs(old)
-        for variable, entry in zip(system.state, system.rhs, strict=True)
-    )
-    return replace(system, state=tuple(by if v == replaced else v for v in system.state), rhs=rhs, parameters=None)
+    if not all(is_of_kind(letter, value) for values in (forward, backward) for letter, value in values.items()):
+        raise InputError(f"{where} are not shown to have values of the kind that the letters are declared to be")
+
+
+def _put(expression: sp.Expr, values: Mapping[sp.Symbol, sp.Expr]) -> sp.Expr:
+    return expression.subs(values, simultaneous=len(values) > 1)
 
 
 def solve_state(system: System, variable: sp.Symbol, solution: sp.Expr) -> System:

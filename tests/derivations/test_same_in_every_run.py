@@ -11,7 +11,8 @@ from ptproof.proof import Claim
 
 SHOW = """
 from ptproof.proof.load import load
-for claim in load().claims:
+from ptproof.proof.shipped import shipped
+for claim in load([shipped() / "pt_seeker"]).claims:
     print(claim.id, claim.statement, *claim.assumptions, sep=" | ")
 """
 

@@ -29,6 +29,8 @@ LEMMAS: dict[str, tuple[Fact, tuple[sp.Symbol, ...]]] = {
     "power_nonnegative": (lemmas.power_nonnegative(a, r), (a, r)),
     "superadditive": (lemmas.superadditive(a, b, 1 + p), (a, b, p)),
     "exp_monotone": (lemmas.exp_monotone(u, v), (u, v)),
+    "exp_line": (lemmas.exp_line(u), (u,)),
+    "exp_line_strict": (lemmas.exp_line_strict(u), (u,)),
     "cosine_parabola": (lemmas.cosine_parabola(u), (u,)),
     "cosine_quartic": (lemmas.cosine_quartic(u), (u,)),
     "sine_line": (lemmas.sine_line(u), (u,)),
@@ -107,7 +109,9 @@ def test_every_lemma_is_looked_at() -> None:
     assert public == set(LEMMAS)
 
 
-@pytest.mark.parametrize("name", ["power_monotone", "superadditive", "cosine_parabola", "sine_cubic", "norm_below"])
+@pytest.mark.parametrize(
+    "name", ["power_monotone", "superadditive", "exp_line", "cosine_parabola", "sine_cubic", "norm_below"]
+)
 def test_a_corrupted_lemma_is_contradicted(name: str) -> None:
     fact, symbols = LEMMAS[name]
     conclusion = fact.says.conclusion.standard()

@@ -9,6 +9,7 @@ from ptproof.transforms import (
     bring_solution,
     carry_solution,
     change_variable,
+    change_variables,
     contract,
     dilate,
     prescribed_time_clock,
@@ -236,3 +237,32 @@ def test_a_renamed_state_stays_what_it_was():
 def test_putting_a_function_in_evaluates_no_integral():
     integral = sp.Integral(sp.Abs(sp.sin(y)), (y, 0, 7 * sp.pi))
     assert pair(F(x) * integral).with_values({F(x): x}).rhs[1] == x * integral
+
+
+TURN = sp.Matrix([[sp.cos(k * t), -sp.sin(k * t)], [sp.sin(k * t), sp.cos(k * t)]])
+TURNED = TURN * sp.Matrix([p, y])
+TURNED_BACK = TURN.T * sp.Matrix([x, z])
+
+
+def test_a_frame_that_turns():
+    """In the frame of dx/dt = −kz, dz/dt = kx nothing moves; in the one that turns the other way all moves twice."""
+    circling = System(t, (x, z), (-k * z, k * x))
+    there, back = dict(zip((x, z), TURNED, strict=True)), dict(zip((p, y), TURNED_BACK, strict=True))
+    still = change_variables(circling, there, back)
+    assert still.state == (p, y)
+    assert [sp.simplify(rate) for rate in still.rhs] == [0, 0]
+    other = System(t, (x, z), (k * z, -k * x))
+    assert [sp.simplify(rate) for rate in change_variables(other, there, back).rhs] == [2 * k * y, -2 * k * p]
+
+
+@pytest.mark.parametrize(
+    ("backward", "forward", "message"),
+    [
+        (dict(zip((x, z), TURNED, strict=True)), dict(zip((p, y), TURN * sp.Matrix([x, z]), strict=True)), "undo"),
+        ({x: p, z: y}, {p: x}, "1 states for 2"),
+        ({x: p, z: y}, {p: x, y: y}, "has to be given by"),
+    ],
+)
+def test_what_is_no_exchange_of_several_states(backward, forward, message):
+    with pytest.raises(InputError, match=message):
+        change_variables(System(t, (x, z), (-k * z, k * x)), backward, forward)

@@ -6,7 +6,10 @@ verdict may rest on ``doit`` of one.
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import sympy as sp
+from sympy.simplify.fu import TR8
 
 from ptproof.proof.definedness import covers
 from ptproof.proof.engines.limits import INFINITE, limit_of
@@ -47,9 +50,13 @@ def carried_out(expression: sp.Expr) -> sp.Expr | None:
             expression = expression.xreplace({node: value})
 
 
+@lru_cache(maxsize=256)
 def definite(node: sp.Integral) -> sp.Expr | None:
-    """The value of one definite integral over an interval, or None."""
-    if len(node.limits) != 1 or len(node.limits[0]) != 3:
+    """The value of one definite integral over an interval, or None; of an iterated one the innermost comes first."""
+    if len(node.limits) > 1:
+        inner = definite(node.func(node.function, node.limits[0]))
+        return None if inner is None or inner in INFINITE else definite(node.func(inner, *node.limits[1:]))
+    if len(node.limits[0]) != 3:
         return None
     variable, low, high = node.limits[0]
     if not covers(variable, low, high):
@@ -58,7 +65,9 @@ def definite(node: sp.Integral) -> sp.Expr | None:
     above = bool(low.is_nonnegative) and bool(high is sp.oo or high.is_nonnegative)
     inside = sp.Dummy(variable.name, nonnegative=True) if above else sp.Dummy(variable.name, real=True)
     integrand = node.function.subs(variable, inside)
-    antiderivative = sp.integrate(sp.expand(integrand), inside)
+    antiderivative = _of_waves(sp.expand(integrand), inside)
+    if antiderivative is None:
+        antiderivative = sp.integrate(sp.expand(integrand), inside)
     if antiderivative.has(sp.Integral):
         antiderivative = sp.integrate(integrand, inside)
     if antiderivative.has(sp.Integral, sp.Piecewise) or not continuous(antiderivative, inside):
@@ -69,6 +78,32 @@ def definite(node: sp.Integral) -> sp.Expr | None:
     if upper is None or lower is None or (upper in INFINITE and lower in INFINITE):
         return None
     return upper - lower
+
+
+def _of_waves(expression: sp.Expr, variable: sp.Symbol) -> sp.Expr | None:
+    """An antiderivative of products of sines and cosines, which are sums of such; None where there are no products.
+
+    It is checked afterwards, as any other.
+    """
+    if sum(wave.has(variable) for wave in expression.atoms(sp.sin, sp.cos)) < 2:
+        return None
+    terms = [_of_wave(term, variable) for term in sp.Add.make_args(sp.expand(TR8(expression)))]
+    return None if None in terms else sp.Add(*terms)
+
+
+def _of_wave(term: sp.Expr, variable: sp.Symbol) -> sp.Expr | None:
+    """An antiderivative of a polynomial times one sine or cosine of what is linear, or None; by parts."""
+    waves = [wave for wave in term.atoms(sp.sin, sp.cos) if wave.has(variable)]
+    if len(waves) != 1:
+        return None if waves else sp.integrate(term, variable)
+    (wave,) = waves
+    rate, amplitude = sp.diff(wave.args[0], variable), term / wave
+    if rate.has(variable) or not rate.is_nonzero or not amplitude.is_polynomial(variable):
+        return None
+    raised = (sp.sin(wave.args[0]) if isinstance(wave, sp.cos) else -sp.cos(wave.args[0])) / rate
+    left = sp.expand(-sp.diff(amplitude, variable) * raised)
+    rest = [_of_wave(part, variable) for part in sp.Add.make_args(left)]
+    return None if None in rest else sp.Add(amplitude * raised, *rest)
 
 
 def _at_end(antiderivative: sp.Expr, variable: sp.Symbol, end: sp.Expr) -> sp.Expr | None:

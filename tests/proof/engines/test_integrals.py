@@ -32,6 +32,23 @@ def test_iterated_integral() -> None:
     assert integrals(goal).verdict is Verdict.PROVED
 
 
+WAVES = sp.Integral(sp.cos(2 * a * s) * sp.sin(a * theta), (s, 0, theta), (theta, 0, 2 * sp.pi / a))
+PARTS = sp.Integral(theta**2 * sp.cos(a * theta) * sp.cos(2 * a * theta), (theta, 0, 2 * sp.pi / a))
+
+
+@pytest.mark.parametrize(("integral", "value"), [(WAVES, 0), (PARTS, 20 * sp.pi / (9 * a**3))], ids=["waves", "parts"])
+def test_products_of_waves(integral: sp.Expr, value: sp.Expr) -> None:
+    """∫₀^{2π} u² (cos u + cos 3u)/2 du = 2π (1 + 1/9), since ∫₀^{2π} u² cos nu du = 4π/n²."""
+    assert integrals(Goal("t", eq(integral, value))).verdict is Verdict.PROVED
+    assert integrals(Goal("t", eq(integral, value + 1 / a**3))).verdict is not Verdict.PROVED
+
+
+def test_a_wave_whose_rate_may_be_zero_is_not_divided_by_it() -> None:
+    rate = sp.Symbol("b", real=True)
+    goal = Goal("t", eq(sp.Integral(sp.cos(rate * s) * sp.cos(rate * s + 1), (s, 0, 1)), 0))
+    assert integrals(goal).verdict is Verdict.UNDECIDED
+
+
 @pytest.mark.parametrize(
     ("integrand", "upper", "wrong"),
     [
