@@ -70,8 +70,10 @@ class Calculus(Letters):
         tokens = self.argument(at)
         if not self.notation.dot:
             raise self.refuse("derivative", "the notation does not say along what a dot is taken", at)
-        # An index, and what the letter is applied to, stand behind the dot.
-        return self.along(self.dotted(tokens, at), self.notation.vocabulary.symbol(self.notation.dot))
+        # An index, and what the letter is applied to, stand behind the dot; so does an exponent between the two.
+        value, exponent = self.dotted(tokens, at)
+        moved = self.along(value, self.notation.vocabulary.symbol(self.notation.dot))
+        return self.raised(moved, exponent, at) if exponent else moved
 
     def read_nabla(self, at: Token) -> Any:
         if self.text == "^":

@@ -104,16 +104,21 @@ class Letters(Cursor):
         self.expect(")" if opened.text == "(" else "}", opened)
         return values
 
-    def dotted(self, tokens: list[Token], at: Token) -> Any:
-        """What a dot stands over: a letter, with the index and the arguments that stand behind it."""
+    def dotted(self, tokens: list[Token], at: Token) -> tuple[Any, list[Token]]:
+        """What a dot stands over: a letter, with the index and the arguments that stand behind it; and its exponent."""
         low: list[Token] = []
+        high: list[Token] = []
         if self.text == "_":
             self.take()
             low = self.argument(at)
-        key = spelling([*tokens, *_script("_", low)])
+        key, start = spelling([*tokens, *_script("_", low)]), self.position
+        if self.text == "^" and key in self.notation.functions:
+            self.take()
+            high = self.argument(at)
         if key in self.notation.functions and (self.text == "(" or key not in self.notation.letters):
-            return self.applied(key, [], at)
-        return self.inner([*tokens, *_script("_", low)])
+            return self.applied(key, [], at), high
+        self.position = start
+        return self.inner([*tokens, *_script("_", low)]), []
 
     def named_norm(self, inside: list[Token], low: list[Token]) -> sp.Expr | None:
         """The norm of which the notation says what it means."""
