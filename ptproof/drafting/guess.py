@@ -1,12 +1,12 @@
 """What the letters of a paper may mean, guessed from how they are written. Every guess is for the author to check.
 
 - A letter is a real number. Accents, an index and a star are part of its name; another exponent is a power.
-- A letter is a *function* if somewhere what stands behind it in parentheses is no sum, as in F(x), V(t, x), u(k t), or
-  if it always stands before a sum of times, as in ν(t − t₀). Where it stands alone, it is the function at those letters
-  with which it is written most often. A letter that always stands before some other sum has two readings: a product and
-  a function. It is not read.
+- A letter is a *function* if letters, numbers, or several things stand behind it in parentheses somewhere, as in F(x),
+  V(0), f(t, 2x), or if it never stands alone, and before a product or a sum of times, as in u(k t), ν(t − t₀). Where it
+  stands alone, it is the function at those letters with which it is written most often. A letter that never stands but
+  before sums, or both alone and before a product, has two readings: a factor and a function. It is not read there.
 - A letter *moves* if a dot stands over it, or d/dt before it. If it is applied to nothing but times it is the same
-  letter with and without its time: x(t) is x.
+  letter with and without its time: x(t) is x. Where it stands before a sum of other things it is a factor.
 - A letter is a *column* or a *matrix* if the paper says so: x = [x₁, x₂]ᵀ, x ∈ ℝ², A ∈ ℝ²ˣ², or an equation whose other
   side is one. A bar, a tilde, a hat, a star and the index 0 do not change that.
 - A *time* is t, and what a derivative d/d· is taken by.
@@ -74,37 +74,48 @@ class Letters:
     def moving(self) -> frozenset[str]:
         """The letters of which a rate is taken, and that are applied to nothing but times."""
         moved = {item.key for item in self.occurrences if item.along}
-        return frozenset(key for key in moved if all(map(self._is_time, self._lists(key) - {("+",)})))
-
-    def _lists(self, key: str) -> set[tuple[str, ...]]:
-        return {item.arguments for item in self.occurrences if item.key == key and item.arguments}
+        return frozenset(key for key in moved if all(map(self._is_time, set(self._lists.get(key, ())) - {("+",)})))
 
     @cached_property
-    def applied(self) -> dict[str, Counter[tuple[str, ...]]]:
-        """For each function the lists of its arguments, with how often each occurs."""
+    def _lists(self) -> dict[str, Counter[tuple[str, ...]]]:
+        """For each letter that stands before parentheses what is in them, with how often."""
         found: dict[str, Counter[tuple[str, ...]]] = {}
         for item in self.occurrences:
             if item.arguments:
                 found.setdefault(item.key, Counter())[item.arguments] += 1
-        return {key: lists for key, lists in found.items() if set(lists) != {("+",)} or self._of_times(key)}
-
-    @cached_property
-    def _before_sums(self) -> dict[str, frozenset[str]]:
-        """The letters that always stand before a sum, with all letters of these sums."""
-        alone = {item.key for item in self.occurrences if item.arguments != ("+",)}
-        found: dict[str, frozenset[str]] = {}
-        for item in self.occurrences:
-            if item.key not in alone:
-                found[item.key] = found.get(item.key, frozenset()) | item.sums
         return found
 
-    def _of_times(self, key: str) -> bool:
-        return key in self._before_sums and all(self._is_time((inside,)) for inside in self._before_sums[key])
+    @cached_property
+    def applied(self) -> dict[str, Counter[tuple[str, ...]]]:
+        """For each function the lists of its arguments, with how often each occurs."""
+        alone = {item.key for item in self.occurrences if item.arguments is None}
+        return {key: lists for key, lists in self._lists.items() if self._is_function(key, key in alone)}
 
-    @property
+    def _is_function(self, key: str, alone: bool) -> bool:
+        lists = set(self._lists[key])
+        if any(len(found) > 1 or found[0] not in ("", "+") for found in lists):
+            return True
+        if alone:
+            return False
+        sums = {letter for item in self.occurrences if item.key == key for letter in item.sums}
+        return ("",) in lists or all(self._is_time((letter,)) for letter in sums)
+
+    @cached_property
     def two_readings(self) -> frozenset[str]:
         """The letters of which nothing tells whether they are factors or functions."""
-        return frozenset(key for key in self._before_sums if not self._of_times(key))
+        alone = {item.key for item in self.occurrences if item.arguments is None}
+        return frozenset(
+            key for key, lists in self._lists.items()
+            if key not in self.applied and (key not in alone or ("",) in lists)
+        )  # fmt: skip
+
+    @cached_property
+    def factors(self) -> frozenset[str]:
+        """The letters that move and stand before sums of other things than times: factors there, even with d(0) = d₀."""
+        return frozenset(
+            item.key for item in self.occurrences
+            if item.key in self.moving and item.arguments == ("+",) and not all(self._is_time((x,)) for x in item.sums)
+        )  # fmt: skip
 
     def _is_time(self, arguments: tuple[str, ...]) -> bool:
         """Whether these are a time, and at most where a run has begun behind it, as in x(t; t₀, x₀)."""
@@ -216,7 +227,7 @@ class _Guessing:
         """A letter that moves is the same with and without its time."""
         flat = list(_flat(self.letters[key]))
         self.states.update(flat)
-        if key in self.found.applied:
+        if key in self.found.applied and key not in self.found.factors:
             self.functions[key] = self.letters[key]
             self.means.update({f"{name}({time})": name for name in flat for time in times})
 

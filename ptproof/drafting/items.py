@@ -242,19 +242,19 @@ class _Drafting:
     # --- What claims are under ---------------------------------------------------------------------------------------
 
     def givens(self, pairs: Sequence[Pair]) -> Iterator[Given]:
-        """The definitions of all letters that occur, of those that occur in these, and so on."""
+        """The definitions of all letters that occur, each behind those of the letters that occur in it."""
         seen: set[sp.Expr] = set()
-        left = [side for pair in pairs for side in (pair.left, pair.right)]
-        while left:
-            expression = left.pop()
-            parts = expression.atoms(sp.Symbol, AppliedUndef, sp.Derivative) - seen
-            for part in sorted(parts, key=str):
+        for pair in pairs:
+            yield from self.behind(pair.left, seen)
+            yield from self.behind(pair.right, seen)
+
+    def behind(self, expression: sp.Expr, seen: set[sp.Expr]) -> Iterator[Given]:
+        for part in sorted(expression.atoms(sp.Symbol, AppliedUndef, sp.Derivative), key=str):
+            if part not in seen and (given := self.given(part)) is not None:
                 seen.add(part)
-                given = self.given(part)
-                if given is not None:
-                    yield given
-                    value = given.fact.pair.right
-                    left.append(value.subs(dict(_at(given)), simultaneous=True) if given.at else value)
+                value = given.fact.pair.right
+                yield from self.behind(value.subs(_at(given), simultaneous=True) if given.at else value, seen)
+                yield given
 
     def given(self, part: sp.Expr) -> Given | None:
         if part in self.facts:

@@ -159,9 +159,11 @@ def name_at(tokens: Sequence[Token], position: int) -> tuple[str, int, str] | No
 
 
 def arguments_at(tokens: Sequence[Token], position: int) -> tuple[tuple[str, ...] | None, int]:
-    """The spelling of each argument in the parentheses that open here, behind an exponent at most."""
+    """The spelling of each argument in the parentheses that open here, behind a transpose at most."""
     if position < len(tokens) and tokens[position].text == "^":
-        _, behind = argument(tokens, position + 1, tokens[position])
+        above, behind = argument(tokens, position + 1, tokens[position])
+        if len(above) != 1 or above[0].text not in _TRANSPOSE:
+            return None, position
         return arguments_at(tokens, behind) if behind < len(tokens) and tokens[behind].text == "(" else (None, position)
     if position >= len(tokens) or tokens[position].text != "(":
         return None, position

@@ -77,7 +77,7 @@ def read_with_guesses(source: str) -> Paper:
     letters = Letters.of(_scanned(tokens[id(item)]) for item in every)
     for _ in range(_ROUNDS):
         guessed, before = guess(letters), dict(letters.shapes)
-        reader = _Reader(guessed, "e" in letters.keys)
+        reader = _Reader(guessed, letters)
         for item in every:
             letters.shapes |= reader.shapes(tokens[id(item)], letters)
         if letters.shapes == before:
@@ -108,8 +108,8 @@ def _scanned(tokens: Sequence[Token]) -> Scanned:
 class _Reader:
     """Reads formulas by one guess."""
 
-    def __init__(self, guessed: Guess, e_is_letter: bool) -> None:
-        self.guessed, self.e_is_letter = guessed, e_is_letter
+    def __init__(self, guessed: Guess, letters: Letters) -> None:
+        self.guessed, self.letters = guessed, letters
         self.table = read_table(toml(guessed.table(), ""), _TABLE)
         self.names = vocabulary(self.table, {})
 
@@ -124,8 +124,7 @@ class _Reader:
     def said(self, formula: Formula, macros: Mapping[str, Macro]) -> Said:
         """What the formula says in the names of the derivation, states without their time."""
         try:
-            if self.e_is_letter and _has_power_of_e(_tokens(formula, macros)):
-                raise NotUnderstood(*_E_TWICE, formula.line)
+            self.refuse_two_readings(_tokens(formula, macros), formula.line)
             reading, meaning = read_formula(formula, macros, self.notation), self.meaning
             parts = {
                 name: tuple(replace(p, left=meaning(p.left), right=meaning(p.right)) for p in getattr(reading, name))
@@ -136,6 +135,16 @@ class _Reader:
             return Said(formula, None, str(error))
         except (InputError, TypeError, ValueError, AttributeError, ArithmeticError, RecursionError) as error:
             return Said(formula, None, f"line {formula.line}: no value: {' '.join(str(error).split())}")
+
+    def refuse_two_readings(self, tokens: Sequence[Token], line: int) -> None:
+        """Refuse a formula of which the paper does not tell what a letter in it is."""
+        if "e" in self.letters.keys and _has_power_of_e(tokens):
+            raise NotUnderstood(*_E_TWICE, line)
+        for item in _scanned(tokens).occurrences:
+            factor = item.key in self.letters.factors and item.arguments != ("+",)
+            if item.arguments and (item.key in self.letters.two_readings or factor):
+                reason = f"{item.key}(…) can mean a product and a function"
+                raise NotUnderstood("two readings", reason, item.line)
 
     def shapes(self, tokens: Sequence[Token], letters: Letters) -> dict[str, tuple[int, int]]:
         """The shapes of letters that stand alone beside a column or a matrix."""
