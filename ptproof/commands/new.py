@@ -48,6 +48,8 @@ def _drafted(folder: str, paper: str, as_json: bool) -> int:
     check(Path(folder))
     found = draft(paper)
     files = write_files(folder, found.files)
+    for name in found.absent:
+        click.echo(f"ptproof: {paper} inputs {name}, which is not beside it; nothing of that was read", err=True)
     for item in found.gaps:
         click.echo(f"ptproof: {item.formula.place}: {item.why}", err=True)
     counts = found.counts

@@ -11,15 +11,16 @@ from ptproof.drafting.items import Item, items_of
 from ptproof.drafting.modules import texts
 from ptproof.drafting.paper import read_with_guesses
 from ptproof.errors import InputError
-from ptproof.reading.latex.source import read_paper
+from ptproof.reading.latex.source import absent_inputs, read_paper
 
 
 @dataclass(frozen=True)
 class Draft:
-    """The files of a derivation that was written from a paper, and what each formula became."""
+    """The files of a derivation that was written from a paper, what each formula became, and inputs that are absent."""
 
     files: Mapping[str, str]
     items: tuple[Item, ...]
+    absent: tuple[str, ...] = ()
 
     @property
     def counts(self) -> dict[str, int]:
@@ -44,5 +45,5 @@ def draft(paper: str | Path) -> Draft:
     read = read_with_guesses(read_paper(paper))
     if not read.said:
         raise InputError(f"{paper}: no formula is displayed in it; name the LaTeX source of the paper")
-    items = items_of(read)
-    return Draft(texts(read, items, Path(paper).name), items)
+    items, functions = items_of(read)
+    return Draft(texts(read, items, functions, Path(paper).name), items, absent_inputs(paper))

@@ -8,7 +8,7 @@
 - A letter *moves* if a dot stands over it, or d/dt before it. If it is applied to nothing but times it is the same
   letter with and without its time: x(t) is x. Where it stands before a sum of other things it is a factor.
 - A letter is a *column* or a *matrix* if the paper says so: x = [x₁, x₂]ᵀ, x ∈ ℝ², A ∈ ℝ²ˣ², or an equation whose other
-  side is one. A bar, a tilde, a hat, a star and the index 0 do not change that.
+  side is one, or xᵀ P x between columns. A bold or a transposed letter of unknown size is not read. A bar, a tilde, a hat, a star and the index 0 do not change that.
 - A *time* is t, and what a derivative d/d· is taken by.
 - I beside a square matrix is the identity. A word that names what is not smooth (sat, sgn) is not guessed.
 """
@@ -27,6 +27,7 @@ from ptproof.drafting.occurrences import Occurrence, Scanned
 
 _ROOT = re.compile(r"^\\(?:bar|tilde|hat|check|widetilde|overline)\{(.*)\}$")
 _PLACE_INDEX = re.compile(r"_(?:0|e|\{\s*0\s*\})$")
+_BOLD = (r"\mathbf{", r"\boldsymbol{", r"\vec{")
 Shape = tuple[int, int]
 
 
@@ -40,6 +41,8 @@ class Letters:
     occurrences: Sequence[Occurrence]
     shapes: dict[str, Shape] = field(default_factory=dict)
     columns: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    transposed: set[str] = field(default_factory=set)
+    forms: list[tuple[str, str, str]] = field(default_factory=list)
 
     @classmethod
     def of(cls, scanned: Iterable[Scanned]) -> Letters:
@@ -48,6 +51,8 @@ class Letters:
         every: list[Occurrence] = []
         for item in scanned:
             every += item.occurrences
+            found.transposed |= item.transposed
+            found.forms += item.forms
             for key, shape in item.members:
                 found.shapes.setdefault(key, shape)
             for key, entries in item.columns:
@@ -122,6 +127,19 @@ class Letters:
         bare = _PLACE_INDEX.sub("", arguments[0])
         known = bare in (*self.times, "s", "T") or bare[:1].isdigit()
         return known and all(argument.endswith("_0") for argument in arguments[1:])
+
+    def forms_shaped(self) -> dict[str, Shape]:
+        """The shapes of letters between a transposed column and a column."""
+        found = {}
+        for before, middle, after in self.forms:
+            sizes = self.shape(before), self.shape(after)
+            if self.shape(middle) is None and sizes[0] and sizes[1] and sizes[0][1] == sizes[1][1] == 1:
+                found[middle] = (sizes[0][0], sizes[1][0])
+        return found
+
+    def is_sized(self, key: str) -> bool:
+        """Whether a letter is no column or matrix, or it is known of what size."""
+        return self.shape(key) is not None or not (key in self.transposed or key.startswith(_BOLD))
 
     def shape(self, key: str) -> Shape | None:
         """The shape of a letter, or of the letter without its accents, star and index 0."""

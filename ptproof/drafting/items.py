@@ -48,19 +48,23 @@ class Fact:
 
 
 @dataclass(frozen=True)
-class Given:
-    """A fact as a claim is under it: as it stands, at other letters (``at``), or differentiated (``slope``)."""
-
-    fact: Fact
-    at: tuple[tuple[str, sp.Expr], ...] = ()
-    slope: str = ""
-
-
-@dataclass(frozen=True)
 class Item:
     """One entry of a section file.
 
-    ``facts`` are the equations of a definition that stand under a name of their own, ``others`` its other relations.
+    Attributes
+    ----------
+    facts
+        The equations of a definition that stand under a name of their own; those of another entry are ``known``.
+    others
+        Its other relations.
+    givens
+        What a claim is under.
+    again
+        Those of these whose letter is the left side of the claim: what the paper says of it a second time.
+    puts
+        For each relation of a claim, and each that it is under, the definitions of the functions that occur in it.
+    rules
+        What the chain rule says of the rates that occur, where that is not said before.
     """
 
     kind: str
@@ -70,18 +74,29 @@ class Item:
     heading: Heading
     why: str = ""
     facts: tuple[Fact, ...] = ()
+    known: tuple[Fact, ...] = ()
     others: tuple[Pair, ...] = ()
     pairs: tuple[Pair, ...] = ()
     conditions: tuple[Pair, ...] = ()
-    givens: tuple[Given, ...] = ()
+    givens: tuple[Fact, ...] = ()
+    again: tuple[Fact, ...] = ()
+    puts: Mapping[Pair, tuple[Fact, ...]] = field(default_factory=dict)
     rules: tuple[Fact, ...] = ()
     remarks: tuple[str, ...] = ()
 
 
-def items_of(paper: Paper) -> tuple[Item, ...]:
-    """The entries of all section files, in the order of the text."""
+def items_of(paper: Paper) -> tuple[tuple[Item, ...], dict[str, str]]:
+    """The entries of all section files, in the order of the text, and what functions mean for every argument."""
     drafting = _Drafting(paper)
-    return tuple(item for said in paper.said for item in drafting.of(said))
+    items = tuple(item for said in paper.said for item in drafting.of(said))
+    return items, {key: value for fact in drafting.general.values() for key, value in [_for_all(fact)]}
+
+
+def _for_all(fact: Fact) -> tuple[str, str]:
+    """A definition of a function as the table of notation has it: for any argument."""
+    free = {argument: sp.Symbol(f"_{argument}", real=True) for argument in fact.head.args}
+    name = fact.head.func.__name__
+    return f"{name}({', '.join(map(str, free.values()))})", str(fact.pair.right.xreplace(free))
 
 
 @dataclass
@@ -117,30 +132,34 @@ class _Drafting:
         return name
 
     def read(self, pairs: Sequence[Pair], conditions: Sequence[Pair], unread: Sequence[str]) -> Iterator[Item]:
-        facts, others, claims, rules = [], [], [], []
+        facts, known, others, claims, rules = [], [], [], [], []
         assumed = self.paper.outline.is_assumed(self.formula.line)
         for pair in pairs:
             rules += self.chain_rule(pair)
             if self.is_definition(pair):
                 facts.append(self.new_fact(pair))
+            elif (fact := self.facts.get(pair.left)) is not None and _is_again(fact, pair):
+                known.append(fact)
             elif assumed or _of_atoms(pair, self.facts):
                 others.append(pair)
             else:
                 claims.append(pair)
-        if facts or others:
+        if facts or known or others:
             spoken = [*others, *conditions] if not claims else others
             yield Item(
                 "definition", self.id, self.variable("defined"), self.formula, self.heading, facts=tuple(facts),
-                others=tuple(spoken), rules=tuple(rules), remarks=tuple(unread),
+                known=tuple(known), others=tuple(spoken), rules=tuple(rules), remarks=tuple(unread),
             )  # fmt: skip
             rules = []
         if claims:
-            id = self.id if not (facts or others) else unused(f"{self.id}-holds", self.ids)
+            id = self.id if not (facts or known or others) else unused(f"{self.id}-holds", self.ids)
             self.ids.add(id)
             givens = tuple(self.givens([*claims, *conditions]))
             yield Item(
                 "claim", id, self.variable("stated"), self.formula, self.heading, pairs=tuple(claims),
-                conditions=tuple(conditions), givens=givens, rules=tuple(rules), remarks=tuple(unread),
+                conditions=tuple(conditions), givens=givens,
+                again=tuple(g for g in givens if not g.chain and any(g.head == pair.left for pair in claims)), puts=self.puts([*claims, *conditions, *(g.pair for g in givens)]),
+                rules=tuple(rules), remarks=tuple(unread),
             )  # fmt: skip
 
     # --- Definitions -------------------------------------------------------------------------------------------------
@@ -179,7 +198,7 @@ class _Drafting:
         name = unused(f"{word}_is", {*self.names, *self.paper.declared})
         self.names.add(name)
         fact = self.facts[head] = Fact(name, head, pair, self.heading.file)
-        if isinstance(head, AppliedUndef) and word not in self.paper.states and set(head.args) & pair.right.free_symbols:
+        if isinstance(head, AppliedUndef) and word not in self.paper.states and _is_general(pair):
             self.general.setdefault(word, fact)
         return fact
 
@@ -232,7 +251,9 @@ class _Drafting:
             chain += ((time.name, ""),)
         if not chain or any(name == rate.name for _, name in chain):
             return None
-        terms = [sp.diff(value, sp.Symbol(of, real=True)) * (sp.Symbol(name, real=True) if name else 1) for of, name in chain]
+        terms = [
+            sp.diff(value, sp.Symbol(of, real=True)) * (sp.Symbol(name, real=True) if name else 1) for of, name in chain
+        ]
         pair = Pair(rate, "=", sp.Add(*terms))
         if self.depends(pair.right, rate):
             return None
@@ -241,35 +262,54 @@ class _Drafting:
 
     # --- What claims are under ---------------------------------------------------------------------------------------
 
-    def givens(self, pairs: Sequence[Pair]) -> Iterator[Given]:
+    def givens(self, pairs: Sequence[Pair]) -> Iterator[Fact]:
         """The definitions of all letters that occur, each behind those of the letters that occur in it."""
         seen: set[sp.Expr] = set()
         for pair in pairs:
             yield from self.behind(pair.left, seen)
             yield from self.behind(pair.right, seen)
 
-    def behind(self, expression: sp.Expr, seen: set[sp.Expr]) -> Iterator[Given]:
-        for part in sorted(expression.atoms(sp.Symbol, AppliedUndef, sp.Derivative), key=str):
-            if part not in seen and (given := self.given(part)) is not None:
-                seen.add(part)
-                value = given.fact.pair.right
-                yield from self.behind(value.subs(_at(given), simultaneous=True) if given.at else value, seen)
-                yield given
+    def behind(self, expression: sp.Expr, seen: set[sp.Expr]) -> Iterator[Fact]:
+        for part in sorted(expression.atoms(sp.Symbol, AppliedUndef), key=str):
+            if part in seen:
+                continue
+            seen.add(part)
+            if isinstance(part, AppliedUndef) and part.func.__name__ in self.general:
+                yield from self.behind(self.general[part.func.__name__].pair.right, seen)
+            elif part in self.facts:
+                yield from self.behind(self.facts[part].pair.right, seen)
+                yield self.facts[part]
 
-    def given(self, part: sp.Expr) -> Given | None:
-        if part in self.facts:
-            return Given(self.facts[part])
-        if isinstance(part, sp.Derivative) and part.expr in self.facts and len(part.variable_count) == 1:
-            variable, count = part.variable_count[0]
-            return Given(self.facts[part.expr], slope=str(variable)) if count == 1 else None
-        if isinstance(part, AppliedUndef) and (fact := self.general.get(part.func.__name__)) is not None:
-            if len(fact.head.args) == len(part.args):
-                return Given(fact, at=tuple((str(a), b) for a, b in zip(fact.head.args, part.args, strict=True) if a != b))
-        return None
+    def puts(self, pairs: Sequence[Pair]) -> dict[Pair, tuple[Fact, ...]]:
+        """For each relation the definitions of its functions, those first in which others occur."""
+        found = {}
+        for pair in pairs:
+            names: dict[str, None] = {}
+            self.functions_in(pair.left, names)
+            self.functions_in(pair.right, names)
+            if names:
+                found[pair] = tuple(self.general[name] for name in reversed(names))
+        return found
+
+    def functions_in(self, expression: sp.Expr, names: dict[str, None]) -> None:
+        for part in sorted(expression.atoms(AppliedUndef), key=str):
+            name = part.func.__name__
+            if name in self.general and name not in names:
+                self.functions_in(self.general[name].pair.right, names)
+                names[name] = None
 
 
-def _at(given: Given) -> Mapping[sp.Symbol, sp.Expr]:
-    return {sp.Symbol(name, real=True): value for name, value in given.at}
+def _is_general(pair: Pair) -> bool:
+    """Whether an equation says what a function is at every argument: these occur on the right, and nothing is bound."""
+    nodes = {type(node) for node in sp.preorder_traversal(pair.right)}
+    return bool(set(pair.left.args) & pair.right.free_symbols) and not nodes & {
+        sp.Integral, sp.Limit, sp.Subs, sp.Derivative, sp.Piecewise,
+    }  # fmt: skip
+
+
+def _is_again(fact: Fact, pair: Pair) -> bool:
+    """Whether a relation repeats an equation that defines something."""
+    return not fact.chain and pair.sign == "=" and sp.expand(pair.right - fact.pair.right) == 0
 
 
 def _of_atoms(pair: Pair, facts: Mapping[sp.Expr, Fact]) -> bool:

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from ptproof.drafting.headings import Heading
-from ptproof.drafting.items import Fact, Given, Item
+from ptproof.drafting.items import Fact, Item
 from ptproof.drafting.paper import Paper
 from ptproof.drafting.printing import laid_out, python
 from ptproof.drafting.toml import toml
@@ -18,25 +18,34 @@ from ptproof.reading.latex.statements import Pair
 
 _SIGNS = {"=": "eq", "<=": "le", "<": "lt", ">=": "ge", ">": "gt"}
 _WIDTH = 112
-_AT = '''
+_PUT = '''
 
-def at(said: Relation, values: Mapping[sp.Symbol, Any]) -> Relation:
-    """What is said of a function at some letters, at other values of them."""
-    return said.map(lambda side: side.subs(values, simultaneous=True))
+def put(said: Relation, *definitions: Relation) -> Relation:
+    """What is said, with the functions that these equations define put in, wherever and to whatever they are applied."""
 
+    def side(value: Any) -> Any:
+        for known in definitions:
+            at = dict.fromkeys(known.left.args)
+            value = value.replace(
+                known.left.func,
+                lambda *given, known=known, at=at: known.right.subs(dict(zip(at, given, strict=True)), simultaneous=True),
+            )
+        return value.xreplace({node: node.doit() for node in value.atoms(sp.Derivative)})
 
-def slope(said: Relation, letter: sp.Symbol) -> Relation:
-    """What follows for the derivatives of both sides, where they are equal for every value of the letter."""
-    return said.map(lambda side: sp.diff(side, letter))
+    return said.map(side)
 '''
 
 
-def texts(paper: Paper, items: Sequence[Item], source: str) -> dict[str, str]:
-    """The text of each file by its name; ``source`` is what the paper's file is called."""
+def texts(paper: Paper, items: Sequence[Item], functions: Mapping[str, str], source: str) -> dict[str, str]:
+    """The text of each file by its name.
+
+    ``functions`` has what functions mean for every argument; ``source`` is what the paper's file is called.
+    """
+    table = {**paper.table, "means": {**paper.table["means"], **functions}}
     found = {
         "__init__.py": _package(paper, source),
         "notation.py": _notation(paper, source),
-        "notation.toml": toml(paper.table, _table_head(source)),
+        "notation.toml": toml(table, _table_head(source)),
     }
     for heading in paper.outline.headings:
         own = [item for item in items if item.heading == heading]
@@ -57,7 +66,7 @@ paper says: whatever `ptproof verify` does not show to be so counts as not as ex
 2. Hold each formula against the paper and take "letters guessed" out of its title.
 3. A claim that is false as printed gets expected="refuted", and a corrected one beside it with corrects=.
 4. A gap becomes a claim that you write yourself."""
-    return f'{_quoted(f"{_one_line(title)}.{chr(10)}{chr(10)}{body}{chr(10)}")}\n'
+    return f"{_quoted(f'{_one_line(title)}.{chr(10)}{chr(10)}{body}{chr(10)}')}\n"
 
 
 def _quoted(text: str) -> str:
@@ -87,7 +96,6 @@ def _notation(paper: Paper, source: str) -> str:
         '`k = letter("k", "k", "1/s", "gain", positive=True)`.',
         '"""',
         "",
-        "from collections.abc import Mapping",
         "from typing import Any",
         "",
         "import sympy as sp",
@@ -113,7 +121,7 @@ def _notation(paper: Paper, source: str) -> str:
     if functions:
         lines += ["", "# Functions: smooth, real, and otherwise unknown."]
         lines += [f'{item.name} = sp.Function("{item.name}", real=True)' for item in functions]
-    return "\n".join(lines) + "\n" + _AT
+    return "\n".join(lines) + "\n" + _PUT
 
 
 def _raw(text: str) -> str:
@@ -142,17 +150,19 @@ def _imports(items: Sequence[Item], file: str, used: str) -> Iterator[str]:
     if "sp." in used:
         yield "import sympy as sp\n"
     yield f"from ptproof.proof import {', '.join(sorted(called))}\n"
-    names: set[str] = {word for word in ("at", "slope") if f" {word}(" in used or f"[{word}(" in used}
+    names = {"put"} if any(item.puts for item in items) else set()
     facts: dict[str, set[str]] = {}
     for item in items:
-        for pair in (*item.pairs, *item.others, *item.conditions, *(fact.pair for fact in item.facts if not fact.chain)):
+        for pair in (
+            *item.pairs,
+            *item.others,
+            *item.conditions,
+            *(fact.pair for fact in item.facts if not fact.chain),
+        ):
             names |= _names(pair.left) | _names(pair.right)
         for rule in item.rules:
             names |= {rule.head.name, *(of for of, _ in rule.chain), *(name for _, name in rule.chain if name)}
             names |= {str(fact.head) for put in rule.inner for fact in put}
-        for given in item.givens:
-            names |= {name for name, _ in given.at} | {n for _, v in given.at for n in _names(v)}
-            names |= {given.slope} if given.slope else set()
     for fact in _facts_used(items):
         if fact.file != file:
             facts.setdefault(fact.file, set()).add(fact.name)
@@ -165,8 +175,9 @@ def _imports(items: Sequence[Item], file: str, used: str) -> Iterator[str]:
 
 def _facts_used(items: Iterable[Item]) -> Iterator[Fact]:
     for item in items:
-        for given in item.givens:
-            yield given.fact
+        yield from (*item.givens, *item.known)
+        for used in item.puts.values():
+            yield from used
         for rule in item.rules:
             yield from rule.uses
 
@@ -180,7 +191,7 @@ def _from(module: str, names: Iterable[str]) -> str:
 
 
 def _names(expression: sp.Expr) -> set[str]:
-    symbols = {node.name for node in expression.atoms(sp.Symbol)}
+    symbols = {node.name for node in expression.atoms(sp.Symbol) if node.name.isidentifier()}  # no sides of limits
     return symbols | {node.func.__name__ for node in expression.atoms(AppliedUndef)}
 
 
@@ -194,7 +205,9 @@ def _entry(item: Item) -> str:
         lines += _commented(f"Not read: {remark}")
     for rule in item.rules:
         lines += ["# By the chain rule; what has no rate of its own is taken for a constant.", _rule(rule)]
-    lines += [laid_out(f"{fact.name} = {_SIGNS[fact.pair.sign]}", (fact.pair.left, fact.pair.right)) for fact in item.facts]
+    lines += [
+        laid_out(f"{fact.name} = {_SIGNS[fact.pair.sign]}", (fact.pair.left, fact.pair.right)) for fact in item.facts
+    ]
     lines.append(_definition(item) if item.kind == "definition" else _claim(item))
     return "\n".join(lines)
 
@@ -242,11 +255,22 @@ def _statement(relations: Sequence[str]) -> list[str]:
     return ["    every(", *(textwrap.indent(f"{relation},", "    ") for relation in relations), "    ),"]
 
 
+def _put(relation: str, used: Sequence[Fact]) -> str:
+    """The relation with the definitions of its functions put in."""
+    if not used:
+        return relation
+    bare = relation.lstrip()
+    return f"{relation[: len(relation) - len(bare)]}put({bare}, {', '.join(fact.name for fact in used)})"
+
+
 def _definition(item: Item) -> str:
-    relations = [f"    {fact.name}" for fact in item.facts] + [_relation(pair, 4) for pair in item.others]
+    relations = [f"    {fact.name}" for fact in (*item.facts, *item.known)] + [
+        _relation(pair, 4) for pair in item.others
+    ]
     title = _plain(item.formula.place)
-    said = "Nothing was defined before." if item.facts else "Assumed, or a condition: nothing to decide."
-    said = "As the paper has it first." if item.facts else said
+    said = "Assumed, or a condition: nothing to decide."
+    if item.facts or item.known:
+        said = "As the paper has it first." if item.facts else "The paper says it again."
     return "\n".join([
         f"{item.variable} = definition(",
         f"    {item.id!r}, {f'{title}: letters guessed'!r},",
@@ -258,11 +282,12 @@ def _definition(item: Item) -> str:
 
 def _claim(item: Item) -> str:
     where = ", ".join(part for part in _where(item.formula) if part != "labels=[]")
-    given = [_given(entry) for entry in item.givens] + [_relation(pair, 0) for pair in item.conditions]
+    given = [_put(fact.name, item.puts.get(fact.pair, ())) for fact in item.givens]
+    given += [_put(_relation(pair, 0), item.puts.get(pair, ())) for pair in item.conditions]
     lines = [
         "@claim(",
         f"    {item.id!r}, {f'{_plain(item.formula.place)}: letters guessed'!r},",
-        *_statement([_relation(pair, 4) for pair in item.pairs]),
+        *_statement([_put(_relation(pair, 4), item.puts.get(pair, ())) for pair in item.pairs]),
     ]
     if given:
         inside = f"    given=[{', '.join(given)}],"
@@ -274,9 +299,18 @@ def _claim(item: Item) -> str:
         f"    {where},",
         ")",
         f"def {item.variable}(goal):",
-        f'    """As a machine read it on line {item.formula.line}; what its letters are is guessed."""',
+        *_docstring(item),
         f"    return {_engine(item)}(goal)",
     ])  # fmt: skip
+
+
+def _docstring(item: Item) -> list[str]:
+    said = f'    """As a machine read it on line {item.formula.line}; what its letters are is guessed.'
+    if not item.again:
+        return [f'{said}"""']
+    names = ", ".join(str(fact.head) for fact in item.again)
+    more = f"The paper has said before what {names} is. Where it means another one here, give it a letter of its own."
+    return [said, "", *textwrap.wrap(more, _WIDTH, initial_indent="    ", subsequent_indent="    "), '    """']
 
 
 def _engine(item: Item) -> str:
@@ -286,16 +320,7 @@ def _engine(item: Item) -> str:
         return "limits"
     if any(side.has(sp.Integral) for side in sides):
         return "integrals"
-    equal = all(pair.sign == "=" for pair in item.pairs)
-    return "exact" if equal and not any(given.slope for given in item.givens) else "reals"
-
-
-def _given(entry: Given) -> str:
-    if entry.slope:
-        return f"slope({entry.fact.name}, {entry.slope})"
-    if entry.at:
-        return f"at({entry.fact.name}, {{{', '.join(f'{name}: {python(value)}' for name, value in entry.at)}}})"
-    return entry.fact.name
+    return "exact" if all(pair.sign == "=" for pair in item.pairs) else "reals"
 
 
 def _rule(rule: Fact) -> str:

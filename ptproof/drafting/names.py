@@ -14,7 +14,7 @@ _SIGNS = {"*": " star ", "+": " plus ", "-": " minus ", r"\star": " star ", r"\a
 _SILENT = ("vec", "mathbf", "boldsymbol", "text")
 # What modules of a derivation call otherwise, and letters that are easily mistaken for digits.
 RESERVED = frozenset([
-    *FUNCTIONS, *CONSTANTS, *keyword.kwlist, *keyword.softkwlist, "sp", "letter", "alphabet", "rate", "slope", "at",
+    *FUNCTIONS, *CONSTANTS, *keyword.kwlist, *keyword.softkwlist, "sp", "letter", "alphabet", "rate", "slope", "put",
     "claim", "definition", "gap", "eq", "every", "exact", "ge", "gt", "integrals", "le", "limits", "lt", "reals",
     "Relation", "Derivative", "Piecewise", "l", "I", "O", "None", "True", "False",
 ])  # fmt: skip

@@ -51,18 +51,21 @@ class Occurrence:
 class Scanned:
     """What a formula tells of its letters.
 
-    ``members`` are the spaces in which they lie (rows, columns), ``columns`` the letters of which one is made.
+    ``members`` are the spaces in which they lie (rows, columns), ``columns`` the letters of which one is made,
+    ``transposed`` those with a transpose, and ``forms`` the three letters of each xᵀ P y.
     """
 
     occurrences: tuple[Occurrence, ...]
     members: tuple[tuple[str, tuple[int, int]], ...] = ()
     columns: tuple[tuple[str, tuple[str, ...]], ...] = ()
+    transposed: frozenset[str] = frozenset()
+    forms: tuple[tuple[str, str, str], ...] = ()
 
 
 def scan(tokens: Sequence[Token]) -> Scanned:
     """What the tokens of one formula tell of its letters."""
     found = list(_walk(list(tokens), any(token.text == r"\int" for token in tokens)))
-    return Scanned(tuple(found), tuple(_members(tokens)), tuple(_columns(tokens)))
+    return Scanned(tuple(found), tuple(_members(tokens)), tuple(_columns(tokens)), *_transposed(tokens))
 
 
 def _walk(tokens: list[Token], integral: bool, along: str = "") -> Iterator[Occurrence]:
@@ -79,7 +82,9 @@ def _walk(tokens: list[Token], integral: bool, along: str = "") -> Iterator[Occu
             elif text == r"\dot":
                 inside, after = argument(tokens, position + 1, token)
                 after = _behind(tokens, after)
-                yield from _walk([*inside, *tokens[position + 1 + _length(tokens, position + 1) : after]], integral, "t")
+                yield from _walk(
+                    [*inside, *tokens[position + 1 + _length(tokens, position + 1) : after]], integral, "t"
+                )
                 position = after
             elif text in (r"\text", r"\mathbb", r"\begin{array}") or text in (r"\label", r"\tag"):
                 position = yield from _word(tokens, position)
@@ -216,6 +221,26 @@ def _is_differential(tokens: Sequence[Token], position: int, integral: bool) -> 
 
 def _is_exponential(base: str, tokens: Sequence[Token], position: int) -> bool:
     return base == "e" and position + 1 < len(tokens) and tokens[position + 1].text == "^"
+
+
+def _transposed(tokens: Sequence[Token]) -> tuple[frozenset[str], tuple[tuple[str, str, str], ...]]:
+    """The letters with a transpose, and with the letters that stand behind it."""
+    letters: set[str] = set()
+    forms: list[tuple[str, str, str]] = []
+    position = 0
+    while position < len(tokens):
+        named = name_at(tokens, position)
+        position = position + 1 if named is None else named[1]
+        if named is None or position + 1 >= len(tokens) or tokens[position].text != "^":
+            continue
+        above, after = argument(tokens, position + 1, tokens[position])
+        if len(above) == 1 and above[0].text in (r"\top", "T", r"\intercal"):
+            letters.add(named[0])
+            middle = name_at(tokens, after)
+            last = name_at(tokens, middle[1]) if middle else None
+            if middle and last:
+                forms.append((named[0], middle[0], last[0]))
+    return frozenset(letters), tuple(forms)
 
 
 def _members(tokens: Sequence[Token]) -> Iterator[tuple[str, tuple[int, int]]]:

@@ -79,7 +79,7 @@ def read_with_guesses(source: str) -> Paper:
         guessed, before = guess(letters), dict(letters.shapes)
         reader = _Reader(guessed, letters)
         for item in every:
-            letters.shapes |= reader.shapes(tokens[id(item)], letters)
+            letters.shapes |= {**reader.shapes(tokens[id(item)], letters), **letters.forms_shaped()}
         if letters.shapes == before:
             break
     said = [reader.said(item, formulas.macros) for item in formulas.displayed]
@@ -145,6 +145,8 @@ class _Reader:
             if item.arguments and (item.key in self.letters.two_readings or factor):
                 reason = f"{item.key}(…) can mean a product and a function"
                 raise NotUnderstood("two readings", reason, item.line)
+            if not self.letters.is_sized(item.key):
+                raise NotUnderstood("matrix", f"nothing tells of what size {item.key} is", item.line)
 
     def shapes(self, tokens: Sequence[Token], letters: Letters) -> dict[str, tuple[int, int]]:
         """The shapes of letters that stand alone beside a column or a matrix."""
@@ -189,7 +191,7 @@ def _chains(tokens: Sequence[Token]) -> Iterator[list[list[Token]]]:
 
 def _alone(side: Sequence[Token]) -> str:
     """The letter that is all of a side, a dot over it and its arguments aside."""
-    tokens = list(side)
+    tokens = list(side[1:] if side and side[0].text == "-" else side)
     try:
         if tokens and tokens[0].text == r"\dot":
             inside, after = argument(tokens, 1, tokens[0])
@@ -200,7 +202,9 @@ def _alone(side: Sequence[Token]) -> str:
     if named is None:
         return ""
     rest = [token.text for token in tokens[named[1] :]]
-    return named[0] if not rest or (rest[0] == "(" and rest.index(")") == len(rest) - 1 if ")" in rest else False) else ""
+    return (
+        named[0] if not rest or (rest[0] == "(" and rest.index(")") == len(rest) - 1 if ")" in rest else False) else ""
+    )
 
 
 def _has_power_of_e(tokens: Sequence[Token]) -> bool:
@@ -229,7 +233,9 @@ class _Rates:
         everything = [side for pairs in parts.values() for p in pairs for side in (p.left, p.right)]
         for side in everything:
             if nodes := side.atoms(RATE):
-                return Said(said.formula, None, f"line {said.formula.line}: the rate of {_first(nodes).args[0]} has no name yet")
+                return Said(
+                    said.formula, None, f"line {said.formula.line}: the rate of {_first(nodes).args[0]} has no name yet"
+                )
             if why := self.elsewhere(side, len(everything)):
                 return Said(said.formula, None, f"line {said.formula.line}: {why}")
         return Said(said.formula, replace(said.reading, **parts))
@@ -239,6 +245,10 @@ class _Rates:
         for node in side.atoms(sp.core.function.AppliedUndef):
             if node.func.__name__ in self.guessed.states and not (node == side and sides == 2):
                 return f"{node} is a value along a trajectory; a claim about it says which system it solves"
+        for node in side.atoms(sp.Limit, sp.Integral):
+            moving = [s.name for s in node.args[0].free_symbols if s.name in self.guessed.states]
+            if moving and {s.name for s in node.atoms(sp.Symbol)} & set(self.guessed.times):
+                return f"{moving[0]} moves, and this speaks of all of its trajectory"
         if names := [s.name for s in side.free_symbols if s.name in RESERVED]:
             return f"{names[0]} is the name of something else"
         return ""
@@ -250,8 +260,10 @@ class _Rates:
         moved = node.args[0]
         if moved.is_Symbol:
             return True
-        return isinstance(moved, sp.core.function.AppliedUndef) and moved.func is not RATE and (
-            tuple(map(str, moved.args)) == self.guessed.generic.get(moved.func.__name__)
+        return (
+            isinstance(moved, sp.core.function.AppliedUndef)
+            and moved.func is not RATE
+            and (tuple(map(str, moved.args)) == self.guessed.generic.get(moved.func.__name__))
         )
 
     def name(self, node: sp.Expr) -> sp.Symbol:

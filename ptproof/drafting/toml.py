@@ -17,7 +17,9 @@ def toml(table: Mapping[str, Any], head: str) -> str:
     lines = [f"# {line}".rstrip() for line in head.splitlines()]
     lines.append("")
     lines += [f"{key} = {_value(value)}" for key, value in table.items() if not isinstance(value, dict)]
-    lines += ['# division = "product"         # what a/bc is divided by: product (bc) or factor (b); left out: not read']
+    lines += [
+        '# division = "product"         # what a/bc is divided by: product (bc) or factor (b); left out: not read'
+    ]
     for name, entries in table.items():
         if isinstance(entries, dict) and entries:
             lines += ["", f"[{name}]".ljust(34) + f" # {_SECTIONS[name]}", *_entries(entries)]

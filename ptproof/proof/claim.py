@@ -230,7 +230,14 @@ def _section_of_caller(frame: FrameType | None) -> str:
 
 
 def definition(
-    id: str, title: str, states: Statement, *, labels: Iterable[str], prose: str = "", section: str = "", place: str = ""
+    id: str,
+    title: str,
+    states: Statement,
+    *,
+    labels: Iterable[str],
+    prose: str = "",
+    section: str = "",
+    place: str = "",
 ) -> Definition:
     """A displayed definition; ``section`` is taken from the module that calls, where left out.
 
