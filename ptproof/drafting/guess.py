@@ -8,7 +8,8 @@
 - A letter *moves* if a dot stands over it, or d/dt before it. If it is applied to nothing but times it is the same
   letter with and without its time: x(t) is x. Where it stands before a sum of other things it is a factor.
 - A letter is a *column* or a *matrix* if the paper says so: x = [x₁, x₂]ᵀ, x ∈ ℝ², A ∈ ℝ²ˣ², or an equation whose other
-  side is one, or xᵀ P x between columns. A bold or a transposed letter of unknown size is not read. A bar, a tilde, a hat, a star and the index 0 do not change that.
+  side is one, or as P in xᵀ P x. A bar, a tilde, a hat, a star and the index 0 do not change that. A
+  bold or a transposed letter of unknown size is not read.
 - A *time* is t, and what a derivative d/d· is taken by.
 - I beside a square matrix is the identity. A word that names what is not smooth (sat, sgn) is not guessed.
 """
@@ -116,7 +117,7 @@ class Letters:
 
     @cached_property
     def factors(self) -> frozenset[str]:
-        """The letters that move and stand before sums of other things than times: factors there, even with d(0) = d₀."""
+        """The letters that move and stand before sums of other things than times: factors, even with d(0) = d₀."""
         return frozenset(
             item.key for item in self.occurrences
             if item.key in self.moving and item.arguments == ("+",) and not all(self._is_time((x,)) for x in item.sums)

@@ -1,7 +1,7 @@
 """What each formula of a paper becomes: a definition, a claim or a gap.
 
-- An equation whose left side is one letter, its rate, or a function at letters, and that is the first one about it, is a
-  *definition*. So is what stands in an assumption of the paper, and a relation between two bare letters or numbers.
+- The first equation whose left side is one letter, its rate, or a function at letters is a *definition* of that. So is
+  what stands in an assumption of the paper, an inequality between bare letters or numbers, and a definition repeated.
 - Every other relation is a *claim*, under the definitions of its letters that come before it in the text.
 - The rate of what is defined is what the chain rule makes of it: an equation for it is a claim.
 - What was not read, and what cannot be a claim, is a *gap*.
@@ -15,36 +15,12 @@ from dataclasses import dataclass, field
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from ptproof.drafting.facts import Fact, for_all, is_again, is_general, of_atoms, unwritable
 from ptproof.drafting.headings import Heading, slug
 from ptproof.drafting.names import unused
 from ptproof.drafting.paper import Paper, Said
-from ptproof.drafting.printing import can_be_written
-from ptproof.errors import InputError
-from ptproof.proof.statement import Relation
 from ptproof.reading.latex.formulas import Formula
 from ptproof.reading.latex.statements import Pair
-
-
-@dataclass(frozen=True)
-class Fact:
-    """An equation about ``head`` that the claims after it may be under: as the paper defines it, or by the chain rule.
-
-    By the chain rule it is the rate of what the fact ``of`` defines: ``chain`` has the letters that move with the names
-    of their rates (none for the time itself), and ``inner`` what is put in before, round by round.
-    """
-
-    name: str
-    head: sp.Expr
-    pair: Pair
-    file: str
-    of: Fact | None = None
-    chain: tuple[tuple[str, str], ...] = ()
-    inner: tuple[tuple[Fact, ...], ...] = ()
-
-    @property
-    def uses(self) -> tuple[Fact, ...]:
-        """The facts that it is made from."""
-        return () if self.of is None else (self.of, *(fact for put in self.inner for fact in put))
 
 
 @dataclass(frozen=True)
@@ -89,14 +65,7 @@ def items_of(paper: Paper) -> tuple[tuple[Item, ...], dict[str, str]]:
     """The entries of all section files, in the order of the text, and what functions mean for every argument."""
     drafting = _Drafting(paper)
     items = tuple(item for said in paper.said for item in drafting.of(said))
-    return items, {key: value for fact in drafting.general.values() for key, value in [_for_all(fact)]}
-
-
-def _for_all(fact: Fact) -> tuple[str, str]:
-    """A definition of a function as the table of notation has it: for any argument."""
-    free = {argument: sp.Symbol(f"_{argument}", real=True) for argument in fact.head.args}
-    name = fact.head.func.__name__
-    return f"{name}({', '.join(map(str, free.values()))})", str(fact.pair.right.xreplace(free))
+    return items, {key: value for fact in drafting.general.values() for key, value in [for_all(fact)]}
 
 
 @dataclass
@@ -117,7 +86,7 @@ class _Drafting:
             yield self.gap(said.why)
             return
         pairs = [*said.reading.pairs, *said.reading.braces]
-        if why := _unwritable([*pairs, *said.reading.conditions]) or self.resting(pairs):
+        if why := unwritable([*pairs, *said.reading.conditions]) or self.resting(pairs):
             yield self.gap(f"line {said.formula.line}: {why}")
             return
         yield from self.read(pairs, said.reading.conditions, said.reading.unread)
@@ -138,9 +107,9 @@ class _Drafting:
             rules += self.chain_rule(pair)
             if self.is_definition(pair):
                 facts.append(self.new_fact(pair))
-            elif (fact := self.facts.get(pair.left)) is not None and _is_again(fact, pair):
+            elif (fact := self.facts.get(pair.left)) is not None and is_again(fact, pair):
                 known.append(fact)
-            elif assumed or _of_atoms(pair, self.facts):
+            elif assumed or of_atoms(pair, self.facts):
                 others.append(pair)
             else:
                 claims.append(pair)
@@ -154,13 +123,19 @@ class _Drafting:
         if claims:
             id = self.id if not (facts or known or others) else unused(f"{self.id}-holds", self.ids)
             self.ids.add(id)
-            givens = tuple(self.givens([*claims, *conditions]))
-            yield Item(
-                "claim", id, self.variable("stated"), self.formula, self.heading, pairs=tuple(claims),
-                conditions=tuple(conditions), givens=givens,
-                again=tuple(g for g in givens if not g.chain and any(g.head == pair.left for pair in claims)), puts=self.puts([*claims, *conditions, *(g.pair for g in givens)]),
-                rules=tuple(rules), remarks=tuple(unread),
-            )  # fmt: skip
+            yield self.claim(id, claims, conditions, rules, unread)
+
+    def claim(
+        self, id: str, claims: Sequence[Pair], conditions: Sequence[Pair], rules: Sequence[Fact], unread: Sequence[str]
+    ) -> Item:
+        givens = tuple(self.givens([*claims, *conditions]))
+        again = tuple(fact for fact in givens if not fact.chain and any(fact.head == pair.left for pair in claims))
+        puts = self.puts([*claims, *conditions, *(fact.pair for fact in givens)])
+        return Item(
+            "claim", id, self.variable("stated"), self.formula, self.heading, pairs=tuple(claims),
+            conditions=tuple(conditions), givens=givens, again=again, puts=puts, rules=tuple(rules),
+            remarks=tuple(unread),
+        )  # fmt: skip
 
     # --- Definitions -------------------------------------------------------------------------------------------------
 
@@ -198,7 +173,7 @@ class _Drafting:
         name = unused(f"{word}_is", {*self.names, *self.paper.declared})
         self.names.add(name)
         fact = self.facts[head] = Fact(name, head, pair, self.heading.file)
-        if isinstance(head, AppliedUndef) and word not in self.paper.states and _is_general(pair):
+        if isinstance(head, AppliedUndef) and word not in self.paper.states and is_general(pair):
             self.general.setdefault(word, fact)
         return fact
 
@@ -297,37 +272,3 @@ class _Drafting:
             if name in self.general and name not in names:
                 self.functions_in(self.general[name].pair.right, names)
                 names[name] = None
-
-
-def _is_general(pair: Pair) -> bool:
-    """Whether an equation says what a function is at every argument: these occur on the right, and nothing is bound."""
-    nodes = {type(node) for node in sp.preorder_traversal(pair.right)}
-    return bool(set(pair.left.args) & pair.right.free_symbols) and not nodes & {
-        sp.Integral, sp.Limit, sp.Subs, sp.Derivative, sp.Piecewise,
-    }  # fmt: skip
-
-
-def _is_again(fact: Fact, pair: Pair) -> bool:
-    """Whether a relation repeats an equation that defines something."""
-    return not fact.chain and pair.sign == "=" and sp.expand(pair.right - fact.pair.right) == 0
-
-
-def _of_atoms(pair: Pair, facts: Mapping[sp.Expr, Fact]) -> bool:
-    """Whether both sides are letters of which nothing is said, or numbers: a condition."""
-    sides = (pair.left, pair.right)
-    return pair.sign != "=" and all((side.is_Symbol and side not in facts) or side.is_number for side in sides)
-
-
-def _unwritable(pairs: Sequence[Pair]) -> str:
-    """Why a relation cannot be written as a claim."""
-    for pair in pairs:
-        for side in (pair.left, pair.right):
-            if side.has(sp.nan, sp.zoo) or side in (sp.oo, -sp.oo):
-                return "a side is no real number"
-            if not can_be_written(side):
-                return f"{side} has no form in Python yet"
-        try:
-            Relation(pair.left, pair.sign, pair.right)  # type: ignore[arg-type]
-        except InputError as error:
-            return str(error)
-    return ""

@@ -8,28 +8,28 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from ptproof.drafting.entries import commented, entry
+from ptproof.drafting.facts import Fact
 from ptproof.drafting.headings import Heading
-from ptproof.drafting.items import Fact, Item
+from ptproof.drafting.items import Item
 from ptproof.drafting.paper import Paper
-from ptproof.drafting.printing import laid_out, python
 from ptproof.drafting.toml import toml
 from ptproof.reading.latex.formulas import Formula
-from ptproof.reading.latex.statements import Pair
 
-_SIGNS = {"=": "eq", "<=": "le", "<": "lt", ">=": "ge", ">": "gt"}
 _WIDTH = 112
+_WORDS = (
+    "Relation", "claim", "definition", "eq", "every", "exact", "gap", "ge", "gt", "integrals", "le", "limits", "lt",
+    "reals",
+)  # fmt: skip
 _PUT = '''
 
 def put(said: Relation, *definitions: Relation) -> Relation:
-    """What is said, with the functions that these equations define put in, wherever and to whatever they are applied."""
+    """What is said, with the functions that these equations define put in, whatever they are applied to."""
 
     def side(value: Any) -> Any:
         for known in definitions:
-            at = dict.fromkeys(known.left.args)
-            value = value.replace(
-                known.left.func,
-                lambda *given, known=known, at=at: known.right.subs(dict(zip(at, given, strict=True)), simultaneous=True),
-            )
+            at = sp.Lambda(known.left.args, known.right)
+            value = value.replace(known.left.func, at)
         return value.xreplace({node: node.doit() for node in value.atoms(sp.Derivative)})
 
     return said.map(side)
@@ -58,11 +58,11 @@ def texts(paper: Paper, items: Sequence[Item], functions: Mapping[str, str], sou
 def _package(paper: Paper, source: str) -> str:
     title = paper.outline.title or source
     body = f"""\
-Drafted from {source} by `ptproof new --from`. Nobody has looked at it yet: each letter's kind and each formula is what a
-machine took it for. Each claim says what the paper prints, and `expected` is left at "proved", since that is what the
-paper says: whatever `ptproof verify` does not show to be so counts as not as expected, until you have dealt with it.
+Drafted from {source} by `ptproof new --from`. Nobody has looked at it yet: each letter's kind and each formula is
+what a machine took it for. Each claim says what the paper prints, and `expected` is left at "proved", since that is
+what the paper says: whatever `ptproof verify` does not show counts as not as expected, until you have dealt with it.
 
-1. In notation.py say what each letter is: its sign, its unit, its meaning. In notation.toml mend what was guessed wrong.
+1. In notation.py say what each letter is: sign, unit, meaning. In notation.toml mend what was guessed wrong.
 2. Hold each formula against the paper and take "letters guessed" out of its title.
 3. A claim that is false as printed gets expected="refuted", and a corrected one beside it with corrects=.
 4. A gap becomes a claim that you write yourself."""
@@ -92,7 +92,7 @@ def _notation(paper: Paper, source: str) -> str:
     lines = [
         f'"""The letters of {_quoted(source)[3:-3]}, each once, as a machine found them.',
         "",
-        "All are real, and that is all: which are positive, their units and what they mean is for the author to say, as in",
+        "All are real, and that is all: their signs, their units and what they mean are for the author to say, as in",
         '`k = letter("k", "k", "1/s", "gain", positive=True)`.',
         '"""',
         "",
@@ -129,7 +129,7 @@ def _raw(text: str) -> str:
 
 
 def _section(heading: Heading, items: Sequence[Item], running: Sequence[Formula], source: str) -> str:
-    entries = [_entry(item) for item in items]
+    entries = [entry(item) for item in items]
     head = [_quoted(f"{_one_line(heading.words)}: what {source} displays there, as a machine read it."), ""]
     used = "\n".join(entries)
     if items:
@@ -140,13 +140,12 @@ def _section(heading: Heading, items: Sequence[Item], running: Sequence[Formula]
     tail = []
     if running:
         tail = ["", "", "# Relations in running text, which nothing states yet:"]
-        tail += [line for item in running for line in _commented(f"line {item.line}: {item.text}")]
+        tail += [line for item in running for line in commented(f"line {item.line}: {item.text}")]
     return "\n".join([*head, *(f"\n\n{entry}" for entry in entries), *tail]) + "\n"
 
 
 def _imports(items: Sequence[Item], file: str, used: str) -> Iterator[str]:
-    called = {word for word in ("Relation", "claim", "definition", "eq", "every", "exact", "gap", "ge", "gt", "integrals",
-                                "le", "limits", "lt", "reals") if f"{word}(" in used}  # fmt: skip
+    called = {word for word in _WORDS if f"{word}(" in used}
     if "sp." in used:
         yield "import sympy as sp\n"
     yield f"from ptproof.proof import {', '.join(sorted(called))}\n"
@@ -193,144 +192,3 @@ def _from(module: str, names: Iterable[str]) -> str:
 def _names(expression: sp.Expr) -> set[str]:
     symbols = {node.name for node in expression.atoms(sp.Symbol) if node.name.isidentifier()}  # no sides of limits
     return symbols | {node.func.__name__ for node in expression.atoms(AppliedUndef)}
-
-
-def _entry(item: Item) -> str:
-    formula = item.formula
-    lines = list(_commented(f"{formula.place}, line {formula.line}:"))
-    if item.kind == "gap":
-        return "\n".join([*lines, _gap(item)])
-    lines += _commented(formula.text, "    ")
-    for remark in item.remarks:
-        lines += _commented(f"Not read: {remark}")
-    for rule in item.rules:
-        lines += ["# By the chain rule; what has no rate of its own is taken for a constant.", _rule(rule)]
-    lines += [
-        laid_out(f"{fact.name} = {_SIGNS[fact.pair.sign]}", (fact.pair.left, fact.pair.right)) for fact in item.facts
-    ]
-    lines.append(_definition(item) if item.kind == "definition" else _claim(item))
-    return "\n".join(lines)
-
-
-def _commented(text: str, space: str = "") -> Iterator[str]:
-    for line in text.splitlines():
-        stripped = "".join(sign if sign.isprintable() else " " for sign in line.expandtabs(2).strip())
-        if stripped:
-            wrapped = textwrap.wrap(stripped, _WIDTH - len(space), break_on_hyphens=False) or [stripped]
-            yield from (f"# {space}{part}" for part in wrapped)
-
-
-def _where(formula: Formula) -> list[str]:
-    if formula.labels:
-        return [f"labels={list(map(_plain, formula.labels))!r}"]
-    return ["labels=[]", f"place={_plain(formula.place)!r}"]
-
-
-def _plain(text: str) -> str:
-    return "".join(sign for sign in text if sign.isprintable())
-
-
-def _gap(item: Item) -> str:
-    formula = item.formula
-    latex = formula.text if formula.text.count("\n") else formula.text.strip()
-    raw = latex.isascii() and '"""' not in latex and not latex.endswith(("\\", '"')) and "\r" not in latex
-    written = f'r"""{latex}"""' if raw else repr(latex)
-    labels = f", {_where(formula)[0]}" if formula.labels else ""
-    return (
-        f"{item.variable} = gap(\n    {item.id!r}, {_plain(formula.place)!r}, {formula.line},\n    {written},\n"
-        f"    {_plain(item.why)!r}{labels},\n)"
-    )
-
-
-def _relation(pair: Pair, indent: int) -> str:
-    if pair.sign in _SIGNS:
-        return laid_out(_SIGNS[pair.sign], (pair.left, pair.right), indent)
-    return f"{' ' * indent}Relation({python(pair.left)}, {pair.sign!r}, {python(pair.right)})"
-
-
-def _statement(relations: Sequence[str]) -> list[str]:
-    """The relations, each with an indent of four, as one statement."""
-    if len(relations) == 1:
-        return [f"{relations[0]},"]
-    return ["    every(", *(textwrap.indent(f"{relation},", "    ") for relation in relations), "    ),"]
-
-
-def _put(relation: str, used: Sequence[Fact]) -> str:
-    """The relation with the definitions of its functions put in."""
-    if not used:
-        return relation
-    bare = relation.lstrip()
-    return f"{relation[: len(relation) - len(bare)]}put({bare}, {', '.join(fact.name for fact in used)})"
-
-
-def _definition(item: Item) -> str:
-    relations = [f"    {fact.name}" for fact in (*item.facts, *item.known)] + [
-        _relation(pair, 4) for pair in item.others
-    ]
-    title = _plain(item.formula.place)
-    said = "Assumed, or a condition: nothing to decide."
-    if item.facts or item.known:
-        said = "As the paper has it first." if item.facts else "The paper says it again."
-    return "\n".join([
-        f"{item.variable} = definition(",
-        f"    {item.id!r}, {f'{title}: letters guessed'!r},",
-        *_statement(relations),
-        f"    {', '.join(_where(item.formula))}, prose={f'{said} Read by a machine.'!r},",
-        ")",
-    ])  # fmt: skip
-
-
-def _claim(item: Item) -> str:
-    where = ", ".join(part for part in _where(item.formula) if part != "labels=[]")
-    given = [_put(fact.name, item.puts.get(fact.pair, ())) for fact in item.givens]
-    given += [_put(_relation(pair, 0), item.puts.get(pair, ())) for pair in item.conditions]
-    lines = [
-        "@claim(",
-        f"    {item.id!r}, {f'{_plain(item.formula.place)}: letters guessed'!r},",
-        *_statement([_put(_relation(pair, 4), item.puts.get(pair, ())) for pair in item.pairs]),
-    ]
-    if given:
-        inside = f"    given=[{', '.join(given)}],"
-        lines += [inside] if len(inside) <= _WIDTH and "\n" not in inside else [
-            "    given=[", *(textwrap.indent(f"{entry},", " " * 8) for entry in given), "    ],"
-        ]  # fmt: skip
-    return "\n".join([
-        *lines,
-        f"    {where},",
-        ")",
-        f"def {item.variable}(goal):",
-        *_docstring(item),
-        f"    return {_engine(item)}(goal)",
-    ])  # fmt: skip
-
-
-def _docstring(item: Item) -> list[str]:
-    said = f'    """As a machine read it on line {item.formula.line}; what its letters are is guessed.'
-    if not item.again:
-        return [f'{said}"""']
-    names = ", ".join(str(fact.head) for fact in item.again)
-    more = f"The paper has said before what {names} is. Where it means another one here, give it a letter of its own."
-    return [said, "", *textwrap.wrap(more, _WIDTH, initial_indent="    ", subsequent_indent="    "), '    """']
-
-
-def _engine(item: Item) -> str:
-    """The engine whose kind of statement this is."""
-    sides = [side for pair in item.pairs for side in (pair.left, pair.right)]
-    if any(side.has(sp.Limit) for side in sides):
-        return "limits"
-    if any(side.has(sp.Integral) for side in sides):
-        return "integrals"
-    return "exact" if all(pair.sign == "=" for pair in item.pairs) else "reals"
-
-
-def _rule(rule: Fact) -> str:
-    value = f"{rule.uses[0].name}.right"
-    for put in rule.inner:
-        value += f".subs({{{', '.join(f'{fact.head}: {fact.name}.right' for fact in put)}}})"
-    terms = [f"sp.diff({value}, {of})" + (f" * {name}" if name else "") for of, name in rule.chain]
-    one = f"{rule.name} = eq({rule.head}, {' + '.join(terms)})"
-    if len(one) <= _WIDTH:
-        return one
-    first, *rest = terms
-    inside = "\n".join(f"    {line}" for line in (f"{rule.head},", first, *(f"+ {term}" for term in rest)))
-    return f"{rule.name} = eq(\n{inside},\n)"

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import pairwise
 from typing import Any
 
 import sympy as sp
@@ -12,7 +13,8 @@ import sympy as sp
 from ptproof.drafting.guess import Declared, Guess, Letters, guess, rate_name
 from ptproof.drafting.headings import Outline, outline
 from ptproof.drafting.names import RESERVED
-from ptproof.drafting.occurrences import Scanned, name_at, scan
+from ptproof.drafting.occurrences import Scanned, scan
+from ptproof.drafting.spelled import name_at
 from ptproof.drafting.toml import toml
 from ptproof.errors import InputError
 from ptproof.reading.latex.cursor import RELATIONS
@@ -208,8 +210,7 @@ def _alone(side: Sequence[Token]) -> str:
 
 
 def _has_power_of_e(tokens: Sequence[Token]) -> bool:
-    texts = [token.text for token in tokens]
-    return any(pair == ("e", "^") for pair in zip(texts, texts[1:], strict=False))
+    return any(pair == ("e", "^") for pair in pairwise(token.text for token in tokens))
 
 
 class _Rates:
@@ -223,7 +224,7 @@ class _Rates:
         self.names: dict[sp.Expr, sp.Symbol] = {}
 
     def translated(self, said: Said) -> Said:
-        """The formula with a name for each rate; one that has none, such as that of a sum, is not written as a claim."""
+        """The formula with a name for each rate; one that has none, such as that of a sum, makes it a gap."""
         if said.reading is None:
             return said
         parts = {}

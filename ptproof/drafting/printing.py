@@ -11,9 +11,9 @@ from sympy.printing.str import StrPrinter
 
 _WIDTH = 108
 _KNOWN = (
-    sp.Add, sp.Mul, sp.Pow, sp.Symbol, sp.Rational, AppliedUndef, sp.Derivative, sp.Integral, sp.Limit, sp.Subs, sp.Tuple,
-    sp.Abs, sp.Max, sp.Min, sp.sin, sp.cos, sp.tan, sp.exp, sp.log, sp.sinh, sp.cosh, sp.tanh, sp.atan, sp.asin,
-    sp.acos, sp.sign, sp.Piecewise,
+    sp.Add, sp.Mul, sp.Pow, sp.Symbol, sp.Rational, AppliedUndef, sp.Derivative, sp.Integral, sp.Limit, sp.Subs,
+    sp.Tuple, sp.Abs, sp.Max, sp.Min, sp.sin, sp.cos, sp.tan, sp.exp, sp.log, sp.sinh, sp.cosh, sp.tanh, sp.atan,
+    sp.asin, sp.acos, sp.sign, sp.Piecewise,
 )  # fmt: skip
 _CONSTANTS = (sp.pi, sp.E, sp.oo, -sp.oo)
 
