@@ -129,7 +129,9 @@ class _Drafting:
         self, id: str, claims: Sequence[Pair], conditions: Sequence[Pair], rules: Sequence[Fact], unread: Sequence[str]
     ) -> Item:
         givens = tuple(self.givens([*claims, *conditions]))
-        again = tuple(fact for fact in givens if not fact.chain and any(p.sign == "=" and fact.head == p.left for p in claims))
+        again = tuple(
+            fact for fact in givens if not fact.chain and any(p.sign == "=" and fact.head == p.left for p in claims)
+        )
         puts = self.puts([*claims, *conditions, *(fact.pair for fact in givens)])
         return Item(
             "claim", id, self.variable("stated"), self.formula, self.heading, pairs=tuple(claims),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import textwrap
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
@@ -44,7 +45,7 @@ def texts(paper: Paper, items: Sequence[Item], functions: Mapping[str, str], sou
     table = {**paper.table, "means": {**paper.table["means"], **functions}}
     found = {
         "__init__.py": _package(paper, source),
-        "notation.py": _notation(paper, source),
+        "notation.py": _notation(paper, source, any(item.puts for item in items)),
         "notation.toml": toml(table, _table_head(source)),
     }
     for heading in paper.outline.headings:
@@ -86,9 +87,10 @@ def _table_head(source: str) -> str:
     )
 
 
-def _notation(paper: Paper, source: str) -> str:
+def _notation(paper: Paper, source: str, puts: bool) -> str:
     letters = [item for item in paper.declared.values() if not item.function]
     functions = [item for item in paper.declared.values() if item.function]
+    rates = [item for item in letters if item.name in paper.rates]
     lines = [
         f'"""The letters of {_quoted(source)[3:-3]}, each once, as a machine found them.',
         "",
@@ -96,22 +98,20 @@ def _notation(paper: Paper, source: str) -> str:
         '`k = letter("k", "k", "1/s", "gain", positive=True)`.',
         '"""',
         "",
-        "from typing import Any",
-        "",
-        "import sympy as sp",
-        "",
-        "from ptproof.proof import Relation",
+        *(["from typing import Any", ""] if puts else []),
+        *(["import sympy as sp", ""] if puts or functions else []),
+        *(["from ptproof.proof import Relation"] if puts else []),
         "from ptproof.report.alphabet import Alphabet",
         "",
         "alphabet = Alphabet()",
         "letter = alphabet.letter",
         "NOTATION = alphabet.entries",
         "",
+        *_signs(paper.running),
     ]
-    rates = [item for item in letters if item.name in paper.rates]
     for item in letters:
         if item.name not in paper.rates:
-            first = f"first on line {item.line}" if item.line else "an entry"
+            first = f"first on line {item.line}" if item.line else "named by no formula itself"
             lines.append(f'{item.name} = letter("{item.name}", {_raw(item.glyph)}, "", "{first}")')
     if rates:
         lines += ["", "# What moves has a rate, a letter of its own; notation.toml says of what it is the rate."]
@@ -121,7 +121,16 @@ def _notation(paper: Paper, source: str) -> str:
     if functions:
         lines += ["", "# Functions: smooth, real, and otherwise unknown."]
         lines += [f'{item.name} = sp.Function("{item.name}", real=True)' for item in functions]
-    return "\n".join(lines) + "\n" + _PUT
+    return "\n".join(lines) + "\n" + (_PUT if puts else "")
+
+
+def _signs(running: Iterable[Formula]) -> Iterator[str]:
+    """What running text says of signs, as comments."""
+    found = [item for item in running if re.search(r"(?:[<>]|\\[lg]eq?)\s*0\s*$", item.text)]
+    if found:
+        yield "# The paper says of their signs, wherever that is meant to hold:"
+    for item in found:
+        yield from commented(f"line {item.line}: {item.text}", "    ")
 
 
 def _raw(text: str) -> str:
