@@ -247,7 +247,8 @@ class _Rates:
             if node.func.__name__ in self.guessed.states and not (node == side and sides == 2):
                 return f"{node} is a value along a trajectory; a claim about it says which system it solves"
         for node in side.atoms(sp.Limit, sp.Integral):
-            moving = [s.name for s in node.args[0].free_symbols if s.name in self.guessed.states]
+            moves = {*self.guessed.states, *self.rates}
+            moving = sorted(s.name for s in node.args[0].free_symbols if s.name in moves)
             if moving and {s.name for s in node.atoms(sp.Symbol)} & set(self.guessed.times):
                 return f"{moving[0]} moves, and this speaks of all of its trajectory"
         if names := [s.name for s in side.free_symbols if s.name in RESERVED]:
