@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
@@ -87,6 +87,7 @@ def read_with_guesses(source: str) -> Paper:
     said = [reader.said(item, formulas.macros) for item in formulas.displayed]
     named = _Rates(guessed)
     translated = tuple(named.translated(item) for item in said)
+    named.declare_rest(translated)
     return Paper(
         outline(source), translated, formulas.running, {**guessed.declared, **named.declared}, named.rates,
         named.moved, guessed.generic, guessed.states, guessed.table(named.rates),
@@ -281,6 +282,13 @@ class _Rates:
             self.moved[name] = moved, time
             self.names[node] = sp.Symbol(name, real=True)
         return self.names[node]
+
+    def declare_rest(self, every: Iterable[Said]) -> None:
+        """Declare what formulas speak of and the paper has no letter for: names that are bound."""
+        for pair in (pair for said in every if said.reading for pair in said.reading.pairs):
+            for symbol in sorted(pair.left.atoms(sp.Symbol) | pair.right.atoms(sp.Symbol), key=str):
+                if symbol.name.isidentifier() and symbol.name not in {**self.guessed.declared, **self.declared}:
+                    self.declared[symbol.name] = Declared(symbol.name, symbol.name.replace("_", r"\_"), 0)
 
     def glyph(self, name: str) -> str:
         return self.guessed.declared[name].glyph if name in self.guessed.declared else name
