@@ -267,6 +267,8 @@ class _Guessing:
 
 def rate_name(moved: str, time: str, single: bool, taken: Iterable[str]) -> str:
     """A name for the rate of ``moved`` along ``time``, which needs no mention where there is only one."""
+    if single and moved.endswith("_dot"):
+        return unused(f"{moved.removesuffix('dot')}ddot", taken)
     return unused(f"{moved}_dot" if single else f"{moved}_by_{time}", taken)
 
 

@@ -73,7 +73,7 @@ def _walk(tokens: list[Token], integral: bool, along: str = "") -> Iterator[Occu
                 below, after = argument(tokens, after, token)
                 yield from _quotient(above, below, tokens, after, integral)
                 position = after
-            elif text == r"\dot":
+            elif text in (r"\dot", r"\ddot"):
                 inside, after = argument(tokens, position + 1, token)
                 after = _behind(tokens, after)
                 yield from _walk(

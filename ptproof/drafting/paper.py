@@ -196,7 +196,7 @@ def _alone(side: Sequence[Token]) -> str:
     """The letter that is all of a side, a dot over it and its arguments aside."""
     tokens = list(side[1:] if side and side[0].text == "-" else side)
     try:
-        if tokens and tokens[0].text == r"\dot":
+        if tokens and tokens[0].text in (r"\dot", r"\ddot"):
             inside, after = argument(tokens, 1, tokens[0])
             tokens = [*inside, *tokens[after:]]
         named = name_at(tokens, 0)
@@ -263,6 +263,8 @@ class _Rates:
         moved = node.args[0]
         if moved.is_Symbol:
             return True
+        if moved.func is RATE:
+            return self.has_name(moved)
         return (
             isinstance(moved, sp.core.function.AppliedUndef)
             and moved.func is not RATE
@@ -272,13 +274,17 @@ class _Rates:
     def name(self, node: sp.Expr) -> sp.Symbol:
         if node not in self.names:
             moved, time = node.args
+            said = str(moved)
+            if moved.func is RATE:
+                moved = self.name(moved)
+                said = self.rates[moved.name]
             word = str(moved.func.__name__ if moved.args else moved)
-            name = rate_name(word, str(time), len(self.guessed.times) == 1, {**self.guessed.declared, **self.declared})
-            line = self.guessed.declared[word].line if word in self.guessed.declared else 0
-            glyph = self.guessed.declared[word].glyph if word in self.guessed.declared else word
+            known = {**self.guessed.declared, **self.declared}
+            name = rate_name(word, str(time), len(self.guessed.times) == 1, known)
+            line, glyph = (known[word].line, known[word].glyph) if word in known else (0, word)
             dotted = rf"\dot{{{glyph}}}" if str(time) == "t" else rf"\frac{{d {glyph}}}{{d {self.glyph(str(time))}}}"
             self.declared[name] = Declared(name, dotted, line)
-            self.rates[name] = f"rate({moved}, {time})"
+            self.rates[name] = f"rate({said}, {time})"
             self.moved[name] = moved, time
             self.names[node] = sp.Symbol(name, real=True)
         return self.names[node]

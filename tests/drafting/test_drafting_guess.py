@@ -115,3 +115,9 @@ def test_an_operator_that_the_paper_declares_is_a_word():
 def test_a_dotted_matrix_function_with_a_transpose_is_no_product_with_its_time():
     found = read(r"Y(t) = \begin{bmatrix} a & b \\ c & p \end{bmatrix}", r"\dot{Y}^\top(t) = Y(t)")
     assert str(found.said[1].reading.pairs[0]) == "Y11_dot = Y11"
+
+
+def test_a_rate_of_a_rate_has_a_name():
+    found = read(r"\ddot{x} = -\dot{x}", r"\frac{\mathrm{d}}{\mathrm{d} t} \dot{x} = -x")
+    assert dict(found.rates) == {"x_dot": "rate(x, t)", "x_ddot": "rate(rate(x, t), t)"}
+    assert [str(said.reading) for said in found.said] == ["x_ddot = -x_dot", "x_ddot = -x"]

@@ -66,14 +66,19 @@ class Calculus(Letters):
             return value.applyfunc(lambda entry: RATE(entry, time))
         return RATE(value, time)
 
-    def read_dot(self, at: Token) -> Any:
+    def read_dot(self, at: Token, order: int = 1) -> Any:
         tokens = self.argument(at)
         if not self.notation.dot:
             raise self.refuse("derivative", "the notation does not say along what a dot is taken", at)
-        # An index, and what the letter is applied to, stand behind the dot; so does an exponent between the two.
+        time = self.notation.vocabulary.symbol(self.notation.dot)
+        # An index, and what the letter is applied to, stand behind the dot.
         value, exponent = self.dotted(tokens, at)
-        moved = self.along(value, self.notation.vocabulary.symbol(self.notation.dot))
-        return self.raised(moved, exponent, at) if exponent else moved
+        for _ in range(order):
+            value = self.along(value, time)
+        return self.raised(value, exponent, at) if exponent else value
+
+    def read_ddot(self, at: Token) -> Any:
+        return self.read_dot(at, 2)
 
     def read_nabla(self, at: Token) -> Any:
         if self.text == "^":

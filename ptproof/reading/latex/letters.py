@@ -105,20 +105,18 @@ class Letters(Cursor):
         return values
 
     def dotted(self, tokens: list[Token], at: Token) -> tuple[Any, list[Token]]:
-        """What a dot stands over: a letter, with the index and the arguments that stand behind it; and its exponent."""
+        """What a dot stands over: a letter, with the index and the arguments behind it; and the exponent there."""
         low: list[Token] = []
         high: list[Token] = []
-        if self.text == "_":
-            self.take()
-            low = self.argument(at)
-        key, start = spelling([*tokens, *_script("_", low)]), self.position
-        if self.text == "^" and key in self.notation.functions:
-            self.take()
-            high = self.argument(at)
+        while self.text in ("_", "^") and not (low if self.text == "_" else high):
+            if self.take().text == "_":
+                low = self.argument(at)
+            else:
+                high = self.argument(at)
+        key = spelling([*tokens, *_script("_", low)])
         if key in self.notation.functions and (self.text == "(" or key not in self.notation.letters):
             return self.applied(key, [], at), high
-        self.position = start
-        return self.inner([*tokens, *_script("_", low)]), []
+        return self.inner([*tokens, *_script("_", low)]), high
 
     def named_norm(self, inside: list[Token], low: list[Token]) -> sp.Expr | None:
         """The norm of which the notation says what it means."""
