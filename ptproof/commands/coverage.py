@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping, Sequence, Set
 from typing import TYPE_CHECKING
 
 import click
 
 from ptproof.commands import options
+from ptproof.commands.papers import Opened, opened
 
 if TYPE_CHECKING:
+    from ptproof.proof.load import Derivation
     from ptproof.report.coverage import Coverage
     from ptproof.report.printed import Compared
 
@@ -20,7 +22,9 @@ if TYPE_CHECKING:
 @options.derivations
 @options.as_json
 def coverage(paper: str, paths: tuple[str, ...], as_json: bool) -> int:
-    """Show which equations of PAPER.tex the claims below each PATH cover (the shipped derivation where left out).
+    """Show which equations of PAPER.tex the claims below each PATH cover (the shipped derivations where left out).
+
+    Where there are several derivations, the one that names most labels of the paper is taken for its own.
 
     Each displayed formula is read from the source, by the table notation.toml beside the derivation, and held against
     what the claims that cover it say: equal, different, or not read and why.
@@ -40,7 +44,8 @@ def coverage(paper: str, paths: tuple[str, ...], as_json: bool) -> int:
     labels, formulas = equation_labels(source), find_formulas(source)
     if not labels and not formulas.displayed:
         raise InputError(rf"{paper}: no \label stands in an equation; name the LaTeX source of the paper")
-    with options.loaded(paths) as derivation:
+    with opened(paths) as papers:
+        name, derivation = _own(papers, {*labels, *all_labels(source)}, paper)
         found = match(labels, [*derivation.claims, *derivation.definitions], all_labels(source))
         for label, ids in found.stale:
             click.echo(f"ptproof: {paper} has no label {label}, which is named by {', '.join(ids)}", err=True)
@@ -49,11 +54,28 @@ def coverage(paper: str, paths: tuple[str, ...], as_json: bool) -> int:
         running = {"found": len(formulas.running), "read": readable(formulas, notation)}
         if as_json:
             read = {"formulas": [item.to_json() for item in compared], "running": running}
-            options.print_json({**found.to_json(), **read})
+            options.print_json({**found.to_json(), "paper": name, **read})
         else:
+            if len(papers) > 1:
+                click.echo(f"{paper} is held against {name}", err=True)
             _show(found)
             _show_formulas(compared, running)
     return 0 if found.complete and all(item.read != "different" for item in compared) else 1
+
+
+def _own(papers: Sequence[Opened], labels: Set[str], tex: str) -> tuple[str, Derivation]:
+    """The derivation that names most of the labels, with its name; if there is but one, that one."""
+    from ptproof.errors import InputError
+
+    derivations = {paper.name: paper.derivation for paper in papers if paper.derivation is not None}
+    named = {
+        name: len(labels & {label for item in (*found.claims, *found.definitions) for label in item.labels})
+        for name, found in derivations.items()
+    }
+    best = [name for name, number in named.items() if number == max(named.values())]
+    if len(best) > 1:
+        raise InputError(f"{tex}: {', '.join(best)} name as many of its labels; name the folder that is about it")
+    return best[0], derivations[best[0]]
 
 
 def _show(found: Coverage) -> None:
@@ -77,7 +99,6 @@ def _show_formulas(compared: Sequence[Compared], running: Mapping[str, int]) -> 
 
     console = output()
     count = Counter(item.read for item in compared)
-    styles = {"different": "bold red", "not read": "yellow"}
     styles = {"different": "bold red", "not read": "yellow"}
     others = [item for item in compared if item.read != "equal"]
     rows = [
