@@ -52,6 +52,39 @@ def test_a_report_is_written_and_its_place_named(folder, tmp_path, capsys):
     assert str(tmp_path) not in (tmp_path / "out" / "index.html").read_text()
 
 
+@pytest.fixture
+def papers(folder, tmp_path):
+    """Two papers in one folder: the figures of the first cannot be drawn."""
+    (folder / "figures.py").write_text(FIGURES.replace("{body}", "raise ValueError('no picture')"))
+    other = tmp_path / "other"
+    other.mkdir()
+    (other / "claims.py").write_text(GOOD.replace("{right}", "2 * x"))
+    (other / "figures.py").write_text(FIGURES.replace("{body}", "pass"))
+    return folder, other
+
+
+def test_several_papers_have_a_folder_each_and_a_page_above(papers, tmp_path, capsys):
+    out = tmp_path / "out"
+    assert status(*papers, "--out", out, "--single") == 1
+    for name in ("index.html", "report.md", "derivation/index.html", "other/report.md", "other/report.html"):
+        assert (out / name).is_file()
+    assert (out / "other" / "figures" / "f.svg").is_file()
+    assert not (out / "derivation" / "figures").exists()
+    said = capsys.readouterr()
+    assert "derivation: The figures could not be drawn: ValueError: no picture" in said.err
+    assert "derivation: 1 claims: 1 proved" in said.out
+    assert str(out / "other" / "index.html") in said.out
+    status(papers[1], "--out", out)  # of one paper again: what was of the others goes
+    assert not (out / "derivation").exists()
+    assert (out / "statements.html").is_file()
+
+
+def test_a_paper_that_cannot_be_loaded_is_bad_input_and_nothing_is_written(papers, tmp_path):
+    (papers[1] / "claims.py").write_text("nonsense(")
+    assert status(*papers, "--out", tmp_path / "out") == 2
+    assert not (tmp_path / "out").exists()
+
+
 def test_what_is_unexpected_is_status_1_and_the_report_is_written(folder, tmp_path):
     (folder / "claims.py").write_text(GOOD.replace("{right}", "3 * x"))
     assert status(folder, "--out", tmp_path / "out") == 1

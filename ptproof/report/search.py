@@ -1,0 +1,38 @@
+"""The index of a report for the search on its pages: a script, since a page that is a file may not fetch another."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from ptproof.report.model import Report
+
+
+def search_index(report: Report, places: Mapping[str, str]) -> str:
+    """A script that sets ``PTPROOF`` to the pages and, for each claim and definition, where it is and what is found.
+
+    ``places`` says on which page each anchor stands.
+    """
+    pages = list(dict.fromkeys(places.values()))
+    number = {page: place for place, page in enumerate(pages)}
+    entries = [[number[places[anchor]], anchor, *rest] for anchor, *rest in _entries(report)]
+    sections = [[number[places[item.anchor]], item.anchor, item.title] for item in report.sections]
+    data = {"pages": pages, "entries": entries, "sections": sections}
+    # Within a script nothing may end it, also where the index is put into a page.
+    text = json.dumps(data, ensure_ascii=False, separators=(",", ":")).replace("<", "\\u003c")
+    return f"window.PTPROOF = {text.replace(chr(0x2028), chr(0x5C) + 'u2028').replace(chr(0x2029), chr(0x5C) + 'u2029')};\n"
+
+
+def _entries(report: Report) -> Iterator[list[Any]]:
+    for section in report.sections:
+        for item in section.definitions:
+            yield [item.ref.anchor, item.ref.id, item.ref.title, "", _words(item.labels, item.words, item.prose)]
+        for claim in section.claims:
+            said = (claim.erratum.wrong, claim.erratum.survives) if claim.erratum else ()
+            words = _words(claim.labels, claim.place, claim.words, claim.prose, *said)
+            yield [claim.ref.anchor, claim.ref.id, claim.ref.title, claim.status.key, words]
+
+
+def _words(labels: tuple[str, ...], *texts: str) -> str:
+    return " ".join(" ".join([*labels, *texts]).split())
