@@ -19,9 +19,11 @@ def search_index(report: Report, places: Mapping[str, str]) -> str:
     entries = [[number[places[anchor]], anchor, *rest] for anchor, *rest in _entries(report)]
     sections = [[number[places[item.anchor]], item.anchor, item.title] for item in report.sections]
     data = {"pages": pages, "entries": entries, "sections": sections}
-    # Within a script nothing may end it, also where the index is put into a page.
-    text = json.dumps(data, ensure_ascii=False, separators=(",", ":")).replace("<", "\\u003c")
-    return f"window.PTPROOF = {text.replace(chr(0x2028), chr(0x5C) + 'u2028').replace(chr(0x2029), chr(0x5C) + 'u2029')};\n"
+    # Nothing in it may end the script, also where the index is put into a page, and no line may be broken in a text.
+    text = json.dumps(data, ensure_ascii=False, separators=(",", ":"))
+    for character in ("<", "\u2028", "\u2029"):
+        text = text.replace(character, f"\\u{ord(character):04x}")
+    return f"window.PTPROOF = {text};\n"
 
 
 def _entries(report: Report) -> Iterator[list[Any]]:

@@ -30,7 +30,7 @@ _LINK = re.compile(r'(<a\b[^<>]*? ?href=")#([^"<>]+)"')
 
 @dataclass(frozen=True)
 class Page:
-    """What stands on a page: its file, its title, its content with links by anchors, and its section, if it is of one."""
+    """A page: its file, its title, its content with links by anchors alone, and the anchor of its section, if any."""
 
     file: str
     title: str
@@ -229,5 +229,6 @@ def _skeleton(
     title = page.title if page.title == report.title else f"{page.title} · {report.title}"
     return html().get_template("page.html.j2").render(
         title=title, brand=report.title, parts=parts, sections=report.sections, current=page.section,
-        side=alone or bool(page.section), turn=turn, body=Markup(page.body), alone=alone, above=above, style=Markup(style()), script=Markup(script()),
+        side=alone or bool(page.section), turn=turn, body=Markup(page.body), alone=alone, above=above,
+        style=Markup(style()), script=Markup(script()),
     )  # fmt: skip
