@@ -6,8 +6,8 @@ both sides the same by exact algebra, up to sides swapped. A correction counts f
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, Literal
 
@@ -18,6 +18,14 @@ from ptproof.reading.latex.tokens import NotUnderstood
 from ptproof.report.stated import Item, Printed, Stated, stated
 
 Read = Literal["equal", "different", "not read"]
+
+
+@dataclass(frozen=True)
+class Part:
+    """Which of a claim's own relations, by number, a formula is; how many there are."""
+
+    parts: frozenset[int]
+    of: int
 
 
 @dataclass(frozen=True)
@@ -38,6 +46,12 @@ class Compared:
         In words: what was not understood and where, or both sides of what is different.
     statement
         What was read.
+    covered
+        All that covers it.
+    said
+        What each claim or definition that says it says of it.
+    beside
+        Of a formula that is different: what comes nearest.
     """
 
     formula: Formula
@@ -46,6 +60,9 @@ class Compared:
     kind: str = ""
     detail: str = ""
     statement: str = ""
+    covered: tuple[str, ...] = ()
+    said: Mapping[str, Part] = field(default_factory=dict)
+    beside: str = ""
 
     def to_json(self) -> dict[str, Any]:
         return {
@@ -76,6 +93,11 @@ def _can_be_read(formula: Formula, formulas: Formulas, source: Printed) -> bool:
 def compare(formula: Formula, formulas: Formulas, source: Printed) -> Compared:
     """Read one formula and hold it against what covers it."""
     items = source.covering(formula)
+    found = _compared(formula, formulas, source, items)
+    return replace(found, covered=tuple(item.id for item in items))
+
+
+def _compared(formula: Formula, formulas: Formulas, source: Printed, items: tuple[Item, ...]) -> Compared:
     ids = tuple(item.id for item in items)
     if not source.known:
         return Compared(formula, ids, "not read", "notation", f"{source.where}, so that no letter means anything")
@@ -123,7 +145,18 @@ class _Comparison:
             *self.reading.unread,
             *(f"no claim says what stands at a brace, {p}" for p in self.reading.braces if self.saying(p) is None),
         ]  # fmt: skip
-        return Compared(self.formula, tuple(used), "equal", "", "; ".join(remarks), str(self.reading))
+        return Compared(
+            self.formula, tuple(used), "equal", "", "; ".join(remarks), str(self.reading), said=self.said(used)
+        )
+
+    def said(self, used: Iterable[str]) -> dict[str, Part]:
+        """What each that says a relation of this formula says of it; ``used`` may say it among what it assumes."""
+        found: dict[str, Part] = {}
+        for says in self.candidates():
+            parts = frozenset[int]().union(*map(says.parts, (*self.reading.pairs, *self.reading.conditions)))
+            if parts or says.id in used:
+                found[says.id] = Part(parts, len(says.pairs))
+        return found
 
     def saying(self, pair: Pair) -> Stated | None:
         """The first that has both sides of this relation, if it has them in this relation.
@@ -146,4 +179,4 @@ class _Comparison:
         nearest, claimed = max(entries, key=lambda entry: entry[0].nearness(entry[1], pair))
         beside = f"for all {pair}" if condition else str(nearest.spoken(pair))
         detail = f"the paper: {beside}; {nearest.id}: {claimed}"
-        return Compared(self.formula, ids, "different", "", detail, str(self.reading))
+        return Compared(self.formula, ids, "different", "", detail, str(self.reading), beside=nearest.id)

@@ -96,16 +96,25 @@ class Stated:
 
         False where it has the two sides in another relation, None where it says nothing of them.
         """
-        pair = self.spoken(wanted)
         found: bool | None = None
-        for own in (*self.pairs, *self.given):
-            if same(own.left, pair.left) and same(own.right, pair.right):
-                found = own.sign == pair.sign
-            elif same(own.left, pair.right) and same(own.right, pair.left):
-                found = own.sign == MIRRORED[pair.sign]
-            if found:
+        for _, agrees in self._meeting(wanted):
+            if agrees:
                 return True
+            found = False
         return found
+
+    def parts(self, wanted: Pair) -> frozenset[int]:
+        """Which of the relations that the claim itself states this is, by number."""
+        return frozenset(n for n, agrees in self._meeting(wanted) if agrees and n < len(self.pairs))
+
+    def _meeting(self, wanted: Pair) -> Iterator[tuple[int, bool]]:
+        """The relations stated or assumed that have these two sides, and whether they stand in this relation."""
+        pair = self.spoken(wanted)
+        for number, own in enumerate((*self.pairs, *self.given)):
+            if same(own.left, pair.left) and same(own.right, pair.right):
+                yield number, own.sign == pair.sign
+            elif same(own.left, pair.right) and same(own.right, pair.left):
+                yield number, own.sign == MIRRORED[pair.sign]
 
     def nearness(self, own: Pair, wanted: Pair) -> int:
         """How near one relation of the claim comes to a relation of the paper."""
