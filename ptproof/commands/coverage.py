@@ -12,6 +12,7 @@ from ptproof.commands import options
 from ptproof.commands.papers import Opened, opened
 
 if TYPE_CHECKING:
+    from ptproof.proof.claim import Claim, Definition
     from ptproof.proof.load import Derivation
     from ptproof.report.coverage import Coverage
     from ptproof.report.printed import Compared
@@ -68,14 +69,16 @@ def _own(papers: Sequence[Opened], labels: Set[str], tex: str) -> tuple[str, Der
     from ptproof.errors import InputError
 
     derivations = {paper.name: paper.derivation for paper in papers if paper.derivation is not None}
-    named = {
-        name: len(labels & {label for item in (*found.claims, *found.definitions) for label in item.labels})
-        for name, found in derivations.items()
-    }
+    named = {name: len(labels & _labels(found)) for name, found in derivations.items()}
     best = [name for name, number in named.items() if number == max(named.values())]
     if len(best) > 1:
         raise InputError(f"{tex}: {', '.join(best)} name as many of its labels; name the folder that is about it")
     return best[0], derivations[best[0]]
+
+
+def _labels(derivation: Derivation) -> set[str]:
+    items: list[Claim | Definition] = [*derivation.claims, *derivation.definitions]
+    return {label for item in items for label in item.labels}
 
 
 def _show(found: Coverage) -> None:

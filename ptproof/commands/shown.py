@@ -61,10 +61,12 @@ class Shown:
 
 
 def together(found: Mapping[str, Shown]) -> dict[str, Any]:
-    """The JSON of all papers: each claim says of which it is, and the sums are over all of them.
+    """The JSON of all papers: if there are several, each claim says of which it is, and the sums are over all of them.
 
     An id that stands in two of the papers is written ``paper:id``.
     """
+    if len(found) == 1:
+        return dict(*(shown.json for shown in found.values()))
     twice = shared({name: [claim["id"] for claim in shown.claims] for name, shown in found.items()})
     claims = [
         {
