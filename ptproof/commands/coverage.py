@@ -46,7 +46,7 @@ def coverage(paper: str, paths: tuple[str, ...], as_json: bool) -> int:
     if not labels and not formulas.displayed:
         raise InputError(rf"{paper}: no \label stands in an equation; name the LaTeX source of the paper")
     with opened(paths) as papers:
-        name, derivation = _own(papers, {*labels, *all_labels(source)}, paper)
+        name, derivation = own(papers, {*labels, *all_labels(source)}, paper)
         found = match(labels, [*derivation.claims, *derivation.definitions], all_labels(source))
         for label, ids in found.stale:
             click.echo(f"ptproof: {paper} has no label {label}, which is named by {', '.join(ids)}", err=True)
@@ -64,7 +64,7 @@ def coverage(paper: str, paths: tuple[str, ...], as_json: bool) -> int:
     return 0 if found.complete and all(item.read != "different" for item in compared) else 1
 
 
-def _own(papers: Sequence[Opened], labels: Set[str], tex: str) -> tuple[str, Derivation]:
+def own(papers: Sequence[Opened], labels: Set[str], tex: str) -> tuple[str, Derivation]:
     """The derivation that names most of the labels, with its name; if there is but one, that one."""
     from ptproof.errors import InputError
 

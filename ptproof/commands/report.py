@@ -14,12 +14,13 @@ from ptproof.errors import InputError
 from ptproof.reading.outcomes import in_words
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from ptproof.proof.load import Derivation
     from ptproof.proof.result import Verification
     from ptproof.report.content import Figure, Table
     from ptproof.report.model import Report
+    from ptproof.report.read import ReadSide
 
 
 @click.command()
@@ -30,13 +31,19 @@ if TYPE_CHECKING:
 @options.timeout("one claim")
 @options.fresh
 @click.option("--no-figures", is_flag=True, help="Leave out the simulations and their figures.")
+@click.option(
+    "--paper", "sources", multiple=True, metavar="FILE.tex", help="A paper's LaTeX, to read its printed sides from."
+)
 @click.option("--single", is_flag=True, help="Also write report.html: all of it in one file, for mailing.")
-def report(paths: tuple[str, ...], out: str, fresh: bool, no_figures: bool, single: bool, **how: Any) -> int:
+def report(
+    paths: tuple[str, ...], out: str, fresh: bool, no_figures: bool, sources: tuple[str, ...], single: bool, **how: Any
+) -> int:
     """Verify the claims below each PATH (the shipped derivations where left out) and write the report.
 
     Writes index.html and the pages that it leads to, report.md, graph.svg and figures/ into FOLDER; of several papers
-    each into a folder of its own name in it, and a page above them. Exit status 1 if a claim did not come out as its
-    author recorded, or a figure could not be drawn; the report is written all the same.
+    each into a folder of its own name in it, and a page above them. With --paper each card says whether what the paper
+    prints was read from its source and is what is claimed. Exit status 1 if a claim did not come out as its author
+    recorded, a figure could not be drawn, or the paper prints something else; the report is written all the same.
     """
     from ptproof.proof.run import Interrupted
     from ptproof.report.writing import check_place
@@ -44,6 +51,7 @@ def report(paths: tuple[str, ...], out: str, fresh: bool, no_figures: bool, sing
     place = check_place(out)
     decided: dict[str, Verification] = {}
     with opened(paths, fresh) as papers:
+        read = _read(papers, sources)
         for paper in papers:
             try:
                 decided[paper.name] = _decided(paper, **how)
@@ -52,7 +60,7 @@ def report(paths: tuple[str, ...], out: str, fresh: bool, no_figures: bool, sing
                 _summarize({**decided, paper.name: interrupted.verification})
                 return status
         try:
-            return _write(place, papers, decided, no_figures, single)
+            return _write(place, papers, decided, read, no_figures, single)
         except KeyboardInterrupt:  # nothing is half written, and what is decided is shown
             _summarize(decided)
             if guard.own_interrupt():
@@ -76,14 +84,38 @@ def _derivation(paper: Opened) -> Derivation:
     return paper.derivation
 
 
+def _read(papers: Sequence[Opened], sources: Sequence[str]) -> dict[str, Mapping[str, ReadSide]]:
+    """What became of the printed sides of each paper whose source is given, by the paper's name."""
+    from ptproof.commands.coverage import own
+    from ptproof.reading.latex.source import read_paper
+    from ptproof.report.labels import all_labels
+    from ptproof.report.read import read_sides
+
+    found: dict[str, Mapping[str, ReadSide]] = {}
+    for tex in sources:
+        source = read_paper(tex)
+        name, derivation = own(papers, {*all_labels(source)}, tex)
+        if name in found:
+            raise InputError(f"--paper: {tex} is about {name}, and so is another that is given")
+        found[name] = read_sides(source, derivation)
+    return found
+
+
 def _write(
-    place: Path, papers: Sequence[Opened], decided: dict[str, Verification], no_figures: bool, single: bool
+    place: Path,
+    papers: Sequence[Opened],
+    decided: dict[str, Verification],
+    read: Mapping[str, Mapping[str, ReadSide]],
+    no_figures: bool,
+    single: bool,
 ) -> int:
     from ptproof.report.pages import all_files
     from ptproof.report.writing import write_report
 
     guard.doing("while the report was made; none is written")
-    composed = {paper.name: _composed(paper, decided[paper.name], no_figures) for paper in papers}
+    composed = {
+        paper.name: _composed(paper, decided[paper.name], read.get(paper.name, {}), no_figures) for paper in papers
+    }
     write_report(place, all_files({name: content for name, (content, _) in composed.items()}, single=single))
     _summarize(decided)
     several = len(composed) > 1
@@ -92,14 +124,18 @@ def _write(
         for claim in content.unexpected:
             words = f"{claim.ref.id}: expected {claim.expected}, came out {claim.status.word}"
             click.echo(f"ptproof: {of}{words}", err=True)
+        for ref in content.read.get("different", ()):
+            click.echo(f"ptproof: {of}{ref.id}: the paper prints something else", err=True)
         for note in failures:
             click.echo(f"ptproof: {of}{note}", err=True)
     _name_places(place, tuple(composed) if several else (), single)
-    failed = any(failures for _, failures in composed.values())
+    failed = any(failures or "different" in content.read for content, failures in composed.values())
     return 0 if all(found.as_expected for found in decided.values()) and not failed else 1
 
 
-def _composed(paper: Opened, verification: Verification, no_figures: bool) -> tuple[Report, tuple[str, ...]]:
+def _composed(
+    paper: Opened, verification: Verification, read: Mapping[str, ReadSide], no_figures: bool
+) -> tuple[Report, tuple[str, ...]]:
     """The content of the report, and what could not be drawn."""
     from ptproof.report.compose import compose
     from ptproof.report.letters import notation_of, title_of
@@ -109,7 +145,7 @@ def _composed(paper: Opened, verification: Verification, no_figures: bool) -> tu
     figures, tables, failures = ((), (), ()) if no_figures else _drawn(derivation)
     content = compose(
         verification, derivation, title=title_of(derivation), notation=notation_of(derivation),
-        versions=versions(), figures=figures, appendix=tables, notes=failures,
+        versions=versions(), figures=figures, appendix=tables, notes=failures, read=read,
     )  # fmt: skip
     return content, failures
 

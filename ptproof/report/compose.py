@@ -6,6 +6,7 @@ import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from types import MappingProxyType
 
 from ptproof.proof.claim import Claim, Definition
 from ptproof.proof.load import Derivation
@@ -16,6 +17,7 @@ from ptproof.report.content import Figure, Table
 from ptproof.report.formula import domain_of, statement_lines
 from ptproof.report.letters import Notation
 from ptproof.report.model import ClaimView, DefinitionView, Erratum, Ref, Report, Section
+from ptproof.report.read import ReadSide
 from ptproof.report.status import Status, status_of
 from ptproof.report.witness import witness_view
 
@@ -30,6 +32,7 @@ def compose(
     figures: Sequence[Figure] = (),
     appendix: Sequence[Table] = (),
     notes: Sequence[str] = (),
+    read: Mapping[str, ReadSide] = MappingProxyType({}),
 ) -> Report:
     """Put the content of the report together.
 
@@ -43,11 +46,13 @@ def compose(
         Of the libraries.
     figures, appendix, notes
         Pictures and tables from elsewhere, and what the reader has to know, such as a figure that could not be drawn.
+    read
+        What became of printed sides in the paper's own source, by id.
     """
     letters = notation or Notation()
     results = {result.claim.id: result for result in verification.results}
     refs = _refs(verification.results, derivation.definitions, results)
-    composer = _Composer(results, refs, letters.glyphs)
+    composer = _Composer(results, refs, letters.glyphs, read)
     views = {result.claim.id: composer.claim(result) for result in verification.results}
     sections = _sections(
         [views[result.claim.id] for result in verification.results],
@@ -93,8 +98,14 @@ def _labels(sections: Sequence[Section]) -> tuple[tuple[str, tuple[Ref, ...]], .
 
 
 class _Composer:
-    def __init__(self, results: Mapping[str, Result], refs: Mapping[str, Ref], glyphs: Mapping[object, str]) -> None:
-        self.results, self.refs, self.glyphs = results, refs, glyphs
+    def __init__(
+        self,
+        results: Mapping[str, Result],
+        refs: Mapping[str, Ref],
+        glyphs: Mapping[object, str],
+        read: Mapping[str, ReadSide],
+    ) -> None:
+        self.results, self.refs, self.glyphs, self.read = results, refs, glyphs, read
         self.users: dict[str, list[str]] = {}
         self.corrections: dict[str, list[str]] = {}
         for result in results.values():
@@ -131,13 +142,15 @@ class _Composer:
             corrected_by=self.links(self.corrections.get(claim.id, [])),
             prose=claim.prose,
             erratum=claim.erratum,
+            read=self.read.get(claim.id),
         )
 
     def definition(self, item: Definition) -> DefinitionView:
         words = item.statement.text if isinstance(item.statement, Prose) else ""
         return DefinitionView(
-            self.refs[item.id], item.labels, statement_lines(item.statement, self.glyphs), words, item.prose
-        )
+            self.refs[item.id], item.labels, statement_lines(item.statement, self.glyphs), words, item.prose,
+            self.read.get(item.id),
+        )  # fmt: skip
 
 
 def _hits(verification: Verification) -> tuple[str, ...]:

@@ -34,6 +34,11 @@ class Mark:
         """Whether the statement is the paper's own."""
         return self.claim.corrects is None and bool(self.claim.labels or self.claim.place)
 
+    @property
+    def read(self) -> bool:
+        """Whether a machine has read it in the paper's source, and it is the same."""
+        return self.claim.read is not None and self.claim.read.read == "equal"
+
 
 @dataclass(frozen=True)
 class Group:

@@ -85,6 +85,30 @@ def test_a_paper_that_cannot_be_loaded_is_bad_input_and_nothing_is_written(paper
     assert not (tmp_path / "out").exists()
 
 
+PAPER = r"\begin{document}\begin{equation} y = %s \label{eq:one} \end{equation}\end{document}"
+
+
+@pytest.mark.parametrize(("printed", "ends", "word"), [("2 x", 0, "equal"), ("3 x", 1, "different")])
+def test_the_printed_side_is_read_from_the_papers_source(folder, tmp_path, capsys, printed, ends, word):
+    body = GOOD.replace("x + x, {right})", 'sp.Symbol("y", real=True), 2 * x), labels=["eq:one"], expected="refuted"')
+    (folder / "claims.py").write_text(body)
+    (folder / "__init__.py").touch()
+    (folder / "notation.toml").write_text('letters = { x = "x", y = "y" }')
+    (tmp_path / "paper.tex").write_text(PAPER % printed)
+    assert status(folder, "--out", tmp_path / "out", "--paper", tmp_path / "paper.tex") == ends
+    assert ("the paper prints something else" in capsys.readouterr().err) is (word == "different")
+    for name in ("section-claims.html", "report.md"):
+        assert f"printed side read from the source: {word}" in (tmp_path / "out" / name).read_text()
+    for name in ("index.html", "report.md"):
+        assert "Printed sides read from the paper's source" in (tmp_path / "out" / name).read_text()
+
+
+def test_a_paper_that_is_not_there_is_bad_input_before_anything_runs(folder, tmp_path, capsys):
+    assert status(folder, "--out", tmp_path / "out", "--paper", tmp_path / "gone.tex") == 2
+    assert "gone.tex" in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()
+
+
 def test_what_is_unexpected_is_status_1_and_the_report_is_written(folder, tmp_path):
     (folder / "claims.py").write_text(GOOD.replace("{right}", "3 * x"))
     assert status(folder, "--out", tmp_path / "out") == 1

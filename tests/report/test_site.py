@@ -12,6 +12,7 @@ from ptproof.report.headline import headline, plain
 from ptproof.report.model import Ref, Section
 from ptproof.report.pages import all_files
 from ptproof.report.picture import heading, picture
+from ptproof.report.read import ReadSide
 from ptproof.report.site import packed, site, site_files, slug
 
 HOSTILE = """</script><script>alert(1)</script> "quoted" 'single' & <b> ${x}` \u2028"""
@@ -156,6 +157,16 @@ def test_the_page_above_says_what_came_out_of_each(report):
     for name in ("index.html", "report.md"):
         page = found[name].decode()
         assert all(words in page for words in ("Another", "The mixed term", "one/report.md", "two/report.md"))
+
+
+def test_a_mark_says_what_was_read_from_the_source(report):
+    def strip(word):
+        first, *rest = report.sections[0].claims
+        claims = (replace(first, read=ReadSide(word, ("eq:sum",))), *rest)
+        found = replace(report, sections=(replace(report.sections[0], claims=claims),))
+        return re.search(r'<span class="strip".*?</span>', site_files(site(found))["index.html"].decode()).group()
+
+    assert [strip(word).count(" read ") for word in ("equal", "different", "not read")] == [1, 0, 0]
 
 
 def test_a_hostile_title_stays_text(report):
