@@ -12,12 +12,14 @@ from ptproof.proof.claim import Claim, Definition
 from ptproof.proof.load import Derivation
 from ptproof.proof.result import Result, Verification
 from ptproof.proof.statement import All, Exists, Prose, Relation, relations_of
+from ptproof.proof.verdict import Evidence
 from ptproof.report import status
 from ptproof.report.content import Figure, Table
 from ptproof.report.formula import domain_of, statement_lines
 from ptproof.report.letters import Notation
 from ptproof.report.model import ClaimView, DefinitionView, Erratum, Ref, Report, Section
 from ptproof.report.read import ReadSide
+from ptproof.report.spoken import letters_of, notation_letters, spoken
 from ptproof.report.status import Status, status_of
 from ptproof.report.witness import witness_view
 
@@ -106,6 +108,7 @@ class _Composer:
         read: Mapping[str, ReadSide],
     ) -> None:
         self.results, self.refs, self.glyphs, self.read = results, refs, glyphs, read
+        self.letters = notation_letters(glyphs)
         self.users: dict[str, list[str]] = {}
         self.corrections: dict[str, list[str]] = {}
         for result in results.values():
@@ -133,7 +136,7 @@ class _Composer:
             same=_same(claim),
             domain=domain_of([claim.statement, *claim.assumptions], _bound(claim), self.glyphs),
             given=tuple(statement_lines(item, self.glyphs) for item in claim.assumptions),
-            evidence=tuple(replace(item, detail=_without_places(item.detail)) for item in result.evidence),
+            evidence=self.evidence(result),
             witness=None if witness is None else witness_view(witness, claim, self.glyphs),
             uses=self.links([used.id for used in claim.uses]),
             used_by=self.links(self.users.get(claim.id, [])),
@@ -143,6 +146,15 @@ class _Composer:
             prose=claim.prose,
             erratum=claim.erratum,
             read=self.read.get(claim.id),
+        )
+
+    def evidence(self, result: Result) -> tuple[Evidence, ...]:
+        """What the engines said, in the letters of the paper."""
+        claim = result.claim
+        letters = {**self.letters, **letters_of([claim.statement, *claim.assumptions], self.glyphs)}
+        used = [item.id for item in claim.uses]
+        return tuple(
+            replace(item, detail=spoken(_without_places(item.detail), letters, used)) for item in result.evidence
         )
 
     def definition(self, item: Definition) -> DefinitionView:
