@@ -20,20 +20,28 @@ _PLACED = re.compile(r"([_^])(?:\{((?:[^{}]|\{[^{}]*\})*)\}|(\\[a-zA-Z]+|[^\s\\{
 _SIGNS = (("!=", "≠"), ("<=", "≤"), (">=", "≥"))
 
 
-def notation_letters(names: Mapping[Any, str]) -> dict[str, str]:
-    """How the symbols of a notation are written as plain text, by the names that the program has for them."""
-    return _named((item for item in names if isinstance(item, sp.Symbol)), names)
+class Letters:
+    """How symbols and functions are written as plain text, with the glyphs of a notation; each is looked up once."""
 
+    def __init__(self, names: Mapping[Any, str]) -> None:
+        self._names = names
+        self._known: dict[sp.Symbol, str] = {}
+        self._notation = self._named(item for item in names if isinstance(item, sp.Symbol))
 
-def letters_of(statements: Iterable[Statement | Assumption], names: Mapping[Any, str]) -> dict[str, str]:
-    """The same for the symbols and functions of statements."""
-    said = list(statements)
-    functions = (sp.Symbol(applied.func.__name__) for applied in undefined_functions(said))
-    return {**_named(functions, names), **_named(free_symbols(said), names)}
+    def of(self, statements: Iterable[Statement | Assumption]) -> dict[str, str]:
+        """By the names that the program has for them: those of the statements, and of the notation."""
+        said = list(statements)
+        functions = (sp.Symbol(applied.func.__name__) for applied in undefined_functions(said))
+        return {**self._notation, **self._named(functions), **self._named(free_symbols(said))}
 
+    def _named(self, symbols: Iterable[sp.Symbol]) -> dict[str, str]:
+        found = {item.name: self._written(item) for item in symbols}
+        return {name: text for name, text in found.items() if text not in ("", name)}
 
-def _named(symbols: Iterable[sp.Symbol], names: Mapping[Any, str]) -> dict[str, str]:
-    return {item.name: text for item in symbols if (text := plain(latex(item, names))) not in ("", item.name)}
+    def _written(self, symbol: sp.Symbol) -> str:
+        if symbol not in self._known:
+            self._known[symbol] = plain(latex(symbol, self._names))
+        return self._known[symbol]
 
 
 def spoken(text: str, letters: Mapping[str, str], kept: Iterable[str] = ()) -> str:

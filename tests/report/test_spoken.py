@@ -4,7 +4,7 @@ import pytest
 import sympy as sp
 
 from ptproof.proof.statement import eq, ge
-from ptproof.report.spoken import letters_of, notation_letters, plain, spoken
+from ptproof.report.spoken import Letters, plain, spoken
 
 LETTERS = {"xs1": "x∗₁", "tau": "τ", "gap": "g", "E_norm": "‖E‖", "x1": "x₁"}
 
@@ -42,5 +42,5 @@ def test_names_become_letters_where_they_are_letters(said, written):
 def test_the_letters_are_those_of_the_notation_and_of_the_statement():
     x, tau, F = sp.Symbol("x", real=True), sp.Symbol("tau", real=True), sp.Function("F_e")
     names = {x: r"\bar x"}
-    assert notation_letters(names) == {"x": "x̅"}
-    assert letters_of([ge(F(x), 0), eq(tau, x)], names) == {"x": "x̅", "tau": "τ", "F_e": "Fₑ"}
+    assert Letters(names).of([]) == {"x": "x̅"}
+    assert Letters(names).of([ge(F(x), 0), eq(tau, x)]) == {"x": "x̅", "tau": "τ", "F_e": "Fₑ"}
