@@ -11,11 +11,14 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, Literal
 
+from sympy.core.function import AppliedUndef
+
 from ptproof.reading.latex.formulas import Formula, Formulas
-from ptproof.reading.latex.notation import notation
+from ptproof.reading.latex.notation import meanings, notation
+from ptproof.reading.latex.rewrite import Rules
 from ptproof.reading.latex.statements import Pair, Reading, read_formula
 from ptproof.reading.latex.tokens import NotUnderstood
-from ptproof.report.stated import Item, Printed, Stated, stated
+from ptproof.report.stated import Item, Printed, Stated, same, stated
 
 Read = Literal["equal", "different", "not read"]
 
@@ -138,16 +141,39 @@ class _Comparison:
             *((p, True) for p in self.reading.conditions),
         ]:
             found = self.saying(pair)
-            if found is None:
+            if found is not None:
+                used[found.id] = None
+            elif not self.by_notation(pair):
                 return self.unsaid(pair, condition)
-            used[found.id] = None
+        wrong = [brace for brace in self.reading.braces if self.contradicted(brace)]
+        if wrong:
+            return self.unsaid(wrong[0], False)
+        said = [brace for brace in self.reading.braces if self.saying(brace) or self.by_notation(brace)]
         remarks = [
             *self.reading.unread,
-            *(f"no claim says what stands at a brace, {p}" for p in self.reading.braces if self.saying(p) is None),
+            *(f"no claim says what stands at a brace, {p}" for p in self.reading.braces if p not in said),
         ]  # fmt: skip
+        if not used:
+            used = dict.fromkeys(item.id for item in self.items)
+            remarks.append("the table of notation says it")
         return Compared(
             self.formula, tuple(used), "equal", "", "; ".join(remarks), str(self.reading), said=self.said(used)
         )
+
+    def by_notation(self, pair: Pair) -> bool:
+        """Whether both sides are the same by what the table says of their letters, where something covers this."""
+        return pair.sign == "=" and bool(self.items) and same(self._plain(pair.left), self._plain(pair.right))
+
+    @cached_property
+    def _plain(self) -> Rules:
+        return meanings(self.source.table, self.source.names, self.formula.place, {}, self.source.where)
+
+    def contradicted(self, brace: Pair) -> bool:
+        """Whether a brace gives a name to something else than what the table or a claim says of the name."""
+        if self.saying(brace) is not None or self.by_notation(brace):
+            return False
+        known = not self._plain(brace.left).has(AppliedUndef)
+        return known or any(says.knows(brace.left) for says in self.candidates())
 
     def said(self, used: Iterable[str]) -> dict[str, Part]:
         """What each that says a relation of this formula says of it; ``used`` may say it among what it assumes."""
@@ -167,7 +193,7 @@ class _Comparison:
             verdict = says.says(pair)
             if verdict is not None:
                 return says if verdict else None
-        return None
+        return next((says for says in self.candidates() if says.implies(pair)), None)
 
     def unsaid(self, pair: Pair, condition: bool) -> Compared:
         """A relation that no claim says, beside the one that comes nearest."""

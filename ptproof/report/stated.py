@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
+from typing import Any
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -61,21 +62,25 @@ def printed(derivation: Derivation) -> Printed:
         if (folder / TABLE).is_file():
             known = vars(sys.modules.get(f"{package.__name__}.notation", sys))
             symbols = {value.name: value for value in known.values() if isinstance(value, sp.Symbol)}
+            matrices = {name: value for name, value in known.items() if isinstance(value, sp.MatrixBase)}
             text = read_file(folder / TABLE, "a table of notation")
-            return with_table(derivation, text, str(folder / TABLE), symbols)
+            return with_table(derivation, text, str(folder / TABLE), {**matrices, **symbols})
     return replace(with_table(derivation, "", f"no {TABLE} stands beside the derivation", {}), known=False)
 
 
-def with_table(derivation: Derivation, text: str, where: str, symbols: Mapping[str, sp.Symbol]) -> Printed:
-    """The claims of ``derivation`` with the notation that the table ``text`` says."""
+def with_table(derivation: Derivation, text: str, where: str, known: Mapping[str, Any]) -> Printed:
+    """The claims of ``derivation`` with the notation that the table ``text`` says.
+
+    ``known`` are the symbols and matrices of the derivation's own notation.
+    """
     table = read_table(text, where)
     items: dict[str, list[Item]] = {}
     everything: list[Item] = [*derivation.definitions, *derivation.claims]
     for item in everything:
-        for key in dict.fromkeys([*item.labels, getattr(item, "place", "")]):
+        for key in dict.fromkeys([*item.labels, getattr(item, "place", ""), *says_of(table, item.id).at]):
             if key:
                 items.setdefault(key, []).append(item)
-    return Printed(table, vocabulary(table, symbols), where, {key: tuple(found) for key, found in items.items()})
+    return Printed(table, vocabulary(table, known), where, {key: tuple(found) for key, found in items.items()})
 
 
 @dataclass(frozen=True)
@@ -102,6 +107,25 @@ class Stated:
                 return True
             found = False
         return found
+
+    def implies(self, wanted: Pair) -> bool:
+        """Whether the claim has both sides equal to a third, one after the other."""
+        if wanted.sign != "=":
+            return False
+        pair = self.spoken(wanted)
+        equal = [own for own in (*self.pairs, *self.given) if own.sign == "="]
+        sides: list[sp.Expr] = [pair.left]
+        for side in sides:
+            for own in equal:
+                for mine, other in ((own.left, own.right), (own.right, own.left)):
+                    if same(mine, side) and not any(other == known for known in sides):
+                        sides.append(other)
+        return len(sides) > 1 and any(same(side, pair.right) for side in sides[1:])
+
+    def knows(self, side: sp.Expr) -> bool:
+        """Whether a relation of the claim has this side."""
+        spoken = self.meaning(side)
+        return any(same(spoken, mine) for own in (*self.pairs, *self.given) for mine in (own.left, own.right))
 
     def parts(self, wanted: Pair) -> frozenset[int]:
         """Which of the relations that the claim itself states this is, by number."""
@@ -140,7 +164,7 @@ def stated(item: Item, formula: Formula, source: Printed) -> Stated | None:
 
     parts = relations_of(item.statement)
     left, right = (list(_heads(item.id, texts, formula, source, meaning)) for texts in (says.left, says.right))
-    pairs = [spoken(part) for part in parts] if not (left or right) else []
+    pairs = [spoken(part) for part in parts] if says.both or not (left or right) else []
     for heads, values in ((left, [part.left for part in parts]), (right, [part.right for part in parts])):
         for (before, head), part, value in zip(heads, parts, values, strict=False):
             pairs += before
@@ -197,12 +221,45 @@ def same(left: sp.Expr, right: sp.Expr) -> bool:
     """Whether two expressions are equal by exact algebra; a number that differs says no before that is asked."""
     if left == right:
         return True
+    if isinstance(left, sp.Piecewise) or isinstance(right, sp.Piecewise):
+        return _same_cases(left, right)
     if _number(left) != _number(right):
         return False
-    try:
-        return is_zero(left - right)
-    except (NotAlgebraic, sp.PolynomialError, NotImplementedError):
+    for one, other in ((left, right), (_multiplied_out(left), _multiplied_out(right))):
+        try:
+            if is_zero(one - other):
+                return True
+        except (NotAlgebraic, sp.PolynomialError, NotImplementedError):
+            continue
+    return False
+
+
+def _multiplied_out(expression: sp.Expr) -> sp.Expr:
+    """The expression with its arguments of functions, such as that of a logarithm, multiplied out."""
+    return sp.expand(expression, power_base=False, log=False)
+
+
+def _same_cases(left: sp.Expr, right: sp.Expr) -> bool:
+    """Whether two distinctions of cases have the same values under the same conditions, in the same order."""
+    if not (isinstance(left, sp.Piecewise) and isinstance(right, sp.Piecewise)) or len(left.args) != len(right.args):
         return False
+    return all(
+        same(mine.expr, other.expr) and _same_condition(mine.cond, other.cond)
+        for mine, other in zip(left.args, right.args, strict=True)
+    )
+
+
+def _same_condition(left: Any, right: Any) -> bool:
+    if left == right:
+        return True
+    one, other = (
+        value.canonical if isinstance(value, sp.core.relational.Relational) else value for value in (left, right)
+    )
+    return (
+        isinstance(one, sp.core.relational.Relational)
+        and one.func == other.func
+        and same(one.lhs - one.rhs, other.lhs - other.rhs)
+    )
 
 
 @lru_cache(maxsize=8192)
