@@ -14,7 +14,6 @@ from typing import Any, Literal
 from sympy.core.function import AppliedUndef
 
 from ptproof.reading.latex.formulas import Formula, Formulas
-from ptproof.reading.latex.notation import meanings, notation
 from ptproof.reading.latex.rewrite import Rules
 from ptproof.reading.latex.statements import Pair, Reading, read_formula
 from ptproof.reading.latex.tokens import NotUnderstood
@@ -87,7 +86,7 @@ def readable(formulas: Formulas, source: Printed) -> int:
 
 def _can_be_read(formula: Formula, formulas: Formulas, source: Printed) -> bool:
     try:
-        read_formula(formula, formulas.macros, notation(source.table, source.names, formula.place, source.where))
+        read_formula(formula, formulas.macros, source.letters(formula))
     except NotUnderstood:
         return False
     return True
@@ -104,7 +103,7 @@ def _compared(formula: Formula, formulas: Formulas, source: Printed, items: tupl
     ids = tuple(item.id for item in items)
     if not source.known:
         return Compared(formula, ids, "not read", "notation", f"{source.where}, so that no letter means anything")
-    meaning = notation(source.table, source.names, formula.place, source.where)
+    meaning = source.letters(formula)
     try:
         reading = read_formula(formula, formulas.macros, meaning)
     except NotUnderstood as error:
@@ -166,14 +165,16 @@ class _Comparison:
 
     @cached_property
     def _plain(self) -> Rules:
-        return meanings(self.source.table, self.source.names, self.formula.place, {}, self.source.where)
+        return self.source.meaning(self.formula)
 
     def contradicted(self, brace: Pair) -> bool:
         """Whether a brace gives a name to something else than what the table or a claim says of the name."""
         if self.saying(brace) is not None or self.by_notation(brace):
             return False
-        known = not self._plain(brace.left).has(AppliedUndef)
-        return known or any(says.knows(brace.left) for says in self.candidates())
+        name = self._plain(brace.left)
+        return not (name.is_Symbol or name.has(AppliedUndef)) or any(
+            says.knows(brace.left) for says in self.candidates()
+        )
 
     def said(self, used: Iterable[str]) -> dict[str, Part]:
         """What each that says a relation of this formula says of it; ``used`` may say it among what it assumes."""

@@ -6,7 +6,7 @@ import hashlib
 import sys
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -20,7 +20,7 @@ from ptproof.proof.load import Derivation
 from ptproof.proof.statement import All, ForAll, Relation, relations_of
 from ptproof.reading.latex.formulas import Formula
 from ptproof.reading.latex.grammar import Grammar
-from ptproof.reading.latex.notation import Table, meanings, notation, read_table, says_of, vocabulary
+from ptproof.reading.latex.notation import Notation, Table, context, meanings, notation, read_table, says_of, vocabulary
 from ptproof.reading.latex.rewrite import Rules, Vocabulary, rules
 from ptproof.reading.latex.statements import Pair, read_tokens
 from ptproof.reading.latex.tokens import NotUnderstood, Token, read
@@ -40,6 +40,27 @@ class Printed:
     where: str
     items: Mapping[str, tuple[Item, ...]]
     known: bool = True
+
+    @cached_property
+    def _kept(self) -> dict[Any, Any]:
+        return {}
+
+    def letters(self, formula: Formula) -> Notation:
+        """What letters mean in the formula."""
+        key = context(self.table, formula.place)
+        if key not in self._kept:
+            self._kept[key] = notation(self.table, self.names, formula.place, self.where)
+        found: Notation = self._kept[key]
+        return found
+
+    def meaning(self, formula: Formula, takes: Mapping[str, str] | None = None, who: str = "") -> Rules:
+        """What names stand for in the formula, for a claim that ``takes`` some letters for others."""
+        key = (context(self.table, formula.place), tuple(sorted((takes or {}).items())))
+        if key not in self._kept:
+            where = f"{self.where}, {who}" if who else self.where
+            self._kept[key] = meanings(self.table, self.names, formula.place, takes or {}, where)
+        found: Rules = self._kept[key]
+        return found
 
     def covering(self, formula: Formula) -> tuple[Item, ...]:
         """What names a label of the formula, or its place."""
@@ -154,7 +175,7 @@ def stated(item: Item, formula: Formula, source: Printed) -> Stated | None:
     says = says_of(source.table, item.id)
     where = f"{source.where}, {item.id}"
     has = rules([says.has], source.names, where)
-    meaning = meanings(source.table, source.names, formula.place, says.takes, where)
+    meaning = source.meaning(formula, says.takes, item.id)
 
     def spoken(part: Relation) -> Pair:
         return Pair(meaning(has(part.left)), part.sign, meaning(has(part.right)))
@@ -190,7 +211,7 @@ _Head = tuple[list[Pair], sp.Expr | None]
 
 def _heads(id: str, texts: Sequence[str], formula: Formula, source: Printed, meaning: Rules) -> Iterator[_Head]:
     """What sides are printed as, entry by entry, each with the relations that come before it in a chain."""
-    letters = notation(source.table, source.names, formula.place, source.where)
+    letters = source.letters(formula)
     for text in texts:
         try:
             tokens = read(text, 0, {})
@@ -225,18 +246,15 @@ def same(left: sp.Expr, right: sp.Expr) -> bool:
         return _same_cases(left, right)
     if _number(left) != _number(right):
         return False
-    for one, other in ((left, right), (_multiplied_out(left), _multiplied_out(right))):
-        try:
-            if is_zero(one - other):
-                return True
-        except (NotAlgebraic, sp.PolynomialError, NotImplementedError):
-            continue
-    return False
+    try:
+        return is_zero(left - right) or is_zero(_logarithms(left) - _logarithms(right))
+    except (NotAlgebraic, sp.PolynomialError, NotImplementedError):
+        return False
 
 
-def _multiplied_out(expression: sp.Expr) -> sp.Expr:
-    """The expression with its arguments of functions, such as that of a logarithm, multiplied out."""
-    return sp.expand(expression, power_base=False, log=False)
+def _logarithms(expression: sp.Expr) -> sp.Expr:
+    """The expression with what stands in its logarithms multiplied out."""
+    return expression.replace(sp.log, lambda *values: sp.log(*map(sp.expand, values)))
 
 
 def _same_cases(left: sp.Expr, right: sp.Expr) -> bool:

@@ -195,9 +195,17 @@ def _texts(value: Any) -> Iterable[str]:
         yield str(value)
 
 
+def context(table: Table, place: str) -> tuple[int, ...]:
+    """Which of the table's ``where`` are about the formula at ``place``; with the same ones letters mean the same."""
+    return tuple(
+        number for number, item in enumerate(table.where)
+        if any(fnmatchcase(place, pattern) for pattern in item.formulas)
+    )  # fmt: skip
+
+
 def notation(table: Table, names: Vocabulary, place: str, where: str) -> Notation:
     """What letters mean in the formula at ``place``."""
-    here = [item for item in table.where if any(fnmatchcase(place, pattern) for pattern in item.formulas)]
+    here = [table.where[number] for number in context(table, place)]
     letters = dict(table.letters)
     functions = dict(table.functions)
     counts = dict(table.counts)
@@ -234,7 +242,7 @@ def _value(value: Any, names: Vocabulary, where: str) -> Any:
 
 def meanings(table: Table, names: Vocabulary, place: str, takes: Mapping[str, str], where: str) -> Rules:
     """What names stand for in the formula at ``place``, for a claim that ``takes`` some letters for others."""
-    here = [item.means for item in table.where if any(fnmatchcase(place, pattern) for pattern in item.formulas)]
+    here = [table.where[number].means for number in context(table, place)]
     found = rules([takes, *here, table.means], names, where)
     powers = {
         found(names.expression(text, where)): sp.Symbol(name, positive=True) for name, text in table.positive.items()

@@ -52,6 +52,8 @@ class Ranges(Calculus):
             if last:
                 if len(texts) < 3 or texts[1] != "=":
                     raise self.refuse("sum", "a sum over this range is not read", at)
+                if any(name in found[0] for name in texts[2:]):
+                    raise self.refuse("two readings", "an index that another one begins can end there or go on", at)
                 found = [
                     {**known, texts[0]: value} for known in found
                     for value in range(self.number(line[2:], known, at), last[number] + 1)
