@@ -17,7 +17,8 @@ from ptproof.reading.latex.formulas import Formula, Formulas
 from ptproof.reading.latex.rewrite import Rules
 from ptproof.reading.latex.statements import Pair, Reading, read_formula
 from ptproof.reading.latex.tokens import NotUnderstood
-from ptproof.report.stated import Item, Printed, Stated, same, stated
+from ptproof.report.sameness import same
+from ptproof.report.stated import Item, Printed, Stated, stated
 
 Read = Literal["equal", "different", "not read"]
 
@@ -77,19 +78,6 @@ class Compared:
 def compare_all(formulas: Formulas, source: Printed) -> tuple[Compared, ...]:
     """What becomes of each displayed formula, in the order of the text; one that fails stops no other."""
     return tuple(compare(formula, formulas, source) for formula in formulas.displayed)
-
-
-def readable(formulas: Formulas, source: Printed) -> int:
-    """How many of the relations in running text can be read; they are held against nothing."""
-    return sum(_can_be_read(formula, formulas, source) for formula in formulas.running)
-
-
-def _can_be_read(formula: Formula, formulas: Formulas, source: Printed) -> bool:
-    try:
-        read_formula(formula, formulas.macros, source.letters(formula))
-    except NotUnderstood:
-        return False
-    return True
 
 
 def compare(formula: Formula, formulas: Formulas, source: Printed) -> Compared:

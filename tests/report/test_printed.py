@@ -5,7 +5,7 @@ import json
 import pytest
 
 from ptproof.commands.cli import main
-from ptproof.report.stated import same
+from ptproof.report.sameness import same
 
 PAPER = r"""
 \newcommand{\norm}[1]{\left\lVert#1\right\rVert}

@@ -75,6 +75,15 @@ class Calculus(Letters):
             else sp.diff(value, variable)
         )
 
+    def listed(self, values: list[Any], at: Token) -> Any:
+        """What ``[…, …]`` is: a row of numbers and rows, or the Lie bracket of two columns."""
+        columns = [value for value in values if isinstance(value, sp.MatrixBase) and value.rows > 1]
+        if len(values) == 2 and (columns or len(self.notation.state) == 1):
+            return self.bracket(values[0], values[1], at)
+        if columns:
+            raise self.refuse("matrix", "a row of columns is not read", at)
+        return sp.ImmutableDenseMatrix([[entry for value in values for entry in sp.Matrix([value])]])
+
     def bracket(self, first: Any, second: Any, at: Token) -> Any:
         """The Lie bracket of two vector fields, along the state that the notation names."""
         state = self.notation.state

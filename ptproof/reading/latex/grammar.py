@@ -140,8 +140,11 @@ class Grammar(Sets):
         value = self.expression()
         self.bars = bars
         if self.text == "," and opened.text == "[":
-            self.take()
-            value = self.bracket(value, self.expression(), opened)
+            listed = [value]
+            while self.text == ",":
+                self.take()
+                listed.append(self.expression())
+            value = self.listed(listed, opened)
         self.expect(_DELIMITERS[opened.text], opened)
         return value
 
