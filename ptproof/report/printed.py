@@ -112,6 +112,10 @@ class _Comparison:
     def _stated(self) -> dict[str, Stated | None]:
         return {}
 
+    @property
+    def ids(self) -> tuple[str, ...]:
+        return tuple(item.id for item in self.items)
+
     def candidates(self) -> Iterator[Stated]:
         for item in self.items:
             if getattr(item, "corrects", None):
@@ -132,16 +136,17 @@ class _Comparison:
                 used[found.id] = None
             elif not self.by_notation(pair):
                 return self.unsaid(pair, condition)
+        if self.reading.unread:
+            return Compared(self.formula, self.ids, "not read", "brace", self.reading.unread[0], str(self.reading))
         wrong = [brace for brace in self.reading.braces if self.contradicted(brace)]
         if wrong:
             return self.unsaid(wrong[0], False)
         said = [brace for brace in self.reading.braces if self.saying(brace) or self.by_notation(brace)]
         remarks = [
-            *self.reading.unread,
-            *(f"no claim says what stands at a brace, {p}" for p in self.reading.braces if p not in said),
+            f"no claim says what stands at a brace, {p}" for p in self.reading.braces if p not in said
         ]  # fmt: skip
         if not used:
-            used = dict.fromkeys(item.id for item in self.items)
+            used = dict.fromkeys(self.ids)
             remarks.append("the table of notation says it")
         return Compared(
             self.formula, tuple(used), "equal", "", "; ".join(remarks), str(self.reading), said=self.said(used)
@@ -160,9 +165,8 @@ class _Comparison:
         if self.saying(brace) is not None or self.by_notation(brace):
             return False
         name = self._plain(brace.left)
-        return not (name.is_Symbol or name.has(AppliedUndef)) or any(
-            says.knows(brace.left) for says in self.candidates()
-        )
+        unknown = name.has(AppliedUndef) or (name.is_Symbol and not brace.entry)
+        return not unknown or any(says.knows(brace.left) for says in self.candidates())
 
     def said(self, used: Iterable[str]) -> dict[str, Part]:
         """What each that says a relation of this formula says of it; ``used`` may say it among what it assumes."""
@@ -186,12 +190,11 @@ class _Comparison:
 
     def unsaid(self, pair: Pair, condition: bool) -> Compared:
         """A relation that no claim says, beside the one that comes nearest."""
-        ids = tuple(item.id for item in self.items)
         entries = [(says, claimed) for says in self.candidates() for claimed in says.pairs]
         if not entries:
-            detail = "read, but nothing that covers it states a relation" if ids else "read, but nothing covers it"
-            return Compared(self.formula, ids, "not read", "not stated", detail, str(self.reading))
+            detail = "read, but nothing that covers it states a relation" if self.ids else "read, but nothing covers it"
+            return Compared(self.formula, self.ids, "not read", "not stated", detail, str(self.reading))
         nearest, claimed = max(entries, key=lambda entry: entry[0].nearness(entry[1], pair))
         beside = f"for all {pair}" if condition else str(nearest.spoken(pair))
         detail = f"the paper: {beside}; {nearest.id}: {claimed}"
-        return Compared(self.formula, ids, "different", "", detail, str(self.reading), beside=nearest.id)
+        return Compared(self.formula, self.ids, "different", "", detail, str(self.reading), beside=nearest.id)

@@ -128,18 +128,24 @@ class Stated:
         return found
 
     def implies(self, wanted: Pair) -> bool:
-        """Whether the claim has both sides equal to a third, one after the other."""
+        """Whether the claim has the sides equal by a chain of its equalities.
+
+        What is the same number need not be meant by each other: no chain passes through one.
+        """
         if wanted.sign != "=":
             return False
         pair = self.spoken(wanted)
         equal = [own for own in (*self.pairs, *self.given) if own.sign == "="]
-        sides: list[sp.Expr] = [pair.left]
+        first, last = (pair.left, pair.right) if pair.left.free_symbols else (pair.right, pair.left)
+        sides: list[sp.Expr] = [first]
         for side in sides:
+            if not side.free_symbols:
+                continue
             for own in equal:
                 for mine, other in ((own.left, own.right), (own.right, own.left)):
                     if same(mine, side) and not any(other == known for known in sides):
                         sides.append(other)
-        return len(sides) > 1 and any(same(side, pair.right) for side in sides[1:])
+        return len(sides) > 1 and any(same(side, last) for side in sides[1:])
 
     def knows(self, side: sp.Expr) -> bool:
         """Whether a relation of the claim has this side."""

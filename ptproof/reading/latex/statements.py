@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import sympy as sp
@@ -24,11 +24,12 @@ _WORDS = frozenset({"and", "where", "for", "with", "if", "or"})
 
 @dataclass(frozen=True)
 class Pair:
-    """Two neighbours of a chain, numbers both, with the relation between them."""
+    """Two neighbours of a chain, numbers both, with the relation between them; ``entry``: of two matrices."""
 
     left: sp.Expr
     sign: str
     right: sp.Expr
+    entry: bool = field(default=False, compare=False)
 
     def __str__(self) -> str:
         return f"{self.left} {self.sign} {self.right}"
@@ -180,7 +181,7 @@ def _entries(left: Any, sign: str, right: Any, at: Token) -> list[Pair]:
         return [Pair(left, sign, right)]
     if sign != "=":
         raise NotUnderstood("matrix", "an inequality between matrices is not read", at.line)
-    return [Pair(a, sign, b) for a, b in zip(left, right, strict=True)]
+    return [Pair(a, sign, b, True) for a, b in zip(left, right, strict=True)]
 
 
 def _flat(tokens: list[Token]) -> list[Token]:
