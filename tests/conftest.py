@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import sys
 from collections.abc import Callable
 from typing import Any
 
@@ -9,6 +11,10 @@ import pytest
 
 from ptproof.reading import limits
 from ptproof.reading.outcomes import Answered, Unanswered, Why, in_words
+
+# More than a hundred processes are started, and each would compile ptproof again.
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+sys.dont_write_bytecode = False
 
 
 @pytest.fixture
