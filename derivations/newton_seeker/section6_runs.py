@@ -5,6 +5,7 @@ The averaged position and the averaged Riccati filter do not depend on h, so tha
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import sympy as sp
@@ -16,7 +17,7 @@ from ptproof.simulation.observed import observed as observation
 from ptproof.system import System
 
 from . import chain
-from .notation import F_x, alpha_t, c, d, d_plus, h, nu, omega, omega_d, rotated, t, x1, x2, xs1, xs2, z, z1, z2
+from .notation import F_x, Y, alpha_t, d, d_plus, h, nu, omega, omega_d, rotated, t, x1, x2, xs1, xs2, z, z1, z2
 from .section4_gradient import average_gradient
 from .section5a_design import average_newton, closed_loop
 from .section6_simulation import NUMBERS, PLACE, START
@@ -31,18 +32,19 @@ offset = sp.Matrix([x1 - xs1, x2 - xs2]).subs(START)
 
 @claim(
     "newton/6-start-in-z", "At t = 0 the start is z = (3, 3)",
-    eq(chain.Y(sp.S.Zero).T * offset, sp.Matrix([3, 3])), place=PLACE,
+    eq(Y(sp.S.Zero).T * offset, sp.Matrix([3, 3])), place=PLACE,
 )  # fmt: skip
 def start_in_z(goal: Goal) -> Evidence:
     """z = Yᵀ(0)(x₀ − x*)."""
     return exact(goal)
 
 
-def run(system: System, count: int, parts: list[Relation], during: tuple[Any, Any]) -> Runs:
+def run(system: System, count: int, parts: Sequence[Relation], during: tuple[int, int]) -> Runs:
     """What holds on the run of the first states of an averaged system from the paper's start."""
-    state, rates = system.state[:count], [rate.subs(NUMBERS) for rate in system.rhs[:count]]
-    starts = [eq(symbol, {**dict.fromkeys(rotated, 3), **START}[symbol]) for symbol in state]
-    return Runs(t, state, rates, (0, during[1]), starts, parts, during)
+    first, last = map(sp.Integer, during)
+    state, rates = system.state[:count], tuple(rate.subs(NUMBERS) for rate in system.rhs[:count])
+    starts = tuple(eq(symbol, {**dict.fromkeys(rotated, 3), **START}[symbol]) for symbol in state)
+    return Runs(t, state, rates, (sp.S.Zero, last), starts, tuple(parts), (first, last))
 
 
 squared = z1**2 + z2**2
@@ -96,9 +98,9 @@ def inverse_is_linear(goal: Goal) -> Evidence:
 def vehicle(rate: sp.Expr, until: sp.Expr, *parts: Relation) -> Runs:
     """What the Newton seeker's run from the paper's start has at that instant, with that rate of the filter."""
     values = {**NUMBERS, **{key: START[key] for key in START if key not in chain.newton.state}, h: rate}
-    rates = [entry.subs({c: gains[c], alpha_t: gains[alpha_t]}).subs(values) for entry in chain.newton.rhs]
-    starts = [eq(symbol, START[symbol]) for symbol in chain.newton.state]
-    return Runs(t, chain.newton.state, rates, (0, until), starts, parts, (until, until))
+    rates = tuple(entry.subs(gains).subs(values) for entry in chain.newton.rhs)
+    starts = tuple(eq(symbol, START[symbol]) for symbol in chain.newton.state)
+    return Runs(t, chain.newton.state, rates, (sp.S.Zero, until), starts, parts, (until, until))
 
 
 @claim(
@@ -147,12 +149,12 @@ faster = observed(
 )  # fmt: skip
 gradient_gap = observed(
     "newton/6-observed-gradient-gap", "The gap of the gradient seeker to its average falls like ω^(−(1 − p))",
-    "For p = 0.61, 0.75 and 0.9 the slope over ω is at most −(1 − p) + 0.1", "gap", "gradient",
+    "For p = 0.61, 0.75 and 0.9 the slope over ω is at most −(1 − p) + 0.01", "gap", "gradient",
     place="Section IV, Proposition 1",
 )  # fmt: skip
 newton_gap = observed(
     "newton/6-observed-newton-gap",
     "The gap of the Newton seeker to its average falls like ω^(−(1 − p)) or ω^(−(2p − 1)), whichever is slower",
-    "For p = 0.61, 0.75 and 0.9 the slope over ω is at most the negative of the smaller exponent + 0.1", "gap",
+    "For p = 0.61, 0.75 and 0.9 the slope over ω is at most the negative of the smaller exponent + 0.01", "gap",
     "newton", place="Section V.A, Proposition 2",
 )  # fmt: skip
