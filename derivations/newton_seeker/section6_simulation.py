@@ -1,6 +1,7 @@
 """Section VI: the numbers of the simulation, and what follows from them for the averaged systems.
 
-The rate h of the measurement's filter is not given, so that the figures cannot be repeated from the text alone.
+The rate h of the measurement's filter is not given, so that the figures cannot be repeated from the text alone. What
+h was is found from the data that the authors published with the paper: newton/6-observed-published.
 """
 
 from __future__ import annotations
