@@ -25,7 +25,7 @@ from ptproof.report.status import ALL
 
 MOST = 400_000  # bytes of a page beside what stands on every page
 ERRATA_AT_FRONT = 5
-SHOWN_LINES, SHOWN_WIDTH = 4, 130.0  # of a formula beside a name; characters
+SHOWN_LINES, SHOWN_WIDTH = 3, 90.0  # of a formula beside a name; characters
 _ID = re.compile(r'<[a-zA-Z][^<>]*? id="([^"<>]+)"')
 _LINK = re.compile(r'(<a\b[^<>]*? ?href=")#([^"<>]+)"')
 
