@@ -35,8 +35,16 @@ if TYPE_CHECKING:
     "--paper", "sources", multiple=True, metavar="FILE.tex", help="A paper's LaTeX, to read its printed sides from."
 )
 @click.option("--single", is_flag=True, help="Also write report.html: all of it in one file, for mailing.")
+@click.option("--pdf", is_flag=True, help="Also write report.pdf, printed by Chromium, which has to be installed.")
 def report(
-    paths: tuple[str, ...], out: str, fresh: bool, no_figures: bool, sources: tuple[str, ...], single: bool, **how: Any
+    paths: tuple[str, ...],
+    out: str,
+    fresh: bool,
+    no_figures: bool,
+    sources: tuple[str, ...],
+    single: bool,
+    pdf: bool,
+    **how: Any,
 ) -> int:
     """Verify the claims below each PATH (the shipped derivations where left out) and write the report.
 
@@ -46,9 +54,10 @@ def report(
     recorded, a figure could not be drawn, or the paper prints something else; the report is written all the same.
     """
     from ptproof.proof.run import Interrupted
+    from ptproof.report.printing import browser
     from ptproof.report.writing import check_place
 
-    place = check_place(out)
+    place, printer = check_place(out), browser() if pdf else ""
     decided: dict[str, Verification] = {}
     with opened(paths, fresh) as papers:
         read = _read(papers, sources)
@@ -60,7 +69,7 @@ def report(
                 _summarize({**decided, paper.name: interrupted.verification})
                 return status
         try:
-            return _write(place, papers, decided, read, no_figures, single)
+            return _write(place, papers, decided, read, no_figures, single, printer)
         except KeyboardInterrupt:  # nothing is half written, and what is decided is shown
             _summarize(decided)
             if guard.own_interrupt():
@@ -108,6 +117,7 @@ def _write(
     read: Mapping[str, Mapping[str, ReadSide]],
     no_figures: bool,
     single: bool,
+    printer: str,
 ) -> int:
     from ptproof.report.pages import all_files
     from ptproof.report.writing import write_report
@@ -116,20 +126,21 @@ def _write(
     composed = {
         paper.name: _composed(paper, decided[paper.name], read.get(paper.name, {}), no_figures) for paper in papers
     }
-    write_report(place, all_files({name: content for name, (content, _) in composed.items()}, single=single))
+    content = {name: found for name, (found, _) in composed.items()}
+    write_report(place, all_files(content, single=single, browser=printer))
     _summarize(decided)
     several = len(composed) > 1
-    for name, (content, failures) in composed.items():
+    for name, (found, failures) in composed.items():
         of = f"{name}: " if several else ""
-        for claim in content.unexpected:
+        for claim in found.unexpected:
             words = f"{claim.ref.id}: expected {claim.expected}, came out {claim.status.word}"
             click.echo(f"ptproof: {of}{words}", err=True)
-        for ref in content.read.get("different", ()):
+        for ref in found.read.get("different", ()):
             click.echo(f"ptproof: {of}{ref.id}: the paper prints something else", err=True)
         for note in failures:
             click.echo(f"ptproof: {of}{note}", err=True)
-    _name_places(place, tuple(composed) if several else (), single)
-    failed = any(failures or "different" in content.read for content, failures in composed.values())
+    _name_places(place, tuple(composed) if several else (), single, bool(printer))
+    failed = any(failures or "different" in found.read for found, failures in composed.values())
     return 0 if all(found.as_expected for found in decided.values()) and not failed else 1
 
 
@@ -150,7 +161,7 @@ def _composed(
     return content, failures
 
 
-def _name_places(place: Path, names: Sequence[str], single: bool) -> None:
+def _name_places(place: Path, names: Sequence[str], single: bool, pdf: bool) -> None:
     """Where the report is, and that of each paper."""
     if names:
         click.echo(f"{place / 'index.html'}  the page above the papers, for a browser", file=streams.out())
@@ -159,6 +170,8 @@ def _name_places(place: Path, names: Sequence[str], single: bool) -> None:
         click.echo(f"{folder / 'report.md'}  the same as Markdown", file=streams.out())
         if single:
             click.echo(f"{folder / 'report.html'}  the same in one file", file=streams.out())
+        if pdf:
+            click.echo(f"{folder / 'report.pdf'}  the same on paper", file=streams.out())
 
 
 def _summarize(decided: dict[str, Verification]) -> None:

@@ -1,38 +1,53 @@
-"""Every file of a report: of one paper or of several, as HTML, as Markdown, and as a picture."""
+"""Every file of a report: of one paper or of several, as HTML, as Markdown, as JSON, and as a picture."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 
+from ptproof.report.exported import exported_json
 from ptproof.report.markdown import markdown_page
 from ptproof.report.model import Report
 from ptproof.report.overview import overview_files
+from ptproof.report.printing import printed
 from ptproof.report.site import Site, single_page, site, site_files
 
 
-def all_files(reports: Mapping[str, Report], *, single: bool = False) -> dict[str, bytes]:
-    """The files of the reports by their paths: of one paper as they are, of several each in a folder of its name."""
+def all_files(reports: Mapping[str, Report], *, single: bool = False, browser: str = "") -> dict[str, bytes]:
+    """The files of the reports by their paths: of one paper as they are, of several each in a folder of its name.
+
+    The rest is as for :func:`report_files`.
+    """
     if len(reports) == 1:
-        return report_files(*reports.values(), single=single)
+        return report_files(*reports.values(), single=single, browser=browser)
     sites = {name: site(report) for name, report in reports.items()}
     files = overview_files(sites)
     for name, pages in sites.items():
-        files.update({f"{name}/{file}": content for file, content in _files(pages, single, "../index.html").items()})
+        files.update(
+            {f"{name}/{file}": content for file, content in _files(pages, single, browser, "../index.html").items()}
+        )
     return files
 
 
-def report_files(report: Report, *, single: bool = False) -> dict[str, bytes]:
-    """Every file of one report by its path: the pages, the same as Markdown, the graph, and the figures.
+def report_files(report: Report, *, single: bool = False, browser: str = "") -> dict[str, bytes]:
+    """Every file of one report by its path: the pages, the same as Markdown and as JSON, the graph, and the figures.
 
-    With ``single`` there is also one page that holds everything.
+    With ``single`` there is also one page that holds everything, with a ``browser`` also that page as PDF.
+
+    Raises
+    ------
+    InputError
+        If the browser does not print it.
     """
-    return _files(site(report), single)
+    return _files(site(report), single, browser)
 
 
-def _files(pages: Site, single: bool, above: str = "") -> dict[str, bytes]:
+def _files(pages: Site, single: bool, browser: str, above: str = "") -> dict[str, bytes]:
     files = {f"figures/{figure.file}": figure.content for figure in pages.report.figures}
     files["report.md"] = markdown_page(pages.report).encode()
+    files["report.json"] = exported_json(pages)
     files.update(site_files(pages, above))
-    if single:
-        files["report.html"] = single_page(pages.report).encode()
+    if single or browser:
+        page = single_page(pages.report).encode()
+        files.update({"report.html": page} if single else {})
+        files.update({"report.pdf": printed(page, browser)} if browser else {})
     return files

@@ -1,4 +1,4 @@
-"""The index of a report for the search on its pages: a script, since a page that is a file may not fetch another."""
+"""What the pages look up: an index for searching, and formulas; scripts, since a file may not fetch another."""
 
 from __future__ import annotations
 
@@ -19,11 +19,20 @@ def search_index(report: Report, places: Mapping[str, str]) -> str:
     entries = [[number[places[anchor]], anchor, *rest] for anchor, *rest in _entries(report)]
     sections = [[number[places[item.anchor]], item.anchor, item.title] for item in report.sections]
     data = {"pages": pages, "entries": entries, "sections": sections}
-    # Nothing in it may end the script, also where the index is put into a page, and no line may be broken in a text.
+    return _script("PTPROOF", data)
+
+
+def formulas(found: Mapping[str, str]) -> str:
+    """A script that sets ``PTPROOF_FORMULAS`` to statements as they are set, by the anchors of their claims."""
+    return _script("PTPROOF_FORMULAS", dict(found))
+
+
+def _script(name: str, data: Any) -> str:
+    # Nothing in it may end the script, also where it is put into a page, and no line may be broken in a text.
     text = json.dumps(data, ensure_ascii=False, separators=(",", ":"))
-    for character in ("<", "\u2028", "\u2029"):
-        text = text.replace(character, f"\\u{ord(character):04x}")
-    return f"window.PTPROOF = {text};\n"
+    for found, escaped in (("</", r"<\/"), ("<!", r"<\u0021"), ("\u2028", r"\u2028"), ("\u2029", r"\u2029")):
+        text = text.replace(found, escaped)
+    return f"window.{name} = {text};\n"
 
 
 def _entries(report: Report) -> Iterator[list[Any]]:

@@ -14,16 +14,18 @@ from typing import Any
 
 from markupsafe import Markup
 
+from ptproof.report.formula import width
 from ptproof.report.graph import graph_svg
 from ptproof.report.headline import headline
 from ptproof.report.model import Report, Section
 from ptproof.report.picture import FORMS, picture
 from ptproof.report.rendering import html, script, style
-from ptproof.report.search import search_index
+from ptproof.report.search import formulas, search_index
 from ptproof.report.status import ALL
 
 MOST = 400_000  # bytes of a page beside what stands on every page
 ERRATA_AT_FRONT = 5
+SHOWN_LINES, SHOWN_WIDTH = 3, 90.0  # of a formula beside a name; characters
 _ID = re.compile(r'<[a-zA-Z][^<>]*? id="([^"<>]+)"')
 _LINK = re.compile(r'(<a\b[^<>]*? ?href=")#([^"<>]+)"')
 
@@ -68,6 +70,7 @@ def site_files(of: Site, above: str = "") -> dict[str, bytes]:
     graph = graph_svg(of.report.nodes(), standalone=True)
     files["graph.svg"] = linked(graph, of.places, "graph.svg").encode()
     files["style.css"], files["page.js"] = style().encode(), script().encode()
+    files["formulas.js"] = formulas(_short(of.report)).encode()
     files["search.js"] = search_index(of.report, of.places).encode()
     return files
 
@@ -192,6 +195,15 @@ def _section(section: Section, cards: Sequence[str], number: int = 1) -> str:
 
 def _listed(report: Report) -> str:
     return str(_parts().listed(report, ALL))
+
+
+def _short(report: Report) -> dict[str, str]:
+    """The statements that can be shown beside a name, since they are short, by their anchors."""
+    return {
+        claim.ref.anchor: str(_parts().formula(claim.lines, claim.words))
+        for claim in report.claims
+        if len(claim.lines) <= SHOWN_LINES and sum(width(line.latex) for line in claim.lines) < SHOWN_WIDTH
+    }
 
 
 def _reference(report: Report) -> Iterator[str]:

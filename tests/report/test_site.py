@@ -132,6 +132,14 @@ def test_the_address_of_a_claim_is_its_id_on_the_page_of_its_section(report, der
     )
 
 
+def test_short_statements_are_beside_the_pages_to_be_shown(files, report):
+    script = files["formulas.js"].decode()
+    found = json.loads(script.removeprefix("window.PTPROOF_FORMULAS = ").rstrip(";\n"))
+    assert {*found} == {claim.ref.anchor for claim in report.claims}
+    assert "<math" in found["c-a-printed"]
+    assert "Every field with a &lt; b" in found["c-b-theorem"]
+
+
 def test_pages_load_nothing_from_elsewhere_and_fetch_nothing(files):
     for name, page in texts(files).items():
         assert not re.search(r"https?://(?!www\.w3\.org/)|fetch\(|@import|url\(", page), name
@@ -175,9 +183,10 @@ def test_a_hostile_title_stays_text(report):
     hostile = replace(report, title=HOSTILE, sections=(replace(first, title=HOSTILE, claims=claims),))
     found = all_files({"one": hostile, "two": hostile}, single=True)
     for name, content in found.items():
-        if not name.endswith(".md"):
+        if name.endswith((".html", ".svg")):
             assert "<script>alert" not in content.decode()
-    assert "</" not in found["one/search.js"].decode()
+    for script in (found["one/search.js"].decode(), found["one/formulas.js"].decode()):
+        assert not re.search("</|<!|\u2028", script)
     assert HOSTILE in {entry[3] for entry in index(found, "one/")["entries"]}
     assert lost(found) == []
 

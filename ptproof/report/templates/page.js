@@ -133,6 +133,40 @@
     }
     new ResizeObserver(draw).observe(picture);
     draw();
+
+    // The formula of a claim, beside its name: from its entry on this page, or from a script beside the page.
+    const note = document.createElement("div");
+    note.className = "note";
+    note.setAttribute("role", "tooltip");
+    note.hidden = true;
+    document.body.append(note);
+    let loaded;
+    const formulas = () => (loaded ??= new Promise((done) => {
+      const script = document.createElement("script");
+      script.src = "formulas.js";
+      script.onload = () => done(window.PTPROOF_FORMULAS);
+      script.onerror = () => done({});
+      document.head.append(script);
+    }));
+    let over = null;
+    const tell = async (link) => {
+      over = link;
+      const anchor = decodeURIComponent(link.hash.slice(1)), here = document.getElementById(anchor);
+      const found = here ? here.querySelector(".formula, .words")?.outerHTML : (await formulas())[anchor];
+      if (over !== link || !found) return;
+      note.innerHTML = found;
+      note.hidden = false;
+      const box = link.getBoundingClientRect(), width = note.offsetWidth;
+      note.style.left = `${Math.max(8, Math.min(box.left, innerWidth - width - 8))}px`;
+      note.style.top = `${box.bottom + 6 + note.offsetHeight > innerHeight ? box.top - note.offsetHeight - 6 : box.bottom + 6}px`;
+    };
+    const hush = () => { over = null; note.hidden = true; };
+    for (const link of picture.querySelectorAll(".inside li a")) {
+      link.addEventListener("mouseenter", () => tell(link));
+      link.addEventListener("focus", () => tell(link));
+      link.addEventListener("mouseleave", hush);
+      link.addEventListener("blur", hush);
+    }
   }
 
   const graph = document.querySelector("svg.graph");
