@@ -31,7 +31,7 @@ def put(said: Relation, *definitions: Relation) -> Relation:
         for known in definitions:
             at = sp.Lambda(known.left.args, known.right)
             value = value.replace(known.left.func, at)
-        return value.xreplace({node: node.doit() for node in value.atoms(sp.Derivative)})
+        return value.xreplace({node: node.doit() for node in value.atoms(sp.Derivative, sp.Subs)})
 
     return said.map(side)
 '''

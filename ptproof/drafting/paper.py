@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
@@ -10,10 +10,11 @@ from typing import Any
 
 import sympy as sp
 
-from ptproof.drafting.guess import Declared, Guess, Letters, guess, rate_name
+from ptproof.drafting.guess import Declared, Guess, guess
 from ptproof.drafting.headings import Outline, outline
-from ptproof.drafting.names import RESERVED
+from ptproof.drafting.letters import Letters
 from ptproof.drafting.occurrences import Scanned, scan
+from ptproof.drafting.rates import Rates, Said
 from ptproof.drafting.spelled import name_at
 from ptproof.drafting.toml import toml
 from ptproof.errors import InputError
@@ -21,23 +22,14 @@ from ptproof.reading.latex.cursor import RELATIONS
 from ptproof.reading.latex.formulas import Formula, find_formulas
 from ptproof.reading.latex.grammar import Grammar
 from ptproof.reading.latex.notation import Notation, meanings, notation, read_table, vocabulary
-from ptproof.reading.latex.rewrite import RATE, Rules
-from ptproof.reading.latex.statements import Reading, read_formula
+from ptproof.reading.latex.rewrite import Rules
+from ptproof.reading.latex.statements import read_formula
 from ptproof.reading.latex.tokens import Macro, NotUnderstood, Token, argument, read
 
 _ROUNDS = 4
 _TABLE = "notation.toml"
 # Whoever writes e both alone and with an exponent may mean two things.
 _E_TWICE = "two readings", "e stands alone elsewhere, so that e with an exponent can mean a power and an exponential"
-
-
-@dataclass(frozen=True)
-class Said:
-    """A displayed formula with what it says in the names of the derivation, or why that is not known."""
-
-    formula: Formula
-    reading: Reading | None
-    why: str = ""
 
 
 @dataclass(frozen=True)
@@ -85,7 +77,7 @@ def read_with_guesses(source: str) -> Paper:
         if letters.shapes == before:
             break
     said = [reader.said(item, formulas.macros) for item in formulas.displayed]
-    named = _Rates(guessed)
+    named = Rates(guessed)
     translated = tuple(named.translated(item) for item in said)
     named.declare_rest(translated)
     return Paper(
@@ -148,6 +140,9 @@ class _Reader:
             if item.arguments and (item.key in self.letters.two_readings or factor):
                 reason = f"{item.key}(…) can mean a product and a function"
                 raise NotUnderstood("two readings", reason, item.line)
+            if item.arguments and item.key in self.guessed.valued:
+                reason = f"{item.key} has a value here, and the paper does not say of what it is a function"
+                raise NotUnderstood("letter", reason, item.line)
             if not self.letters.is_sized(item.key):
                 raise NotUnderstood("matrix", f"nothing tells of what size {item.key} is", item.line)
 
@@ -212,93 +207,3 @@ def _alone(side: Sequence[Token]) -> str:
 
 def _has_power_of_e(tokens: Sequence[Token]) -> bool:
     return any(pair == ("e", "^") for pair in pairwise(token.text for token in tokens))
-
-
-class _Rates:
-    """Names for the rates that formulas speak of."""
-
-    def __init__(self, guessed: Guess) -> None:
-        self.guessed = guessed
-        self.declared: dict[str, Declared] = {}
-        self.rates: dict[str, str] = {}
-        self.moved: dict[str, tuple[sp.Expr, sp.Symbol]] = {}
-        self.names: dict[sp.Expr, sp.Symbol] = {}
-
-    def translated(self, said: Said) -> Said:
-        """The formula with a name for each rate; one that has none, such as that of a sum, makes it a gap."""
-        if said.reading is None:
-            return said
-        parts = {}
-        for name in ("pairs", "conditions", "braces"):
-            pairs = getattr(said.reading, name)
-            parts[name] = tuple(replace(p, left=self.named(p.left), right=self.named(p.right)) for p in pairs)
-        everything = [side for pairs in parts.values() for p in pairs for side in (p.left, p.right)]
-        for side in everything:
-            if nodes := side.atoms(RATE):
-                return Said(
-                    said.formula, None, f"line {said.formula.line}: the rate of {_first(nodes).args[0]} has no name yet"
-                )
-            if why := self.elsewhere(side, len(everything)):
-                return Said(said.formula, None, f"line {said.formula.line}: {why}")
-        return Said(said.formula, replace(said.reading, **parts))
-
-    def elsewhere(self, side: sp.Expr, sides: int) -> str:
-        """Why a side cannot be a claim: what moves is taken at an instant of its own, or a name is no name."""
-        for node in side.atoms(sp.core.function.AppliedUndef):
-            if node.func.__name__ in self.guessed.states and not (node == side and sides == 2):
-                return f"{node} is a value along a trajectory; a claim about it says which system it solves"
-        for node in side.atoms(sp.Limit, sp.Integral):
-            moves = {*self.guessed.states, *self.rates}
-            moving = sorted(s.name for s in node.args[0].free_symbols if s.name in moves)
-            if moving and {s.name for s in node.atoms(sp.Symbol)} & set(self.guessed.times):
-                return f"{moving[0]} moves, and this speaks of all of its trajectory"
-        if names := [s.name for s in side.free_symbols if s.name in RESERVED]:
-            return f"{names[0]} is the name of something else"
-        return ""
-
-    def named(self, side: sp.Expr) -> sp.Expr:
-        return side.xreplace({node: self.name(node) for node in side.atoms(RATE) if self.has_name(node)})
-
-    def has_name(self, node: sp.Expr) -> bool:
-        moved = node.args[0]
-        if moved.is_Symbol:
-            return True
-        if moved.func is RATE:
-            return self.has_name(moved)
-        return (
-            isinstance(moved, sp.core.function.AppliedUndef)
-            and moved.func is not RATE
-            and (tuple(map(str, moved.args)) == self.guessed.generic.get(moved.func.__name__))
-        )
-
-    def name(self, node: sp.Expr) -> sp.Symbol:
-        if node not in self.names:
-            moved, time = node.args
-            said = str(moved)
-            if moved.func is RATE:
-                moved = self.name(moved)
-                said = self.rates[moved.name]
-            word = str(moved.func.__name__ if moved.args else moved)
-            known = {**self.guessed.declared, **self.declared}
-            name = rate_name(word, str(time), len(self.guessed.times) == 1, known)
-            line, glyph = (known[word].line, known[word].glyph) if word in known else (0, word)
-            dotted = rf"\dot{{{glyph}}}" if str(time) == "t" else rf"\frac{{d {glyph}}}{{d {self.glyph(str(time))}}}"
-            self.declared[name] = Declared(name, dotted, line)
-            self.rates[name] = f"rate({said}, {time})"
-            self.moved[name] = moved, time
-            self.names[node] = sp.Symbol(name, real=True)
-        return self.names[node]
-
-    def declare_rest(self, every: Iterable[Said]) -> None:
-        """Declare what formulas speak of and the paper has no letter for: names that are bound."""
-        for pair in (pair for said in every if said.reading for pair in said.reading.pairs):
-            for symbol in sorted(pair.left.atoms(sp.Symbol) | pair.right.atoms(sp.Symbol), key=str):
-                if symbol.name.isidentifier() and symbol.name not in {**self.guessed.declared, **self.declared}:
-                    self.declared[symbol.name] = Declared(symbol.name, symbol.name.replace("_", r"\_"), 0)
-
-    def glyph(self, name: str) -> str:
-        return self.guessed.declared[name].glyph if name in self.guessed.declared else name
-
-
-def _first(nodes: Any) -> Any:
-    return min(nodes, key=str)

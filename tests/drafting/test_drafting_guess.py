@@ -34,6 +34,7 @@ FUNCTIONS = {
     ("V = u(k t) + k",): {"u": "u"},
     (r"V = \nu(t - t_0) + t",): {r"\nu": "nu"},
     (r"\dot{x} = -x(t)",): {"x": "x"},
+    (r"\dot{x} = u(t) + u",): {"u": "u"},
     # Products, and what has two readings.
     ("V = k (x - y) + k",): {},
     ("V = h (x - y)",): {},
@@ -58,6 +59,7 @@ REFUSED = {
     r"\dot{x} = -x, \quad |x(t)| \le x(0)": "along a trajectory",
     r"V = \text{sat}(x)": "says nothing of",
     r"V = \frac{1}{0}": "division by 0",
+    "V(0) = V + 1": "does not say of what it is a function",
     r"\unknown{V} = 1": "is not known",
 }
 
@@ -121,3 +123,9 @@ def test_a_rate_of_a_rate_has_a_name():
     found = read(r"\ddot{x} = -\dot{x}", r"\frac{\mathrm{d}}{\mathrm{d} t} \dot{x} = -x")
     assert dict(found.rates) == {"x_dot": "rate(x, t)", "x_ddot": "rate(rate(x, t), t)"}
     assert [str(said.reading) for said in found.said] == ["x_ddot = -x_dot", "x_ddot = -x"]
+
+
+def test_a_value_of_a_letter_does_not_spoil_the_formulas_in_which_it_stands_alone():
+    first, second = read("V = x + 1", "V(0) = 1").said
+    assert str(first.reading) == "V = x + 1"
+    assert second.reading is None
