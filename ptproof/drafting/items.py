@@ -18,7 +18,8 @@ from sympy.core.function import AppliedUndef
 from ptproof.drafting.facts import Fact, for_all, is_again, is_general, of_atoms, unwritable
 from ptproof.drafting.headings import Heading, slug
 from ptproof.drafting.names import unused
-from ptproof.drafting.paper import Paper, Said
+from ptproof.drafting.paper import Paper
+from ptproof.drafting.rates import Said
 from ptproof.reading.latex.formulas import Formula
 from ptproof.reading.latex.statements import Pair
 
