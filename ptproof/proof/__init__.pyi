@@ -1,13 +1,11 @@
 from . import lemmas as lemmas
 from .claim import Claim as Claim
 from .claim import Definition as Definition
-from .claim import Gap as Gap
 from .claim import Goal as Goal
 from .claim import cited as cited
 from .claim import claim as claim
 from .claim import definition as definition
 from .claim import engine as engine
-from .claim import gap as gap
 from .engines.comparison import comparison as comparison
 from .engines.enclosures import enclosures as enclosures
 from .engines.exact import exact as exact
@@ -22,6 +20,8 @@ from .engines.smoothness import smooth as smooth
 from .engines.squeeze import squeezed as squeezed
 from .engines.witnesses import refute as refute
 from .facts import Fact as Fact
+from .gap import Gap as Gap
+from .gap import gap as gap
 from .lemmas import cosine_parabola as cosine_parabola
 from .lemmas import cosine_quartic as cosine_quartic
 from .lemmas import exp_line as exp_line

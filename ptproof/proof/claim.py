@@ -175,21 +175,6 @@ class Definition:
     place: str = ""
 
 
-@dataclass(frozen=True)
-class Gap:
-    """A displayed formula of a paper of which nothing is stated yet, and why.
-
-    It covers no label and decides nothing: it is there to be counted, and to be replaced by a claim.
-    """
-
-    id: str
-    place: str
-    line: int
-    latex: str
-    why: str
-    labels: tuple[str, ...] = ()
-
-
 def claim(
     id: str,
     title: str,
@@ -217,7 +202,7 @@ def claim(
 
     def make(prove: Proof) -> Claim:
         return Claim(
-            id, title, states, prove, tuple(given), tuple(uses), _labels(id, labels), Verdict(expected),
+            id, title, states, prove, tuple(given), tuple(uses), labels_of(id, labels), Verdict(expected),
             inspect.cleandoc(prove.__doc__ or ""), section, corrects, place, where_defined, said, values,
         )  # fmt: skip
 
@@ -230,33 +215,15 @@ def _section_of_caller(frame: FrameType | None) -> str:
 
 
 def definition(
-    id: str,
-    title: str,
-    states: Statement,
-    *,
-    labels: Iterable[str],
-    prose: str = "",
-    section: str = "",
-    place: str = "",
-) -> Definition:
-    """A displayed definition; ``section`` is taken from the module that calls, where left out.
-
-    ``place`` says where in the paper it stands, if it has no label.
-    """
+    id: str, title: str, states: Statement, *, labels: Iterable[str], prose: str = "", section: str = "", place: str = ""
+) -> Definition:  # fmt: skip
+    """A displayed definition, with its ``place`` if it has no label; ``section`` is that of the module that calls."""
     section = section or _section_of_caller(inspect.currentframe())
-    return Definition(id, title, _labels(id, labels), states, inspect.cleandoc(prose), section, place)
+    return Definition(id, title, labels_of(id, labels), states, inspect.cleandoc(prose), section, place)
 
 
-def gap(id: str, place: str, line: int, latex: str, why: str, *, labels: Iterable[str] = ()) -> Gap:
-    """A formula of which nothing is stated yet: where it stands, its LaTeX, and why it was not read.
-
-    >>> gap("3/rates", "Section 3 (2)", 41, r"\\ddot{x} = -x", r"\\ddot is not known").place
-    'Section 3 (2)'
-    """
-    return Gap(id, place, line, latex, why, _labels(id, labels))
-
-
-def _labels(id: str, labels: Iterable[str]) -> tuple[str, ...]:
+def labels_of(id: str, labels: Iterable[str]) -> tuple[str, ...]:
+    """The labels that the item ``id`` names, refused where they are one text."""
     if isinstance(labels, str):
         raise InputError(f"{id}: `labels` takes a list of labels, got the text {labels!r}")
     return tuple(labels)

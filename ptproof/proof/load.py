@@ -13,7 +13,8 @@ from pathlib import Path
 from types import ModuleType
 
 from ptproof.errors import InputError
-from ptproof.proof.claim import Claim, Definition, Gap
+from ptproof.proof.claim import Claim, Definition
+from ptproof.proof.gap import Gap
 from ptproof.proof.shipped import shipped as shipped
 from ptproof.reading.outcomes import in_words
 
