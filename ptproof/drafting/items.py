@@ -146,11 +146,14 @@ class _Drafting:
         head = pair.left
         if pair.sign != "=" or head in self.facts or not self.may_be_head(head):
             return False
+        times = self.paper.table["times"]
+        if head.is_Symbol and head.name in times and not {s.name for s in pair.right.free_symbols} & {*times}:
+            return False  # an instant; a change of time is a definition
         return not self.depends(pair.right, head)
 
     def may_be_head(self, head: sp.Expr) -> bool:
         if head.is_Symbol:
-            return head.name in self.paper.declared and head.name not in self.paper.table["times"]
+            return head.name in self.paper.declared
         if not isinstance(head, AppliedUndef):
             return False
         name = head.func.__name__
@@ -183,7 +186,8 @@ class _Drafting:
     def resting(self, pairs: Sequence[Pair]) -> str:
         """Why a formula says where something is rather than what holds."""
         for pair in pairs:
-            moves = pair.left.is_Symbol and pair.left.name in self.paper.states and pair.sign == "="
+            known = {*self.paper.states, *self.paper.table["times"]}
+            moves = pair.left.is_Symbol and pair.left.name in known and pair.sign == "="
             if moves and pair.left not in self.facts and not self.moving(pair.right):
                 return f"{pair.left} moves, and this says where it is at some instant"
         return ""

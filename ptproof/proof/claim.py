@@ -215,7 +215,8 @@ def _section_of_caller(frame: FrameType | None) -> str:
 
 
 def definition(
-    id: str, title: str, states: Statement, *, labels: Iterable[str], prose: str = "", section: str = "", place: str = ""
+    id: str, title: str, states: Statement, *, labels: Iterable[str], prose: str = "", section: str = "",
+    place: str = "",
 ) -> Definition:  # fmt: skip
     """A displayed definition, with its ``place`` if it has no label; ``section`` is that of the module that calls."""
     section = section or _section_of_caller(inspect.currentframe())

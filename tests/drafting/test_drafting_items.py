@@ -30,6 +30,8 @@ KINDS = {
     (r"\dot{x} = -x", "V = x^2", r"\dot{V} = -x"): ["definition", "definition", "claim"],
     (r"\dot{x} = -x", "x = y"): ["definition", "gap"],
     (r"\dot{x} = -x", "x(0) = y"): ["definition", "definition"],
+    (r"\tau = 2 t", r"\frac{d \tau}{d t} = 3"): ["definition", "claim"],
+    ("t = 2", r"\dot{x} = t"): ["gap", "definition"],
     ("u \\approx v",): ["gap"],
 }
 
