@@ -80,8 +80,8 @@ def _held(formula: Formula, formulas: Formulas, source: Printed, said: _Everythi
     if pairs and all(stating):
         all_of_it = [says for says in stating[0] if all(says in found for found in stating)]
         saying = all_of_it or list({says.id: says for found in stating for says in found}.values())
-        whole = [says.id for says in saying if _states_no_more(says, pairs)]
-        return Running(formula, "equal", tuple(says.id for says in saying), "", statement, tuple(whole))
+        no_more = tuple(says.id for says in saying if _states_no_more(says, pairs))
+        return Running(formula, "equal", tuple(says.id for says in saying), "", statement, no_more)
     restating = [said.restating(formula, pair, near) for near, pair in zip(meeting, pairs, strict=True)]
     if all(found is not None for found in restating):
         ids = dict.fromkeys(id for found in restating if found is not None for id in found)
