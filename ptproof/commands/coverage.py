@@ -70,7 +70,8 @@ def coverage(paper: str, paths: tuple[str, ...], as_json: bool) -> int:
                 click.echo(f"{paper} is held against {name}", err=True)
             _show(found)
             _show_formulas(compared, running)
-    return 0 if found.complete and all(item.read != "different" for item in (*compared, *running)) else 1
+    held: list[Compared | Running] = [*compared, *running]
+    return 0 if found.complete and all(item.read != "different" for item in held) else 1
 
 
 def own(papers: Sequence[Opened], labels: Set[str], tex: str) -> tuple[str, Derivation]:
@@ -112,7 +113,10 @@ def _show_formulas(compared: Sequence[Compared], running: Sequence[Running]) -> 
     console = output()
     count = Counter(item.read for item in compared)
     styles = {"different": "bold red", "not read": "yellow"}
-    others = [*(item for item in compared if item.read != "equal"), *(r for r in running if r.read == "different")]
+    others: list[Compared | Running] = [
+        *(item for item in compared if item.read != "equal"),
+        *(r for r in running if r.read == "different"),
+    ]
     rows = [
         (Text(item.formula.place), Text(str(item.formula.line)), Text(item.read, styles[item.read]), Text(item.detail))
         for item in others

@@ -8,7 +8,7 @@ which is no fault. *Different* is said only of a relation whose place the table 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Literal
 
 from ptproof.proof.load import Derivation
@@ -59,7 +59,7 @@ class Running:
 
 def hold_running(formulas: Formulas, source: Printed, derivation: Derivation) -> tuple[Running, ...]:
     """What becomes of each relation in running text, in the order of the text."""
-    said = _Everything(source, (*derivation.definitions, *derivation.claims), {})
+    said = _Everything(source, (*derivation.definitions, *derivation.claims))
     return tuple(_held(formula, formulas, source, said) for formula in formulas.running)
 
 
@@ -75,13 +75,14 @@ def _held(formula: Formula, formulas: Formulas, source: Printed, said: _Everythi
     statement = str(reading)
     # An entry 0 = 0 of two matrices is said by anybody.
     pairs = [pair for pair in (*reading.pairs, *reading.conditions) if not said.empty(formula, pair)]
-    stating = [said.stating(formula, pair) for pair in pairs]
+    meeting = [list(said.meeting(formula, pair)) for pair in pairs]
+    stating = [[says for says in near if says.states(pair)] for near, pair in zip(meeting, pairs, strict=True)]
     if pairs and all(stating):
         all_of_it = [says for says in stating[0] if all(says in found for found in stating)]
         saying = all_of_it or list({says.id: says for found in stating for says in found}.values())
-        whole = [says.id for says in saying if _states_no_more(says, pairs)]
-        return Running(formula, "equal", tuple(says.id for says in saying), "", statement, tuple(whole))
-    restating = [said.restating(formula, pair) for pair in pairs]
+        no_more = tuple(says.id for says in saying if _states_no_more(says, pairs))
+        return Running(formula, "equal", tuple(says.id for says in saying), "", statement, no_more)
+    restating = [said.restating(formula, pair, near) for near, pair in zip(meeting, pairs, strict=True)]
     if all(found is not None for found in restating):
         ids = dict.fromkeys(id for found in restating if found is not None for id in found)
         detail = "" if ids else "the notation says it"
@@ -96,41 +97,49 @@ def _states_no_more(says: Stated, pairs: Iterable[Pair]) -> bool:
 
 
 @dataclass(frozen=True)
+class _Known:
+    """All that a derivation states, by the numbers of its sides."""
+
+    by_number: dict[str, list[Stated]] = field(default_factory=dict)
+    special: list[tuple[Stated, set[str]]] = field(default_factory=list)  # what takes letters for something else
+
+    def add(self, says: Stated, plain: bool) -> None:
+        sides = {number(side) for own in (*says.pairs, *says.given) for side in (own.left, own.right)}
+        if not plain:
+            self.special.append((says, sides))
+        else:
+            for side in sides:
+                self.by_number.setdefault(side, []).append(says)
+
+
+@dataclass(frozen=True)
 class _Everything:
-    """All that a derivation states, by the numbers of its sides, for each meaning that the letters have."""
+    """All that a derivation states, for each meaning that the letters have somewhere."""
 
     source: Printed
     items: tuple[Item, ...]
-    kept: dict[tuple[int, ...], tuple[dict[str, list[Stated]], list[Stated]]]
+    kept: dict[tuple[int, ...], _Known] = field(default_factory=dict)
 
-    def _at(self, formula: Formula) -> tuple[dict[str, list[Stated]], list[Stated]]:
-        """By sides, and apart from them what takes letters of the paper for something else."""
+    def _at(self, formula: Formula) -> _Known:
         key = context(self.source.table, formula.place)
         if key not in self.kept:
-            table: dict[str, list[Stated]] = {}
-            special: list[Stated] = []
-            plain = self.source.meaning(formula)
+            found = self.kept[key] = _Known()
             for item in self.items:
                 says = None if getattr(item, "corrects", None) else stated(item, formula, self.source)
-                if says is not None and says.meaning is not plain:
-                    special.append(says)
-                elif says is not None:
-                    for own in (*says.pairs, *says.given):
-                        for side in (own.left, own.right):
-                            entries = table.setdefault(number(side), [])
-                            if not entries or entries[-1] is not says:
-                                entries.append(says)
-            self.kept[key] = table, special
+                if says is not None:
+                    found.add(says, says.meaning is self.source.meaning(formula))
         return self.kept[key]
 
-    def _meeting(self, formula: Formula, pair: Pair) -> Iterator[Stated]:
-        """What has this relation, or each of its sides in one, as far as their numbers say."""
-        table, special = self._at(formula)
-        plain = self.source.meaning(formula)
+    def meeting(self, formula: Formula, pair: Pair) -> Iterator[Stated]:
+        """What has each side of this relation in some relation, as far as their numbers say."""
+        known, plain = self._at(formula), self.source.meaning(formula)
         left, right = number(plain(pair.left)), number(plain(pair.right))
-        second = {says.id for says in table.get(right, [])}
-        yield from (says for says in table.get(left, []) if says.id in second)
-        yield from special
+        second = {says.id for says in known.by_number.get(right, [])}
+        yield from (says for says in known.by_number.get(left, []) if says.id in second)
+        for says, sides in known.special:
+            own = says.spoken(pair)
+            if number(own.left) in sides and number(own.right) in sides:
+                yield says
 
     def empty(self, formula: Formula, pair: Pair) -> bool:
         """Whether both sides are the same number."""
@@ -138,16 +147,9 @@ class _Everything:
         left, right = plain(pair.left), plain(pair.right)
         return pair.sign == "=" and left == right and not left.free_symbols
 
-    def stating(self, formula: Formula, pair: Pair) -> list[Stated]:
-        """What states this relation itself, in one step or by a chain of equalities."""
-        return [
-            says for says in self._meeting(formula, pair)
-            if says.parts(pair) or (says.says(pair) is None and says.implies(pair))
-        ]  # fmt: skip
-
-    def restating(self, formula: Formula, pair: Pair) -> list[str] | None:
+    def restating(self, formula: Formula, pair: Pair, meeting: Iterable[Stated]) -> list[str] | None:
         """What states or assumes it; nothing where the notation says it, None where nobody does."""
-        found = [says.id for says in self._meeting(formula, pair) if says.says(pair)]
+        found = [says.id for says in meeting if says.says(pair)]
         plain = self.source.meaning(formula)
         left, right = plain(pair.left), plain(pair.right)
         if not found and pair.sign == "=" and same(left, right):

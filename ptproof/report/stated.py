@@ -127,6 +127,10 @@ class Stated:
             found = False
         return found
 
+    def states(self, wanted: Pair) -> bool:
+        """Whether the claim itself states this, and not only assumes it: in one step or by a chain of equalities."""
+        return bool(self.parts(wanted)) or (self.says(wanted) is None and self.implies(wanted))
+
     def implies(self, wanted: Pair) -> bool:
         """Whether the claim has the sides equal by a chain of its equalities.
 

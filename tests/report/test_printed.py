@@ -176,14 +176,15 @@ def test_a_wrong_table_is_bad_input(tmp_path, capsys, table, word):
     assert word in error
 
 
-def test_a_table_stands_beside_the_derivation_that_ships():
+@pytest.mark.parametrize("name", ["pt_seeker", "newton_seeker"])
+def test_a_table_stands_beside_the_derivation_that_ships(name):
     from importlib.resources import files
 
     from ptproof.reading.latex.grammar import Grammar
     from ptproof.reading.latex.notation import notation, read_table, vocabulary
     from ptproof.reading.latex.tokens import read
 
-    text = (files("derivations.pt_seeker") / "notation.toml").read_text()
+    text = (files(f"derivations.{name}") / "notation.toml").read_text()
     table = read_table(text, "notation.toml")
     letters = notation(table, vocabulary(table, {}), "", "notation.toml")
     heads = [head for item in table.says for head in (*item.left, *item.right) if head and " = " not in head]

@@ -31,7 +31,7 @@ class Cursor:
 
     def peek(self, ahead: int = 0) -> Token:
         place = self.position + ahead
-        return self.tokens[place] if place < len(self.tokens) else END
+        return self.tokens[place] if 0 <= place < len(self.tokens) else END
 
     @property
     def text(self) -> str:

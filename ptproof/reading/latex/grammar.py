@@ -11,6 +11,7 @@ from typing import Any
 
 import sympy as sp
 
+from ptproof.reading.guards import arguments_refused
 from ptproof.reading.latex.cursor import CLOSING, OTHER_RELATIONS, RELATIONS
 from ptproof.reading.latex.sets import CASES, Sets
 from ptproof.reading.latex.tokens import Token
@@ -31,8 +32,10 @@ class Grammar(Sets):
 
     def inner(self, tokens: Sequence[Token]) -> Any:
         """The value of a piece that has to be one expression."""
+        if not tokens:
+            raise self.refuse("grammar", "an expression is missing", self.peek(-1))
         part = Grammar(tokens, self.notation)
-        part.braces = self.braces
+        part.braces, part.terms = self.braces, self.terms
         value = part.expression()
         if part.text:
             raise part.refuse("grammar", f"{part.text} is not expected here")
@@ -200,6 +203,8 @@ class Grammar(Sets):
             value: Any = column.applyfunc(function)  # of each entry, as papers write it
         elif any(isinstance(item, sp.MatrixBase) for item in values):
             raise self.refuse("matrix", f"{name.text} of a matrix is not read", name)
+        elif refused := arguments_refused(name.text[1:], values):
+            raise self.refuse("grammar", refused, name)
         else:
             value = function(*values)
         return self.raised(value, exponent, name) if exponent else value

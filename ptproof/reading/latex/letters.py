@@ -31,6 +31,7 @@ class Letters(Cursor):
         self.bars: list[str] = []
         self.braces: list[tuple[list[Token], list[Token]]] = []
         self.integrals = 0
+        self.terms: list[Token] = []  # of sums that were written out so far
 
     def differential(self, tokens: Sequence[Token]) -> tuple[str, list[Token]] | None:
         """The sign of a differential that opens the tokens; a plain d is none where it is a letter of the paper."""

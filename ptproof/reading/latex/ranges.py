@@ -35,6 +35,10 @@ class Ranges(Calculus):
         for values in self.indices(lower, upper, at):
             part = type(self)([*self.tokens[:start], *_put_in(self.tokens[start:], values)], self.notation)
             part.position, part.bars, part.braces, part.integrals = start, self.bars, self.braces, self.integrals
+            part.terms = self.terms
+            self.terms.append(at)
+            if len(self.terms) > _MOST:
+                raise self.refuse("sum", "sums of so many terms are not read", at)
             term = part.product()
             total = term if total is None else add(total, term, at)
             self.position = len(self.tokens) - (len(part.tokens) - part.position)
@@ -45,12 +49,14 @@ class Ranges(Calculus):
     def indices(self, lower: list[Token], upper: list[Token], at: Token) -> Iterable[Mapping[str, int]]:
         """The values of the indices: of ``i=1`` and a last number, or of chains such as ``1 ≤ i < j ≤ l``."""
         lines = _lines(lower)
+        if not any(lines):
+            raise self.refuse("sum", "a sum over this range is not read", at)
         last = [self.last(upper, at)] * len(lines) if upper else []
         found: list[dict[str, int]] = [{}]
         for number, line in enumerate(lines):
             texts = [token.text for token in line]
             if last:
-                if len(texts) < 3 or texts[1] != "=":
+                if len(texts) < 3 or texts[1] != "=" or not texts[0].isalpha():
                     raise self.refuse("sum", "a sum over this range is not read", at)
                 if any(name in found[0] for name in texts[2:]):
                     raise self.refuse("two readings", "an index that another one begins can end there or go on", at)
@@ -75,7 +81,7 @@ class Ranges(Calculus):
             else:
                 sides[-1].append(token)
         names = [side[0].text for side in sides[1:-1] if len(side) == 1]
-        if len(sides) < 3 or len(names) != len(sides) - 2 or any(name in known for name in names):
+        if len(sides) < 3 or len(names) != len(sides) - 2 or any(name in known or not name.isalpha() for name in names):
             raise self.refuse("sum", "a sum over this range is not read", at)
         low, high = self.number(sides[0], known, at), self.number(sides[-1], known, at)
         found: list[tuple[dict[str, int], int]] = [(dict(known), low)]

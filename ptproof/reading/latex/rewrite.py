@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Any
 
 import sympy as sp
@@ -107,7 +107,14 @@ class Rules:
 
     def __call__(self, expression: Any) -> Any:
         """The expression with every letter replaced by what it stands for."""
-        return self._of(expression, 0).xreplace(self.positive)
+        if expression not in self._known:
+            self._known[expression] = self._of(expression, 0).xreplace(self.positive)
+        return self._known[expression]
+
+    @cached_property
+    def _known(self) -> dict[Any, Any]:
+        """What was asked before; the same sides are asked for many formulas."""
+        return {}
 
     def _of(self, expression: Any, depth: int) -> Any:
         if depth > _DEEPEST:
@@ -210,6 +217,7 @@ def _single(body: sp.Expr) -> tuple[sp.Expr, sp.Integral | None]:
     return body / integrals[0], integrals[0]
 
 
+@lru_cache(maxsize=4096)
 def _settled(argument: sp.Expr) -> sp.Expr:
     """An argument in one spelling, so that a function at t − t₀ is the function at −(t₀ − t)."""
     if argument.is_Symbol or argument.is_number:

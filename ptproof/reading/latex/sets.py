@@ -90,6 +90,8 @@ class Sets(Ranges):
         if any(isinstance(value, sp.MatrixBase) for value in values):
             raise self.refuse("relation", "membership of a column in a set is no relation between numbers", at)
         for sign, bound in self.interval(at):
+            if isinstance(bound, sp.MatrixBase) or bound in (sp.oo, -sp.oo):
+                raise self.refuse("relation", "the ends of an interval are no numbers", at)
             found += [(value, sign, bound) for value in values]
         return found
 

@@ -177,6 +177,8 @@ def _entries(left: Any, sign: str, right: Any, at: Token) -> list[Pair]:
         left = sp.zeros(*right.shape)
     if getattr(left, "shape", None) != getattr(right, "shape", None):
         raise NotUnderstood("matrix", "the two sides are of different shapes", at.line)
+    if any(side.has(sp.nan, sp.zoo) for side in (left, right)):
+        raise NotUnderstood("grammar", "a side has no value", at.line)
     if not isinstance(left, sp.MatrixBase):
         return [Pair(left, sign, right)]
     if sign != "=":

@@ -176,9 +176,12 @@ def _filled(macro: Macro, values: list[list[Token]], line: int) -> list[Token]:
     return result
 
 
+_NO_ARGUMENT = frozenset({"}", "^", "_", "&", "\\\\"})
+
+
 def argument(found: Sequence[Token], position: int, of: Token) -> tuple[list[Token], int]:
     """The argument that begins at ``position``: a group, without its braces, or one token; and where it ends."""
-    if position >= len(found) or found[position].text == "}":
+    if position >= len(found) or found[position].text in _NO_ARGUMENT:
         raise NotUnderstood("bad LaTeX", f"{of.text} lacks an argument", of.line)
     if found[position].text != "{":
         return [found[position]], position + 1

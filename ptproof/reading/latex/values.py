@@ -6,6 +6,7 @@ from typing import Any
 
 import sympy as sp
 
+from ptproof.reading.guards import power_refused
 from ptproof.reading.latex.tokens import NotUnderstood, Token
 
 
@@ -38,6 +39,8 @@ def power(value: Any, exponent: Any, at: Token) -> Any:
         raise NotUnderstood("matrix", "a power of a matrix, or division by one", at.line)
     if value == 0 and exponent.is_negative:
         raise NotUnderstood("grammar", "a division by 0", at.line)
+    if refused := power_refused(value, exponent):
+        raise NotUnderstood("grammar", refused, at.line)
     return value**exponent
 
 
