@@ -39,7 +39,7 @@ def doing(what: str) -> None:
 
 
 def limit() -> None:
-    """From here on this process, if it is one of its own, reads nothing, and has no more memory than one for a claim."""
+    """From here on this process, if it is one of its own, reads nothing, and has the memory of one for a claim."""
     if _state["guarded"]:
         streams.nothing_to_read()
         limit_memory(MEMORY)

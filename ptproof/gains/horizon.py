@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
 
 import sympy as sp
@@ -54,11 +54,6 @@ class Horizon:
     def __post_init__(self) -> None:
         if not _increases(self.clock):
             raise InputError(f"{self.clock.name}: it does not hold, or cannot be shown, that its rate never falls")
-
-    @property
-    def uncapped(self) -> Horizon:
-        """The same clock whose rate grows up to T."""
-        return replace(self, nu_min=None)
 
     @property
     def corner(self) -> sp.Expr:

@@ -22,6 +22,8 @@ from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any, TypeVar
 
+from ptproof.reading import nursery
+from ptproof.reading.host import serve
 from ptproof.reading.outcomes import Answered, Unanswered, Why, check_seconds, end_in_words, in_words
 
 Key = TypeVar("Key")
@@ -93,9 +95,6 @@ class Copies:
 
     def _connected(self, work: Callable[..., Any]) -> Connection:
         if self._to_host is None:
-            from ptproof.reading import nursery
-            from ptproof.reading.host import serve
-
             context: Any = multiprocessing.get_context("fork")
             ours, theirs = context.Pipe()
             if _alone():

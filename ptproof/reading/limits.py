@@ -66,7 +66,7 @@ class _Working(Generic[Answer]):
         self._answers: list[Answer] = []
         self._errors: list[BaseException] = []
         self._guard = threading.Lock()
-        self._told = self._over = False
+        self._told = self._begun = self._over = False
         self._inside = 0
         self.thread = threading.Thread(target=self._run, daemon=True, name="ptproof time limit")
         usual = threading.stack_size(_STACK)  # expressions are deep, and some systems give a thread very little
@@ -87,7 +87,7 @@ class _Working(Generic[Answer]):
             if self._over:
                 return True
             self._told = True
-            if not self._inside:
+            if self._begun and not self._inside:
                 _raise_in(self.thread, Stop)
             return False
 
@@ -110,6 +110,10 @@ class _Working(Generic[Answer]):
     def _run(self) -> None:
         _here.working = self
         with suppress(Stop):  # told in the last moment
+            with self._guard:
+                if self._told:  # before there was anything that would catch what it is told by
+                    return
+                self._begun = True
             try:
                 self._answers.append(self._work())
             except BaseException as error:  # handed over to the thread that waits

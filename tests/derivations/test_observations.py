@@ -1,6 +1,5 @@
 """Section 7 in numbers: each statement against its criterion, over a few headings, and the figures of the examples."""
 
-import control
 import numpy as np
 import pytest
 
@@ -116,6 +115,8 @@ def test_as_drawn_the_figure_is_not_the_closed_loop(comparison):
 
 
 def test_the_filter_as_drawn_is_the_printed_transfer_function():
+    import control  # a second of imports, which no other test here needs
+
     problem = example("vanishing")
     printed = block_diagram.washout_transfer(problem)
     mu = float(problem.tuning.mu)

@@ -116,10 +116,11 @@ def test_hosts_of_several_threads_at_a_time_do_not_get_in_each_others_way() -> N
 
 
 PARENT = """
-import sys, threading, time
+import signal, sys, threading, time
 from ptproof.reading.limits import Workers
 
 def main():
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # who started the tests may have it ignored
     threading.Thread(target=time.sleep, args=(60,), daemon=True).start()
     with Workers(start=print, arguments=("read", )) as workers:
         for _ in workers.each(60, time.sleep, {n: (60 if n else 0.01,) for n in range(2)}):

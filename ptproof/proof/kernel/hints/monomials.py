@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -69,11 +69,6 @@ def difference(a: Exponents, b: Exponents) -> dict[sp.Basic, sp.Expr]:
 def product_of(exponents: Exponents) -> sp.Expr:
     """The product again."""
     return sp.Mul(*(base**exponent for base, exponent in exponents.items()))
-
-
-def of_positive(bases: Iterable[sp.Basic]) -> bool:
-    """Whether every base is positive, by its declaration or as it is built."""
-    return all(base.is_positive for base in bases)
 
 
 def _plain(part: sp.Expr) -> tuple[sp.Rational, sp.Expr]:
