@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ptproof.proof import Evidence, Goal, claim, eq, every, exact, ge, gt, limits, lt, reals
+from ptproof.proof import Evidence, Goal, claim, definition, eq, every, exact, ge, gt, limits, lt, reals
 
 from . import chain
 from .notation import F_star, F_x, H, alpha, d, nu, omega, omega_0, omega_d, p, t, x1, x2, xs1, xs2
@@ -31,6 +31,11 @@ NUMBERS = {
     H: sp.Rational(1, 100),
 }
 START = {x1: 4, x2: -4, xs1: 1, xs2: -1, F_star: 5, nu: 0, d: 1}
+parameters = definition(
+    "newton/6-parameters", "The parameters of the simulation",
+    every(*(eq(letter, value) for letter, value in {**NUMBERS, **START}.items())), labels=[],
+    prose="Of x, ν and d at the start. The rate h of the measurement's filter is not given.",
+)  # fmt: skip
 
 
 @claim(

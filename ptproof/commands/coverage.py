@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence, Set
 from typing import TYPE_CHECKING
 
 import click
 
 from ptproof.commands import options
+from ptproof.commands.papers import Opened, opened
 
 if TYPE_CHECKING:
+    from ptproof.proof.claim import Claim, Definition
+    from ptproof.proof.load import Derivation
     from ptproof.report.coverage import Coverage
     from ptproof.report.printed import Compared
+    from ptproof.report.running import Running
 
 
 @click.command()
@@ -20,10 +24,13 @@ if TYPE_CHECKING:
 @options.derivations
 @options.as_json
 def coverage(paper: str, paths: tuple[str, ...], as_json: bool) -> int:
-    """Show which equations of PAPER.tex the claims below each PATH cover (the shipped derivation where left out).
+    """Show which equations of PAPER.tex the claims below each PATH cover (the shipped derivations where left out).
+
+    Where there are several derivations, the one that names most labels of the paper is taken for its own.
 
     Each displayed formula is read from the source, by the table notation.toml beside the derivation, and held against
-    what the claims that cover it say: equal, different, or not read and why.
+    what the claims that cover it say: equal, different, or not read and why. A relation in running text is looked up
+    among all that the derivation states or assumes.
 
     Exit status 1 if a label of an equation is not covered, a claim names a label that the paper does not have, or a
     formula that was read is different from what is claimed.
@@ -33,27 +40,54 @@ def coverage(paper: str, paths: tuple[str, ...], as_json: bool) -> int:
     from ptproof.reading.latex.source import read_paper
     from ptproof.report.coverage import coverage as match
     from ptproof.report.labels import all_labels, equation_labels
-    from ptproof.report.printed import compare_all, readable
+    from ptproof.report.printed import compare_all
+    from ptproof.report.running import hold_running
     from ptproof.report.stated import printed
 
     source = read_paper(paper)
     labels, formulas = equation_labels(source), find_formulas(source)
     if not labels and not formulas.displayed:
         raise InputError(rf"{paper}: no \label stands in an equation; name the LaTeX source of the paper")
-    with options.loaded(paths) as derivation:
+    with opened(paths) as papers:
+        name, derivation = own(papers, {*labels, *all_labels(source)}, paper)
         found = match(labels, [*derivation.claims, *derivation.definitions], all_labels(source))
         for label, ids in found.stale:
             click.echo(f"ptproof: {paper} has no label {label}, which is named by {', '.join(ids)}", err=True)
         notation = printed(derivation)
         compared = compare_all(formulas, notation)
-        running = {"found": len(formulas.running), "read": readable(formulas, notation)}
+        running = hold_running(formulas, notation, derivation)
         if as_json:
-            read = {"formulas": [item.to_json() for item in compared], "running": running}
-            options.print_json({**found.to_json(), **read})
+            count = {
+                "found": len(running),
+                "read": sum(item.read != "not read" for item in running),
+                "equal": sum(item.read == "equal" for item in running),
+                "items": [item.to_json() for item in running],
+            }
+            read = {"formulas": [item.to_json() for item in compared], "running": count}
+            options.print_json({**found.to_json(), "paper": name, **read})
         else:
+            if len(papers) > 1:
+                click.echo(f"{paper} is held against {name}", err=True)
             _show(found)
             _show_formulas(compared, running)
-    return 0 if found.complete and all(item.read != "different" for item in compared) else 1
+    return 0 if found.complete and all(item.read != "different" for item in (*compared, *running)) else 1
+
+
+def own(papers: Sequence[Opened], labels: Set[str], tex: str) -> tuple[str, Derivation]:
+    """The derivation that names most of the labels, with its name; if there is but one, that one."""
+    from ptproof.errors import InputError
+
+    derivations = {paper.name: paper.derivation for paper in papers if paper.derivation is not None}
+    named = {name: len(labels & _labels(found)) for name, found in derivations.items()}
+    best = [name for name, number in named.items() if number == max(named.values())]
+    if len(best) > 1:
+        raise InputError(f"{tex}: {', '.join(best)} name as many of its labels; name the folder that is about it")
+    return best[0], derivations[best[0]]
+
+
+def _labels(derivation: Derivation) -> set[str]:
+    items: list[Claim | Definition] = [*derivation.claims, *derivation.definitions]
+    return {label for item in items for label in item.labels}
 
 
 def _show(found: Coverage) -> None:
@@ -69,7 +103,7 @@ def _show(found: Coverage) -> None:
     console.print(f"{len(found.covered)} of {total} labelled equations are covered, {len(found.missing)} missing")
 
 
-def _show_formulas(compared: Sequence[Compared], running: Mapping[str, int]) -> None:
+def _show_formulas(compared: Sequence[Compared], running: Sequence[Running]) -> None:
     """How many formulas were read, and those that are not equal with what stood in the way."""
     from rich.text import Text
 
@@ -78,8 +112,7 @@ def _show_formulas(compared: Sequence[Compared], running: Mapping[str, int]) -> 
     console = output()
     count = Counter(item.read for item in compared)
     styles = {"different": "bold red", "not read": "yellow"}
-    styles = {"different": "bold red", "not read": "yellow"}
-    others = [item for item in compared if item.read != "equal"]
+    others = [*(item for item in compared if item.read != "equal"), *(r for r in running if r.read == "different")]
     rows = [
         (Text(item.formula.place), Text(str(item.formula.line)), Text(item.read, styles[item.read]), Text(item.detail))
         for item in others
@@ -90,4 +123,9 @@ def _show_formulas(compared: Sequence[Compared], running: Mapping[str, int]) -> 
         f"{len(compared)} displayed formulas: {count['equal']} read and equal, {count['different']} read and "
         f"different, {count['not read']} not read"
     )
-    console.print(f"{running['found']} relations in running text, {running['read']} of them can be read")
+    text = Counter(item.read for item in running)
+    console.print(
+        f"{len(running)} relations in running text: {text['equal']} read and equal to what is claimed, "
+        f"{text['restates']} restate what is assumed, {text['different']} different, "
+        f"{text['not claimed']} not claimed, {text['not read']} not read (--json lists them)"
+    )

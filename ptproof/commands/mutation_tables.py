@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
@@ -35,8 +35,15 @@ def mutation_progress(total: int) -> Iterator[Callable[[Claim, Outcome], None]]:
         yield done
 
 
-def mutation_tables(found: Mutation) -> None:
-    """The false claims that were proved, the counts of each claim by section, and all of it in a line."""
+def mutation_tables(papers: Mapping[str, Mutation]) -> None:
+    """Of each paper the false claims that were proved, the counts of each claim by section, and all of it in a line."""
+    for name, found in papers.items():
+        if len(papers) > 1:
+            output(highlight=False).rule(Text(name, style="bold"), align="left")
+        _table(found)
+
+
+def _table(found: Mutation) -> None:
     console = output(highlight=False)
     for claim, outcome in found.alarms:
         _print_alarm(console, claim, outcome)

@@ -3,20 +3,24 @@
 from __future__ import annotations
 
 import sys
-from typing import TYPE_CHECKING
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from ptproof.commands import guard, options, streams
+from ptproof.commands.papers import Opened, opened
 from ptproof.errors import InputError
 from ptproof.reading.outcomes import in_words
 
 if TYPE_CHECKING:
-    from pathlib import Path
+    from collections.abc import Mapping, Sequence
 
     from ptproof.proof.load import Derivation
     from ptproof.proof.result import Verification
     from ptproof.report.content import Figure, Table
+    from ptproof.report.model import Report
+    from ptproof.report.read import ReadSide
 
 
 @click.command()
@@ -27,76 +31,159 @@ if TYPE_CHECKING:
 @options.timeout("one claim")
 @options.fresh
 @click.option("--no-figures", is_flag=True, help="Leave out the simulations and their figures.")
+@click.option(
+    "--paper", "sources", multiple=True, metavar="FILE.tex", help="A paper's LaTeX, to read its printed sides from."
+)
+@click.option("--single", is_flag=True, help="Also write report.html: all of it in one file, for mailing.")
+@click.option("--pdf", is_flag=True, help="Also write report.pdf, printed by Chromium, which has to be installed.")
 def report(
     paths: tuple[str, ...],
     out: str,
-    jobs: int | None,
-    cluster: str | None,
-    timeout: float,
     fresh: bool,
     no_figures: bool,
+    sources: tuple[str, ...],
+    single: bool,
+    pdf: bool,
+    **how: Any,
 ) -> int:
-    """Verify the claims below each PATH (the shipped derivation of the paper where left out) and write the report.
+    """Verify the claims below each PATH (the shipped derivations where left out) and write the report.
 
-    Writes index.html, report.md, graph.svg and figures/ into FOLDER. Exit status 1 if a claim did not come out as
-    its author recorded, or a figure could not be drawn; the report is written all the same.
+    Writes index.html and the pages that it leads to, report.md, graph.svg and figures/ into FOLDER; of several papers
+    each into a folder of its own name in it, and a page above them. With --paper each card says whether what the paper
+    prints was read from its source and is what is claimed. Exit status 1 if a claim did not come out as its author
+    recorded, a figure could not be drawn, or the paper prints something else; the report is written all the same.
     """
-    from ptproof.commands.terminal import claim_progress
     from ptproof.proof.run import Interrupted
-    from ptproof.proof.run import verify as run
+    from ptproof.report.printing import browser
     from ptproof.report.writing import check_place
 
-    place = check_place(out)
-    memory = options.memory_of(paths, fresh)
-    with options.loaded(paths, memory) as derivation:
+    place, printer = check_place(out), browser() if pdf else ""
+    decided: dict[str, Verification] = {}
+    with opened(paths, fresh) as papers:
+        read = _read(papers, sources)
+        for paper in papers:
+            try:
+                decided[paper.name] = _decided(paper, **how)
+            except Interrupted as interrupted:
+                status = options.interrupted(interrupted)
+                _summarize({**decided, paper.name: interrupted.verification})
+                return status
         try:
-            with options.connected(cluster) as client, claim_progress(len(derivation.claims)) as progress:
-                verification = run(
-                    derivation, workers=jobs, client=client, timeout=timeout, progress=progress, memory=memory
-                )
-        except Interrupted as interrupted:
-            status = options.interrupted(interrupted)
-            _summarize(interrupted.verification)
-            return status
-        try:
-            return _write(place, derivation, verification, no_figures)
+            return _write(place, papers, decided, read, no_figures, single, printer)
         except KeyboardInterrupt:  # nothing is half written, and what is decided is shown
-            _summarize(verification)
+            _summarize(decided)
             if guard.own_interrupt():
                 raise InputError("the derivation raised KeyboardInterrupt while the report was written") from None
             raise
 
 
-def _write(place: Path, derivation: Derivation, verification: Verification, no_figures: bool) -> int:
-    from ptproof.report.compose import compose
-    from ptproof.report.letters import notation_of, title_of
-    from ptproof.report.pages import report_files
-    from ptproof.report.versions import versions
+def _decided(paper: Opened, jobs: int | None, cluster: str | None, timeout: float) -> Verification:
+    from ptproof.commands.terminal import claim_progress
+    from ptproof.proof.run import verify as run
+
+    derivation = _derivation(paper)
+    with options.connected(cluster) as client, claim_progress(len(derivation.claims)) as progress:
+        return run(
+            derivation, workers=jobs, client=client, timeout=timeout, progress=progress, memory=paper.memory
+        )  # fmt: skip
+
+
+def _derivation(paper: Opened) -> Derivation:
+    assert paper.derivation is not None  # nothing is known of a paper without loading it
+    return paper.derivation
+
+
+def _read(papers: Sequence[Opened], sources: Sequence[str]) -> dict[str, Mapping[str, ReadSide]]:
+    """What became of the printed sides of each paper whose source is given, by the paper's name."""
+    from ptproof.commands.coverage import own
+    from ptproof.reading.latex.source import read_paper
+    from ptproof.report.labels import all_labels
+    from ptproof.report.read import read_sides
+
+    found: dict[str, Mapping[str, ReadSide]] = {}
+    for tex in sources:
+        source = read_paper(tex)
+        name, derivation = own(papers, {*all_labels(source)}, tex)
+        if name in found:
+            raise InputError(f"--paper: {tex} is about {name}, and so is another that is given")
+        found[name] = read_sides(source, derivation)
+    return found
+
+
+def _write(
+    place: Path,
+    papers: Sequence[Opened],
+    decided: dict[str, Verification],
+    read: Mapping[str, Mapping[str, ReadSide]],
+    no_figures: bool,
+    single: bool,
+    printer: str,
+) -> int:
+    from ptproof.report.pages import all_files
     from ptproof.report.writing import write_report
 
     guard.doing("while the report was made; none is written")
-    figures, tables, notes = ((), (), ()) if no_figures else _drawn(derivation)
+    composed = {
+        paper.name: _composed(paper, decided[paper.name], read.get(paper.name, {}), no_figures) for paper in papers
+    }
+    content = {name: found for name, (found, _) in composed.items()}
+    write_report(place, all_files(content, single=single, browser=printer))
+    _summarize(decided)
+    several = len(composed) > 1
+    for name, (found, failures) in composed.items():
+        of = f"{name}: " if several else ""
+        for claim in found.unexpected:
+            words = f"{claim.ref.id}: expected {claim.expected}, came out {claim.status.word}"
+            click.echo(f"ptproof: {of}{words}", err=True)
+        for ref in found.read.get("different", ()):
+            click.echo(f"ptproof: {of}{ref.id}: the paper prints something else", err=True)
+        for note in failures:
+            click.echo(f"ptproof: {of}{note}", err=True)
+    _name_places(place, tuple(composed) if several else (), single, bool(printer))
+    failed = any(failures or "different" in found.read for found, failures in composed.values())
+    return 0 if all(found.as_expected for found in decided.values()) and not failed else 1
+
+
+def _composed(
+    paper: Opened, verification: Verification, read: Mapping[str, ReadSide], no_figures: bool
+) -> tuple[Report, tuple[str, ...]]:
+    """The content of the report, and what could not be drawn."""
+    from ptproof.report.compose import compose
+    from ptproof.report.letters import notation_of, title_of
+    from ptproof.report.versions import versions
+
+    derivation = _derivation(paper)
+    figures, tables, failures = ((), (), ()) if no_figures else _drawn(derivation)
     content = compose(
         verification, derivation, title=title_of(derivation), notation=notation_of(derivation),
-        versions=versions(), figures=figures, appendix=tables, notes=notes,
+        versions=versions(), figures=figures, appendix=tables, notes=failures, read=read,
     )  # fmt: skip
-    write_report(place, report_files(content))
-    _summarize(verification)
-    for claim in content.unexpected:
-        click.echo(f"ptproof: {claim.ref.id}: expected {claim.expected}, came out {claim.status.word}", err=True)
-    for note in notes:
-        click.echo(f"ptproof: {note}", err=True)
-    click.echo(f"{place / 'index.html'}  the report, for a browser", file=streams.out())
-    click.echo(f"{place / 'report.md'}  the same as Markdown", file=streams.out())
-    return 0 if verification.as_expected and not notes else 1
+    return content, failures
 
 
-def _summarize(verification: Verification) -> None:
+def _name_places(place: Path, names: Sequence[str], single: bool, pdf: bool) -> None:
+    """Where the report is, and that of each paper."""
+    if names:
+        click.echo(f"{place / 'index.html'}  the page above the papers, for a browser", file=streams.out())
+    for folder in [place / name for name in names] or [place]:
+        click.echo(f"{folder / 'index.html'}  the report, for a browser", file=streams.out())
+        click.echo(f"{folder / 'report.md'}  the same as Markdown", file=streams.out())
+        if single:
+            click.echo(f"{folder / 'report.html'}  the same in one file", file=streams.out())
+        if pdf:
+            click.echo(f"{folder / 'report.pdf'}  the same on paper", file=streams.out())
+
+
+def _summarize(decided: dict[str, Verification]) -> None:
     from ptproof.commands.terminal import COLOURS
 
-    summary = verification.summary()
-    words = ", ".join(f"{summary[word]} {word}" for word in COLOURS if summary[word])
-    click.echo(f"{summary['total']} claims: {words}; {summary['fully_proved']} fully proved", file=streams.out())
+    for name, verification in decided.items():
+        summary = verification.summary()
+        words = ", ".join(f"{summary[word]} {word}" for word in COLOURS if summary[word])
+        of = f"{name}: " if len(decided) > 1 else ""
+        click.echo(
+            f"{of}{summary['total']} claims: {words}; {summary['fully_proved']} fully proved", file=streams.out()
+        )
 
 
 def _drawn(derivation: Derivation) -> tuple[tuple[Figure, ...], tuple[Table, ...], tuple[str, ...]]:

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
+
+from ptproof.commands.papers import qualified, shared
 
 if TYPE_CHECKING:
     from ptproof.proof.result import Verification
@@ -55,3 +58,28 @@ class Shown:
     def remembered(self) -> int:
         """How many claims an earlier run has decided."""
         return sum(any(item.get("remembered") for item in claim["evidence"]) for claim in self.claims)
+
+
+def together(found: Mapping[str, Shown]) -> dict[str, Any]:
+    """The JSON of all papers: if there are several, each claim says of which it is, and the sums are over all of them.
+
+    An id that stands in two of the papers is written ``paper:id``.
+    """
+    if len(found) == 1:
+        return dict(*(shown.json for shown in found.values()))
+    twice = shared({name: [claim["id"] for claim in shown.claims] for name, shown in found.items()})
+    claims = [
+        {
+            **claim,
+            "id": qualified(claim["id"], name, twice),
+            "uses": [qualified(used, name, twice) for used in claim["uses"]],
+            "paper": name,
+        }
+        for name, shown in found.items()
+        for claim in shown.claims
+    ]
+    total: Counter[str] = Counter()
+    for shown in found.values():
+        total.update(shown.json["summary"])
+    summaries = {name: shown.json["summary"] for name, shown in found.items()}
+    return {"claims": claims, "summary": dict(total), "papers": summaries}

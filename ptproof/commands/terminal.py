@@ -66,6 +66,22 @@ def claim_progress(total: int) -> Iterator[Callable[[DecidedClaim, Evidence], No
         yield done
 
 
+def verification_tables(found: Mapping[str, Shown]) -> None:
+    """The claims of each paper with their verdicts."""
+    console = output(highlight=False)
+    for name, shown in found.items():
+        if len(found) > 1:
+            console.rule(Text(name, style="bold"), align="left")
+        verification_table(shown)
+        if len(found) > 1:
+            console.print()
+    if len(found) > 1:
+        total = {word: sum(shown.json["summary"][word] for shown in found.values()) for word in ("total", "unexpected")}
+        line = Text(f"{len(found)} papers, {total['total']} claims: ")
+        line.append(f"{total['unexpected']} not as expected", style="bold red" if total["unexpected"] else "")
+        console.print(line)
+
+
 def verification_table(verification: Verification | Shown) -> None:
     """The claims with their verdicts, grouped by section, then the witnesses of what is false."""
     shown = verification if isinstance(verification, Shown) else Shown.of(verification)
@@ -140,3 +156,7 @@ def _print_summary(console: Console, shown: Shown) -> None:
     line.append(f"; {summary['fully_proved']} fully proved, ")
     line.append(f"{summary['unexpected']} not as expected", style="bold red" if summary["unexpected"] else "")
     console.print(line)
+    if gaps := summary.get("gaps", 0):
+        console.print(
+            f"{gaps} {'formula is a gap' if gaps == 1 else 'formulas are gaps'}: nothing is stated of them yet"
+        )

@@ -1,4 +1,4 @@
-"""``ptproof verify``: verify the claims of a derivation."""
+"""``ptproof verify``: verify the claims of one or more derivations."""
 
 from __future__ import annotations
 
@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ptproof.commands import guard, opinion, options
-from ptproof.commands.shown import Shown
+from ptproof.commands.papers import Opened, opened
+from ptproof.commands.shown import Shown, together
 
 if TYPE_CHECKING:
     from ptproof.proof.load import Derivation
@@ -31,28 +32,45 @@ if TYPE_CHECKING:
 def verify(
     paths: tuple[str, ...], as_json: bool, select: str, fresh: bool, kernel: bool, keep: Path | None, **how: Any
 ) -> int:
-    """Verify the claims below each PATH (the shipped derivation of the paper where left out).
+    """Verify the claims below each PATH (the shipped derivations where left out), one paper after the other.
 
+    Of a derivation that was written from a paper it also says how many formulas are gaps, of which nothing is stated.
     What an earlier run has decided is not decided again while every file that it depends on is the same. Exit status 1
     if a claim did not come out as its author recorded.
     """
-    start = time.perf_counter()
     opinion.available(kernel, keep)
-    memory = options.memory_of(paths, fresh)
-    kept = None if kernel or how["cluster"] is not None else memory.run(select)
-    if (shown := Shown.again(kept)) is not None:
-        _print(replace(shown, seconds=time.perf_counter() - start), as_json)
-        return 0 if shown.as_expected else 1
-    with options.loaded(paths, memory, select) as derivation:
-        verification, status = _decided(derivation, memory, select, **how)
-        if kernel and status in (0, 1):
-            try:
-                verification = opinion.confirmed(verification, how["jobs"], keep)
-            except KeyboardInterrupt:
-                click.echo("ptproof: interrupted before Coq had answered", err=True)
-                status = guard.interrupt_status()
-        _print(Shown.of(verification), as_json)
+
+    def known(memory: Memory) -> Shown | None:
+        return Shown.again(None if kernel or how["cluster"] is not None else memory.run(select))
+
+    begin, found = time.perf_counter(), {}
+    with opened(paths, fresh, select, known) as papers:
+        status = 0
+        for paper in papers:
+            folder = keep / paper.name if keep is not None and len(papers) > 1 else keep
+            found[paper.name], new = _paper(paper, select, kernel, folder, begin, how)
+            begin, status = time.perf_counter(), max(status, new)
+            if new not in (0, 1):  # interrupted
+                break
+        _print(found, as_json)
     return status
+
+
+def _paper(
+    paper: Opened, select: str, kernel: bool, keep: Path | None, begin: float, how: dict[str, Any]
+) -> tuple[Shown, int]:
+    """What there is to show of a paper, and its exit status."""
+    if paper.derivation is None:
+        shown: Shown = replace(paper.known, seconds=time.perf_counter() - begin)
+        return shown, 0 if shown.as_expected else 1
+    verification, status = _decided(paper.derivation, paper.memory, select, **how)
+    if kernel and status in (0, 1):
+        try:
+            verification = opinion.confirmed(verification, how["jobs"], keep)
+        except KeyboardInterrupt:
+            click.echo("ptproof: interrupted before Coq had answered", err=True)
+            status = guard.interrupt_status()
+    return Shown.of(verification), status
 
 
 def _decided(
@@ -71,14 +89,16 @@ def _decided(
             )  # fmt: skip
     except Interrupted as interrupted:
         return interrupted.verification, options.interrupted(interrupted)
+    if not select:
+        verification = replace(verification, gaps=len(derivation.gaps))
     memory.keep_run(select, Shown.of(verification).data, verification)
     return verification, 0 if verification.as_expected else 1
 
 
-def _print(shown: Shown, as_json: bool) -> None:
+def _print(found: dict[str, Shown], as_json: bool) -> None:
     if as_json:
-        options.print_json(shown.json)
+        options.print_json(together(found))
     else:
-        from ptproof.commands.terminal import verification_table
+        from ptproof.commands.terminal import verification_tables
 
-        verification_table(shown)
+        verification_tables(found)

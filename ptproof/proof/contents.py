@@ -46,6 +46,16 @@ def said(derivation: Derivation, digests: Mapping[str, str], files: Sequence[Pat
 
 def needed(known: Any, digests: Mapping[str, str], files: Iterable[Path], text: str) -> list[Path] | None:
     """Those of the files that may hold a claim that contains ``text``; None where they have to be loaded all."""
+    return _holding(known, digests, files, text) or None
+
+
+def lacking(known: Any, digests: Mapping[str, str], files: Iterable[Path], text: str) -> bool:
+    """Whether none of the files holds a claim that contains ``text``, for certain."""
+    return _holding(known, digests, files, text) == []
+
+
+def _holding(known: Any, digests: Mapping[str, str], files: Iterable[Path], text: str) -> list[Path] | None:
+    """The files that may hold a claim that contains ``text``; None where nothing is known of them."""
     chosen, wanted = [], text.lower()
     if not isinstance(known, dict) or not wanted:
         return None
@@ -57,7 +67,7 @@ def needed(known: Any, digests: Mapping[str, str], files: Iterable[Path], text: 
                     chosen.append(file)
             case _:
                 chosen.append(file)
-    return chosen or None
+    return chosen
 
 
 def doubtful(known: Mapping[str, Any], few: Sequence[Path], derivation: Derivation) -> bool:

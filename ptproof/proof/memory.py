@@ -25,6 +25,9 @@ if TYPE_CHECKING:
     from ptproof.proof.verdict import Evidence
 
 _LOOK = 2.0  # between two looks at whether the files are still the same [s]
+# Read with one derivation, and then in memory for the next: they belong to that as well.
+_read_before: set[str] = set()
+_derivations: set[str] = set()
 
 
 class Memory:
@@ -60,7 +63,9 @@ class Memory:
             yield
         self._files = hashes.of_derivation(self._paths)
         self._open = bool(before) and before == self._files and all(self._files.values())
-        self._files |= {file: hashes.of_file(file) for file in hashes.foreign(found)}
+        _derivations.update(self._files)
+        _read_before.update(hashes.foreign(found))
+        self._files |= {file: hashes.of_file(file) for file in sorted(_read_before - _derivations)}
         self._looked = time.monotonic()
 
     def load(self, select: str = "") -> Derivation:
@@ -68,7 +73,7 @@ class Memory:
         from ptproof.proof import contents
         from ptproof.proof.load import files_of, load
 
-        key = hashes.of_texts(["contents", self._environment, *map(str, self._paths)])
+        key = self._contents_key()
         files, known = files_of(self._paths), None if self._fresh else self._cache.read(key)
         with self.loading():
             few = contents.needed(known, self._before, files, select)
@@ -80,6 +85,14 @@ class Memory:
             if said != known:
                 self._cache.write(key, said)
         return derivation
+
+    def lacks(self, select: str) -> bool:
+        """Whether no claim contains that text, as far as the contents are known without loading anything."""
+        from ptproof.proof import contents
+        from ptproof.proof.load import files_of
+
+        known = None if self._fresh else self._cache.read(self._contents_key())
+        return contents.lacking(known, hashes.of_derivation(self._paths), files_of(self._paths), select)
 
     def run(self, select: str) -> dict[str, Any] | None:
         """What :meth:`keep_run` kept of this very run, if every file is as it was; nothing has to be loaded for it."""
@@ -119,9 +132,11 @@ class Memory:
         return self._open
 
     def _key(self, claim: Claim) -> str:
-
         files = (f"{Path(file).name} {digest}" for file, digest in sorted(self._files.items()))
         return hashes.of_texts([self._environment, claim.id, claim.content, *files])
+
+    def _contents_key(self) -> str:
+        return hashes.of_texts(["contents", self._environment, *map(str, self._paths)])
 
     def _run_key(self, select: str) -> str:
         return hashes.of_texts(["run", self._environment, select, *map(str, self._paths)])

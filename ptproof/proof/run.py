@@ -21,6 +21,10 @@ SECONDS_PER_CLAIM = 60.0
 Progress: TypeAlias = Callable[[Claim, Evidence], None]
 
 
+class NothingSelected(InputError):
+    """No claim contains the text by which claims were to be chosen."""
+
+
 class Interrupted(KeyboardInterrupt):
     """The run was ended from outside; ``verification`` holds what was decided by then, the rest as undecided."""
 
@@ -111,7 +115,8 @@ def verify(
     Raises
     ------
     InputError
-        For a number of workers below 1, a time limit that is not positive, or a selection that is empty.
+        For a number of workers below 1, a time limit that is not positive, or a selection that is empty
+        (:class:`NothingSelected`).
 
     Examples
     --------
@@ -125,8 +130,8 @@ def verify(
     1
     """
     claims = derivation.select(select)
-    if not claims:
-        raise InputError(f"no claim contains {select!r} in its id, title, section or labels")
+    if select and not claims:
+        raise NothingSelected(f"no claim contains {select!r} in its id, title, section or labels")
     return _decided(
         claims,
         derivation.homes,

@@ -6,16 +6,20 @@ import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from types import MappingProxyType
 
 from ptproof.proof.claim import Claim, Definition
 from ptproof.proof.load import Derivation
 from ptproof.proof.result import Result, Verification
-from ptproof.proof.statement import All, Exists, Prose, Relation, relations_of
+from ptproof.proof.statement import All, Assumption, Exists, Prose, Relation, Statement, relations_of
+from ptproof.proof.verdict import Evidence
 from ptproof.report import status
 from ptproof.report.content import Figure, Table
-from ptproof.report.formula import domain_of, statement_lines
+from ptproof.report.formula import Line, domain_of, statement_lines
 from ptproof.report.letters import Notation
 from ptproof.report.model import ClaimView, DefinitionView, Erratum, Ref, Report, Section
+from ptproof.report.read import ReadSide
+from ptproof.report.spoken import Letters, spoken
 from ptproof.report.status import Status, status_of
 from ptproof.report.witness import witness_view
 
@@ -30,6 +34,7 @@ def compose(
     figures: Sequence[Figure] = (),
     appendix: Sequence[Table] = (),
     notes: Sequence[str] = (),
+    read: Mapping[str, ReadSide] = MappingProxyType({}),
 ) -> Report:
     """Put the content of the report together.
 
@@ -43,11 +48,13 @@ def compose(
         Of the libraries.
     figures, appendix, notes
         Pictures and tables from elsewhere, and what the reader has to know, such as a figure that could not be drawn.
+    read
+        What became of printed sides in the paper's own source, by id.
     """
     letters = notation or Notation()
     results = {result.claim.id: result for result in verification.results}
     refs = _refs(verification.results, derivation.definitions, results)
-    composer = _Composer(results, refs, letters.glyphs)
+    composer = _Composer(results, refs, letters.glyphs, read)
     views = {result.claim.id: composer.claim(result) for result in verification.results}
     sections = _sections(
         [views[result.claim.id] for result in verification.results],
@@ -93,8 +100,16 @@ def _labels(sections: Sequence[Section]) -> tuple[tuple[str, tuple[Ref, ...]], .
 
 
 class _Composer:
-    def __init__(self, results: Mapping[str, Result], refs: Mapping[str, Ref], glyphs: Mapping[object, str]) -> None:
-        self.results, self.refs, self.glyphs = results, refs, glyphs
+    def __init__(
+        self,
+        results: Mapping[str, Result],
+        refs: Mapping[str, Ref],
+        glyphs: Mapping[object, str],
+        read: Mapping[str, ReadSide],
+    ) -> None:
+        self.results, self.refs, self.glyphs, self.read = results, refs, glyphs, read
+        self.letters = Letters(glyphs)
+        self.set: dict[Statement | Assumption, tuple[Line, ...]] = {}
         self.users: dict[str, list[str]] = {}
         self.corrections: dict[str, list[str]] = {}
         for result in results.values():
@@ -105,6 +120,12 @@ class _Composer:
 
     def links(self, ids: Sequence[str]) -> tuple[Ref, ...]:
         return tuple(self.refs[id] for id in dict.fromkeys(ids) if id in self.refs)
+
+    def lines(self, statement: Statement | Assumption) -> tuple[Line, ...]:
+        """The statement as it is set; many claims share an assumption."""
+        if statement not in self.set:
+            self.set[statement] = statement_lines(statement, self.glyphs)
+        return self.set[statement]
 
     def claim(self, result: Result) -> ClaimView:
         claim = result.claim
@@ -117,12 +138,12 @@ class _Composer:
             labels=claim.labels,
             place=claim.place,
             kind=claim.kind,
-            lines=statement_lines(claim.statement, self.glyphs),
+            lines=self.lines(claim.statement),
             words=claim.statement.text if isinstance(claim.statement, Prose) else "",
             same=_same(claim),
             domain=domain_of([claim.statement, *claim.assumptions], _bound(claim), self.glyphs),
-            given=tuple(statement_lines(item, self.glyphs) for item in claim.assumptions),
-            evidence=tuple(replace(item, detail=_without_places(item.detail)) for item in result.evidence),
+            given=tuple(self.lines(item) for item in claim.assumptions),
+            evidence=self.evidence(result),
             witness=None if witness is None else witness_view(witness, claim, self.glyphs),
             uses=self.links([used.id for used in claim.uses]),
             used_by=self.links(self.users.get(claim.id, [])),
@@ -131,13 +152,24 @@ class _Composer:
             corrected_by=self.links(self.corrections.get(claim.id, [])),
             prose=claim.prose,
             erratum=claim.erratum,
+            read=self.read.get(claim.id),
+        )
+
+    def evidence(self, result: Result) -> tuple[Evidence, ...]:
+        """What the engines said, in the letters of the paper."""
+        claim = result.claim
+        letters = self.letters.of([claim.statement, *claim.assumptions])
+        used = [item.id for item in claim.uses]
+        return tuple(
+            replace(item, detail=spoken(_without_places(item.detail), letters, used)) for item in result.evidence
         )
 
     def definition(self, item: Definition) -> DefinitionView:
         words = item.statement.text if isinstance(item.statement, Prose) else ""
         return DefinitionView(
-            self.refs[item.id], item.labels, statement_lines(item.statement, self.glyphs), words, item.prose
-        )
+            self.refs[item.id], item.labels, self.lines(item.statement), words, item.prose,
+            self.read.get(item.id),
+        )  # fmt: skip
 
 
 def _hits(verification: Verification) -> tuple[str, ...]:

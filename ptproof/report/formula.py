@@ -12,7 +12,7 @@ from xml.etree import ElementTree
 
 import sympy as sp
 from sympy.core.function import _coeff_isneg
-from sympy.printing.latex import LatexPrinter
+from sympy.printing.latex import LatexPrinter, greek_letters_set
 
 from ptproof.proof.statement import (
     All,
@@ -60,7 +60,8 @@ class _Printer(LatexPrinter):
             letter = sp.Symbol(expr.name.removesuffix("_dot"), **expr._assumptions_orig)
             known = next((glyph for other, glyph in names.items() if getattr(other, "name", "") == letter.name), "")
             return rf"\dot{{{known or super()._print_Symbol(letter)}}}"
-        return str(super()._print_Symbol(expr, style=style))
+        shown = str(super()._print_Symbol(expr, style=style))
+        return shown if expr in names else _upright(shown)
 
     def _print_Mul(self, expr: sp.Expr) -> str:
         # SymPy asks of each power with a negative symbolic exponent whether it is constant, which takes seconds on a
@@ -77,6 +78,16 @@ class _Printer(LatexPrinter):
             if not isinstance(expr, sp.Mul):
                 return str(self._print(expr))
         return str(super()._print_Mul(expr))
+
+
+def _upright(shown: str) -> str:
+    """A letter without a glyph: a word stands upright, and an index such as ``kappa1`` is a letter with a number."""
+    shown = re.sub(rf"\{{({'|'.join(sorted(greek_letters_set))})(\d*)\}}", _greek, shown)
+    return re.sub(r"^[A-Za-z]{3,}(?=$|_)", lambda found: rf"\mathrm{{{found[0]}}}", shown)
+
+
+def _greek(found: re.Match[str]) -> str:
+    return rf"{{\{found[1]}{f'_{{{found[2]}}}' if found[2] else ''}}}"
 
 
 def _ordered(terms: list[sp.Expr]) -> list[sp.Expr]:

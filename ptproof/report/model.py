@@ -11,6 +11,7 @@ from ptproof.report.difference import marked
 from ptproof.report.formula import Line, width
 from ptproof.report.graph import Node
 from ptproof.report.letters import Letter
+from ptproof.report.read import ReadSide
 from ptproof.report.status import Status
 from ptproof.report.witness import WitnessView
 
@@ -51,6 +52,7 @@ class ClaimView:
     corrected_by: tuple[Ref, ...]
     prose: str
     erratum: erratum.Erratum | None
+    read: ReadSide | None = None  # what became of the printed side in the paper's own source, where that was given
 
 
 @dataclass(frozen=True)
@@ -62,6 +64,7 @@ class DefinitionView:
     lines: tuple[Line, ...]
     words: str
     prose: str
+    read: ReadSide | None = None
 
 
 @dataclass(frozen=True)
@@ -132,6 +135,16 @@ class Report:
     @property
     def claims(self) -> tuple[ClaimView, ...]:
         return tuple(claim for section in self.sections for claim in section.claims)
+
+    @property
+    def read(self) -> dict[str, tuple[Ref, ...]]:
+        """The claims and definitions whose printed side was looked for in the paper's source, by what became of it."""
+        items = [item for section in self.sections for item in (*section.definitions, *section.claims)]
+        found: dict[str, list[Ref]] = {}
+        for item in items:
+            if item.read is not None:
+                found.setdefault(item.read.read, []).append(item.ref)
+        return {word: tuple(found[word]) for word in ("different", "equal", "not read") if word in found}
 
     def nodes(self) -> tuple[Node, ...]:
         """The claims as nodes of the graph."""

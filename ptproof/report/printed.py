@@ -6,18 +6,29 @@ both sides the same by exact algebra, up to sides swapped. A correction counts f
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, Literal
 
+from sympy.core.function import AppliedUndef
+
 from ptproof.reading.latex.formulas import Formula, Formulas
-from ptproof.reading.latex.notation import notation
+from ptproof.reading.latex.rewrite import Rules
 from ptproof.reading.latex.statements import Pair, Reading, read_formula
 from ptproof.reading.latex.tokens import NotUnderstood
+from ptproof.report.sameness import same
 from ptproof.report.stated import Item, Printed, Stated, stated
 
 Read = Literal["equal", "different", "not read"]
+
+
+@dataclass(frozen=True)
+class Part:
+    """Which of a claim's own relations, by number, a formula is; how many there are."""
+
+    parts: frozenset[int]
+    of: int
 
 
 @dataclass(frozen=True)
@@ -38,6 +49,12 @@ class Compared:
         In words: what was not understood and where, or both sides of what is different.
     statement
         What was read.
+    covered
+        All that covers it.
+    said
+        What each claim or definition that says it says of it.
+    beside
+        Of a formula that is different: what comes nearest.
     """
 
     formula: Formula
@@ -46,6 +63,9 @@ class Compared:
     kind: str = ""
     detail: str = ""
     statement: str = ""
+    covered: tuple[str, ...] = ()
+    said: Mapping[str, Part] = field(default_factory=dict)
+    beside: str = ""
 
     def to_json(self) -> dict[str, Any]:
         return {
@@ -60,26 +80,18 @@ def compare_all(formulas: Formulas, source: Printed) -> tuple[Compared, ...]:
     return tuple(compare(formula, formulas, source) for formula in formulas.displayed)
 
 
-def readable(formulas: Formulas, source: Printed) -> int:
-    """How many of the relations in running text can be read; they are held against nothing."""
-    return sum(_can_be_read(formula, formulas, source) for formula in formulas.running)
-
-
-def _can_be_read(formula: Formula, formulas: Formulas, source: Printed) -> bool:
-    try:
-        read_formula(formula, formulas.macros, notation(source.table, source.names, formula.place, source.where))
-    except NotUnderstood:
-        return False
-    return True
-
-
 def compare(formula: Formula, formulas: Formulas, source: Printed) -> Compared:
     """Read one formula and hold it against what covers it."""
     items = source.covering(formula)
+    found = _compared(formula, formulas, source, items)
+    return replace(found, covered=tuple(item.id for item in items))
+
+
+def _compared(formula: Formula, formulas: Formulas, source: Printed, items: tuple[Item, ...]) -> Compared:
     ids = tuple(item.id for item in items)
     if not source.known:
         return Compared(formula, ids, "not read", "notation", f"{source.where}, so that no letter means anything")
-    meaning = notation(source.table, source.names, formula.place, source.where)
+    meaning = source.letters(formula)
     try:
         reading = read_formula(formula, formulas.macros, meaning)
     except NotUnderstood as error:
@@ -100,6 +112,10 @@ class _Comparison:
     def _stated(self) -> dict[str, Stated | None]:
         return {}
 
+    @property
+    def ids(self) -> tuple[str, ...]:
+        return tuple(item.id for item in self.items)
+
     def candidates(self) -> Iterator[Stated]:
         for item in self.items:
             if getattr(item, "corrects", None):
@@ -116,14 +132,50 @@ class _Comparison:
             *((p, True) for p in self.reading.conditions),
         ]:
             found = self.saying(pair)
-            if found is None:
+            if found is not None:
+                used[found.id] = None
+            elif not self.by_notation(pair):
                 return self.unsaid(pair, condition)
-            used[found.id] = None
+        if self.reading.unread:
+            return Compared(self.formula, self.ids, "not read", "brace", self.reading.unread[0], str(self.reading))
+        wrong = [brace for brace in self.reading.braces if self.contradicted(brace)]
+        if wrong:
+            return self.unsaid(wrong[0], False)
+        said = [brace for brace in self.reading.braces if self.saying(brace) or self.by_notation(brace)]
         remarks = [
-            *self.reading.unread,
-            *(f"no claim says what stands at a brace, {p}" for p in self.reading.braces if self.saying(p) is None),
+            f"no claim says what stands at a brace, {p}" for p in self.reading.braces if p not in said
         ]  # fmt: skip
-        return Compared(self.formula, tuple(used), "equal", "", "; ".join(remarks), str(self.reading))
+        if not used:
+            used = dict.fromkeys(self.ids)
+            remarks.append("the table of notation says it")
+        return Compared(
+            self.formula, tuple(used), "equal", "", "; ".join(remarks), str(self.reading), said=self.said(used)
+        )
+
+    def by_notation(self, pair: Pair) -> bool:
+        """Whether both sides are the same by what the table says of their letters, where something covers this."""
+        return pair.sign == "=" and bool(self.items) and same(self._plain(pair.left), self._plain(pair.right))
+
+    @cached_property
+    def _plain(self) -> Rules:
+        return self.source.meaning(self.formula)
+
+    def contradicted(self, brace: Pair) -> bool:
+        """Whether a brace gives a name to something else than what the table or a claim says of the name."""
+        if self.saying(brace) is not None or self.by_notation(brace):
+            return False
+        name = self._plain(brace.left)
+        unknown = name.has(AppliedUndef) or (name.is_Symbol and not brace.entry)
+        return not unknown or any(says.knows(brace.left) for says in self.candidates())
+
+    def said(self, used: Iterable[str]) -> dict[str, Part]:
+        """What each that says a relation of this formula says of it; ``used`` may say it among what it assumes."""
+        found: dict[str, Part] = {}
+        for says in self.candidates():
+            parts = frozenset[int]().union(*map(says.parts, (*self.reading.pairs, *self.reading.conditions)))
+            if parts or says.id in used:
+                found[says.id] = Part(parts, len(says.pairs))
+        return found
 
     def saying(self, pair: Pair) -> Stated | None:
         """The first that has both sides of this relation, if it has them in this relation.
@@ -134,16 +186,15 @@ class _Comparison:
             verdict = says.says(pair)
             if verdict is not None:
                 return says if verdict else None
-        return None
+        return next((says for says in self.candidates() if says.implies(pair)), None)
 
     def unsaid(self, pair: Pair, condition: bool) -> Compared:
         """A relation that no claim says, beside the one that comes nearest."""
-        ids = tuple(item.id for item in self.items)
         entries = [(says, claimed) for says in self.candidates() for claimed in says.pairs]
         if not entries:
-            detail = "read, but nothing that covers it states a relation" if ids else "read, but nothing covers it"
-            return Compared(self.formula, ids, "not read", "not stated", detail, str(self.reading))
+            detail = "read, but nothing that covers it states a relation" if self.ids else "read, but nothing covers it"
+            return Compared(self.formula, self.ids, "not read", "not stated", detail, str(self.reading))
         nearest, claimed = max(entries, key=lambda entry: entry[0].nearness(entry[1], pair))
         beside = f"for all {pair}" if condition else str(nearest.spoken(pair))
         detail = f"the paper: {beside}; {nearest.id}: {claimed}"
-        return Compared(self.formula, ids, "different", "", detail, str(self.reading))
+        return Compared(self.formula, self.ids, "different", "", detail, str(self.reading), beside=nearest.id)

@@ -18,6 +18,11 @@ class Status:
     sign: str
     meaning: str
 
+    @property
+    def proved(self) -> bool:
+        """Whether it is proved, if only from what others say."""
+        return self.sign.startswith("✓")
+
 
 FULLY = Status("full", "fully proved", "✓", "the claim and everything that it uses are proved")
 MODULO_CITATIONS = Status(

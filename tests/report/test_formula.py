@@ -43,6 +43,21 @@ def test_the_value_of_a_derivative_has_a_dot():
     assert latex(sp.Symbol("V_dot", real=True), {sp.Symbol("V", positive=True): r"\bar V"}) == r"\dot{\bar V}"
 
 
+@pytest.mark.parametrize(
+    ("name", "shown"),
+    [
+        ("deficit", r"\mathrm{deficit}"), ("gap_m", r"\mathrm{gap}_{m}"), ("c_kappa1", r"c_{\kappa_{1}}"),
+        ("tau_0", r"\tau_{0}"), ("ab", "ab"), ("T_f", "T_{f}"),
+    ],
+)  # fmt: skip
+def test_a_letter_without_a_glyph_is_a_letter_or_an_upright_word(name, shown):
+    assert latex(sp.Symbol(name), {}) == shown
+
+
+def test_a_glyph_is_left_as_it_is():
+    assert latex(sp.Symbol("deficit"), {sp.Symbol("deficit"): "def"}) == "def"
+
+
 def test_powers_with_symbolic_exponents_keep_their_places():
     n = sp.Symbol("n", positive=True)
     assert latex(k ** (-n) * x * sp.exp(-n * k), {}) == r"x k^{- n} e^{- k n}"

@@ -11,7 +11,9 @@ from ptproof.errors import InputError
 from ptproof.report.compose import compose
 from ptproof.report.content import Figure, Table
 from ptproof.report.graph import graph_svg, layout
-from ptproof.report.pages import html_page, markdown_page, report_files
+from ptproof.report.markdown import markdown_page
+from ptproof.report.pages import report_files
+from ptproof.report.site import single_page
 
 VOID = {"meta", "input", "img", "br", "hr", "link"}
 
@@ -42,7 +44,7 @@ class Balance(HTMLParser):
 
 @pytest.fixture(scope="module")
 def page(report):
-    return html_page(report)
+    return single_page(report)
 
 
 @pytest.fixture(scope="module")
@@ -152,7 +154,7 @@ def test_what_the_paper_does_not_print_is_no_erratum(report, page, text):
     assert [item.printed.ref.id for item in report.besides] == ["a/own-mistake"]
     for content in (page, text):
         table, besides = content[: content.index("Refuted besides")], content[content.index("Refuted besides") :]
-        assert "Wrong, and not in the paper" not in table[table.index("what holds instead") :]
+        assert "Wrong, and not in the paper" not in table[table.index("what survives") :]
         assert "Wrong, and not in the paper" in besides[: besides.index("Graph of the claims")]
 
 
@@ -190,7 +192,7 @@ def test_seconds_do_not_enter(derivation, verification, report):
         replace(result, evidence=tuple(replace(item, seconds=77.7) for item in result.evidence))
         for result in verification.results
     ))  # fmt: skip
-    assert "77.7" not in html_page(compose(slower, derivation))
+    assert "77.7" not in single_page(compose(slower, derivation))
 
 
 def test_what_a_quantifier_binds_is_not_free(report):

@@ -52,6 +52,63 @@ def test_a_report_is_written_and_its_place_named(folder, tmp_path, capsys):
     assert str(tmp_path) not in (tmp_path / "out" / "index.html").read_text()
 
 
+@pytest.fixture
+def papers(folder, tmp_path):
+    """Two papers in one folder: the figures of the first cannot be drawn."""
+    (folder / "figures.py").write_text(FIGURES.replace("{body}", "raise ValueError('no picture')"))
+    other = tmp_path / "other"
+    other.mkdir()
+    (other / "claims.py").write_text(GOOD.replace("{right}", "2 * x"))
+    (other / "figures.py").write_text(FIGURES.replace("{body}", "pass"))
+    return folder, other
+
+
+def test_several_papers_have_a_folder_each_and_a_page_above(papers, tmp_path, capsys):
+    out = tmp_path / "out"
+    assert status(*papers, "--out", out, "--single") == 1
+    for name in ("index.html", "report.md", "derivation/index.html", "other/report.md", "other/report.html"):
+        assert (out / name).is_file()
+    assert (out / "other" / "figures" / "f.svg").is_file()
+    assert not (out / "derivation" / "figures").exists()
+    said = capsys.readouterr()
+    assert "derivation: The figures could not be drawn: ValueError: no picture" in said.err
+    assert "derivation: 1 claims: 1 proved" in said.out
+    assert str(out / "other" / "index.html") in said.out
+    status(papers[1], "--out", out)  # of one paper again: what was of the others goes
+    assert not (out / "derivation").exists()
+    assert (out / "statements.html").is_file()
+
+
+def test_a_paper_that_cannot_be_loaded_is_bad_input_and_nothing_is_written(papers, tmp_path):
+    (papers[1] / "claims.py").write_text("nonsense(")
+    assert status(*papers, "--out", tmp_path / "out") == 2
+    assert not (tmp_path / "out").exists()
+
+
+PAPER = r"\begin{document}\begin{equation} y = %s \label{eq:one} \end{equation}\end{document}"
+
+
+@pytest.mark.parametrize(("printed", "ends", "word"), [("2 x", 0, "equal"), ("3 x", 1, "different")])
+def test_the_printed_side_is_read_from_the_papers_source(folder, tmp_path, capsys, printed, ends, word):
+    body = GOOD.replace("x + x, {right})", 'sp.Symbol("y", real=True), 2 * x), labels=["eq:one"], expected="refuted"')
+    (folder / "claims.py").write_text(body)
+    (folder / "__init__.py").touch()
+    (folder / "notation.toml").write_text('letters = { x = "x", y = "y" }')
+    (tmp_path / "paper.tex").write_text(PAPER % printed)
+    assert status(folder, "--out", tmp_path / "out", "--paper", tmp_path / "paper.tex") == ends
+    assert ("the paper prints something else" in capsys.readouterr().err) is (word == "different")
+    for name in ("section-claims.html", "report.md"):
+        assert f"printed side read from the source: {word}" in (tmp_path / "out" / name).read_text()
+    for name in ("index.html", "report.md"):
+        assert "Printed sides read from the paper's source" in (tmp_path / "out" / name).read_text()
+
+
+def test_a_paper_that_is_not_there_is_bad_input_before_anything_runs(folder, tmp_path, capsys):
+    assert status(folder, "--out", tmp_path / "out", "--paper", tmp_path / "gone.tex") == 2
+    assert "gone.tex" in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()
+
+
 def test_what_is_unexpected_is_status_1_and_the_report_is_written(folder, tmp_path):
     (folder / "claims.py").write_text(GOOD.replace("{right}", "3 * x"))
     assert status(folder, "--out", tmp_path / "out") == 1

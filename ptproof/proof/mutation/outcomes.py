@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import Any
@@ -89,16 +89,7 @@ class Mutation:
 
     def summary(self) -> dict[str, Any]:
         """The counts of all claims together, and by kind of change."""
-        everything = [item for items in self.outcomes.values() for item in items]
-        kinds = dict.fromkeys(sorted({item.kind for item in everything}))
-        return {
-            "claims": len(self.claims),
-            **_counts(everything),
-            "false": sum(item.false for item in everything),
-            "false_proved": len(self.alarms),
-            "kinds": {kind: _counts([item for item in everything if item.kind == kind]) for kind in kinds},
-            "seconds": round(self.seconds, 1),
-        }
+        return summed([self])
 
     def to_json(self) -> dict[str, Any]:
         return {
@@ -108,6 +99,20 @@ class Mutation:
             },
             "summary": self.summary(),
         }
+
+
+def summed(papers: Sequence[Mutation]) -> dict[str, Any]:
+    """The counts of all claims of some papers together, and by kind of change."""
+    everything = [item for found in papers for items in found.outcomes.values() for item in items]
+    kinds = dict.fromkeys(sorted({item.kind for item in everything}))
+    return {
+        "claims": sum(len(found.claims) for found in papers),
+        **_counts(everything),
+        "false": sum(item.false for item in everything),
+        "false_proved": sum(len(found.alarms) for found in papers),
+        "kinds": {kind: _counts([item for item in everything if item.kind == kind]) for kind in kinds},
+        "seconds": round(sum(found.seconds for found in papers), 1),
+    }
 
 
 def _counts(outcomes: Any) -> dict[str, int]:

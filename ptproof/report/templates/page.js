@@ -1,45 +1,173 @@
 "use strict";
 (() => {
-  const filter = document.getElementById("filter");
   const find = document.getElementById("find");
-  const shown = document.getElementById("shown");
-  const buttons = [...filter.querySelectorAll("button")];
-  const entries = [...document.querySelectorAll("article.claim, article.definition")];
-  const parts = [...document.querySelectorAll("section.part")];
-  const words = new Map(entries.map((entry) => [entry, entry.textContent.toLowerCase()]));
-  filter.hidden = false;
+  const hits = document.getElementById("hits");
+  const field = document.getElementById("search");
+  const MOST = 40;
 
-  const apply = () => {
-    const wanted = new Set(buttons.filter((b) => b.getAttribute("aria-pressed") === "true").map((b) => b.dataset.status));
-    const text = find.value.trim().toLowerCase();
-    let count = 0;
-    for (const entry of entries) {
-      const show = (!wanted.size || wanted.has(entry.dataset.status)) && (!text || words.get(entry).includes(text));
-      entry.hidden = !show;
-      count += show && entry.classList.contains("claim");
+  // The index of all pages: a script beside the page, or, where everything is on one page, what stands on it.
+  let asked;
+  const index = () => (asked ??= new Promise((done) => {
+    if (window.PTPROOF) return done(window.PTPROOF);
+    const articles = [...document.querySelectorAll("article.claim, article.definition")];
+    if (document.querySelector("script[src]") === null) {
+      const entries = articles.map((a) => [0, a.id, a.querySelector(".id").textContent, a.querySelector("h3 .name").textContent,
+        a.dataset.status === "definition" ? "" : a.dataset.status, a.textContent]);
+      return done({ pages: [""], entries, sections: [] });
     }
-    for (const part of parts) part.hidden = !part.querySelector("article:not([hidden])");
-    shown.textContent = wanted.size || text ? `${count} shown` : "";
+    const script = document.createElement("script");
+    script.src = "search.js";
+    script.onload = () => done(window.PTPROOF);
+    script.onerror = () => done({ pages: [""], entries: [], sections: [] });
+    document.head.append(script);
+  }));
+
+  const rank = (entry, words) => {
+    const [, , id, title, , text] = entry;
+    const name = `${id} ${title}`.toLowerCase(), all = `${name} ${text.toLowerCase()}`;
+    if (!words.every((word) => all.includes(word))) return -1;
+    return words.reduce((sum, word) => sum + (name.includes(word) ? 2 : 0), 0) + (id.toLowerCase() === words.join(" ") ? 9 : 0);
   };
-  for (const button of buttons) {
-    button.addEventListener("click", () => {
-      button.setAttribute("aria-pressed", String(button.getAttribute("aria-pressed") !== "true"));
-      apply();
+  const SIGNS = { full: "✓", modulo: "✓*", open: "✓?", refuted: "✗", undecided: "?", cited: "§", observed: "◉", "": "≔" };
+
+  const show = async () => {
+    const words = find.value.trim().toLowerCase().split(/\s+/).filter(Boolean);
+    if (!words.length) { hits.hidden = true; return; }
+    const { pages, entries, sections } = await index();
+    const found = entries.map((entry) => [rank(entry, words), entry]).filter(([value]) => value >= 0)
+      .sort((a, b) => b[0] - a[0]);
+    const chapters = sections.filter(([, , title]) => words.every((word) => title.toLowerCase().includes(word)));
+    hits.replaceChildren();
+    const line = (page, anchor, key, title, id) => {
+      const item = document.createElement("li"), link = document.createElement("a");
+      link.href = `${pages[page]}#${anchor}`;
+      for (const [name, text] of [[`sign g-${key}`, key === null ? "" : SIGNS[key]], ["title", title], ["id", id]]) {
+        const part = document.createElement("span");
+        part.className = name;
+        part.textContent = text;
+        link.append(part);
+      }
+      link.addEventListener("click", () => { hits.hidden = true; });
+      item.append(link);
+      hits.append(item);
+    };
+    for (const [page, anchor, title] of chapters.slice(0, 5)) line(page, anchor, null, title, "section");
+    for (const [, [page, anchor, id, title, key]] of found.slice(0, MOST)) line(page, anchor, key, title, id);
+    const count = document.createElement("li");
+    count.className = "found";
+    count.textContent = found.length > MOST ? `${MOST} of ${found.length} shown` : `${found.length} found`;
+    hits.append(count);
+    hits.hidden = false;
+  };
+  if (find) {
+    find.addEventListener("input", show);
+    find.addEventListener("focus", show);
+    field.addEventListener("submit", async (event) => {
+      event.preventDefault();
+      await show();
+      hits.querySelector("a")?.click();
+    });
+    field.addEventListener("keydown", (event) => {
+      const links = [...hits.querySelectorAll("a")], place = links.indexOf(document.activeElement);
+      if (event.key === "Escape") { hits.hidden = true; find.focus(); hits.hidden = true; }
+      if (event.key === "ArrowDown" && place + 1 < links.length) { event.preventDefault(); links[place + 1].focus(); }
+      if (event.key === "ArrowUp") { event.preventDefault(); (place > 0 ? links[place - 1] : find).focus(); }
+    });
+    document.addEventListener("click", (event) => { if (!field.contains(event.target)) hits.hidden = true; });
+    document.addEventListener("keydown", (event) => {
+      if (event.key === "/" && !/^(INPUT|TEXTAREA|SELECT)$/.test(document.activeElement?.tagName)) {
+        event.preventDefault();
+        find.focus();
+      }
     });
   }
-  find.addEventListener("input", apply);
 
-  // A link to an entry that the filter hides shows everything again.
-  const reveal = () => {
-    const target = location.hash && document.getElementById(decodeURIComponent(location.hash.slice(1)));
-    if (target && target.hidden) {
-      find.value = "";
-      buttons.forEach((b) => b.setAttribute("aria-pressed", "false"));
-      apply();
-      target.scrollIntoView();
+  // A link to a claim that does not stand on this page any more, or that was written for the front page.
+  const arrive = async () => {
+    const anchor = decodeURIComponent(location.hash.slice(1));
+    if (!anchor) return;
+    const target = document.getElementById(anchor);
+    if (target) {
+      if (target.tagName === "DETAILS") target.open = true;
+      return;
     }
+    const { pages, entries, sections } = await index();
+    const found = entries.find((entry) => entry[1] === anchor) ?? sections.find((entry) => entry[1] === anchor);
+    if (found && pages[found[0]]) location.replace(`${pages[found[0]]}#${anchor}`);
   };
-  addEventListener("hashchange", reveal);
+  addEventListener("hashchange", arrive);
+  arrive();
+
+  // The arrows of the picture, from the boxes as they stand.
+  const picture = document.getElementById("picture");
+  if (picture) {
+    const canvas = picture.querySelector("svg.arrows");
+    const groups = new Map([...picture.querySelectorAll(".group")].map((group) => [group.id, group]));
+    const draw = () => {
+      const frame = picture.getBoundingClientRect();
+      canvas.setAttribute("viewBox", `0 0 ${frame.width} ${frame.height}`);
+      canvas.setAttribute("width", frame.width);
+      canvas.setAttribute("height", frame.height);
+      canvas.replaceChildren();
+      for (const group of groups.values()) {
+        for (const other of group.dataset.uses.split(" ").filter(Boolean)) {
+          const from = groups.get(other).getBoundingClientRect(), to = group.getBoundingClientRect();
+          const x1 = from.left + from.width / 2 - frame.left, y1 = from.bottom - frame.top;
+          const x2 = to.left + to.width / 2 - frame.left, y2 = to.top - frame.top - 3;
+          const bend = Math.max((y2 - y1) / 2, 12);
+          const path = document.createElementNS("http://www.w3.org/2000/svg", "path");
+          path.setAttribute("d", `M${x1} ${y1}C${x1} ${y1 + bend} ${x2} ${y2 - bend} ${x2} ${y2}`);
+          path.dataset.from = other;
+          path.dataset.to = group.id;
+          canvas.append(path);
+        }
+      }
+    };
+    const near = (id) => {
+      for (const path of canvas.children) path.classList.toggle("on", path.dataset.from === id || path.dataset.to === id);
+    };
+    for (const [id, group] of groups) {
+      group.addEventListener("mouseenter", () => near(id));
+      group.addEventListener("mouseleave", () => near(""));
+      group.addEventListener("focusin", () => near(id));
+    }
+    new ResizeObserver(draw).observe(picture);
+    draw();
+
+    // The formula of a claim, beside its name: from its entry on this page, or from a script beside the page.
+    const note = document.createElement("div");
+    note.className = "note";
+    note.setAttribute("role", "tooltip");
+    note.hidden = true;
+    document.body.append(note);
+    let loaded;
+    const formulas = () => (loaded ??= new Promise((done) => {
+      const script = document.createElement("script");
+      script.src = "formulas.js";
+      script.onload = () => done(window.PTPROOF_FORMULAS);
+      script.onerror = () => done({});
+      document.head.append(script);
+    }));
+    let over = null;
+    const tell = async (link) => {
+      over = link;
+      const anchor = decodeURIComponent(link.hash.slice(1)), here = document.getElementById(anchor);
+      const found = here ? here.querySelector(".formula, .words")?.outerHTML : (await formulas())[anchor];
+      if (over !== link || !found) return;
+      note.innerHTML = found;
+      note.hidden = false;
+      const box = link.getBoundingClientRect(), width = note.offsetWidth;
+      note.style.left = `${Math.max(8, Math.min(box.left, innerWidth - width - 8))}px`;
+      note.style.top = `${box.bottom + 6 + note.offsetHeight > innerHeight ? box.top - note.offsetHeight - 6 : box.bottom + 6}px`;
+    };
+    const hush = () => { over = null; note.hidden = true; };
+    for (const link of picture.querySelectorAll(".inside li a")) {
+      link.addEventListener("mouseenter", () => tell(link));
+      link.addEventListener("focus", () => tell(link));
+      link.addEventListener("mouseleave", hush);
+      link.addEventListener("blur", hush);
+    }
+  }
 
   const graph = document.querySelector("svg.graph");
   if (!graph) return;

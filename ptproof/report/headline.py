@@ -1,0 +1,112 @@
+"""The result of a report in a sentence or two, made from the verdicts."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from ptproof.report import status
+from ptproof.report.model import ClaimView, Report
+
+_RESULT = re.compile(r"(?:Theorem|Proposition|Lemma|Corollary)(?: [0-9A-Z][\w.]*)?(?=[\s:,]|$)")
+_MOST = 3  # cited statements that are named
+
+
+@dataclass(frozen=True)
+class Piece:
+    """Some words, and the anchor that they lead to; empty for plain words."""
+
+    words: str
+    anchor: str = ""
+
+
+def headline(report: Report) -> tuple[Piece, ...]:
+    """How much is proved, what is false, and which results stand on what.
+
+    A result of the paper, such as Theorem 2, is a claim whose title begins with its name and that is neither cited nor
+    printed falsely; it stands if all its claims are proved, given what is cited.
+    """
+    parts = [*_proved(report), *_false(report)]
+    for mark in (status.UNDECIDED, status.OBSERVED):
+        if number := _number(report, mark):
+            parts += [Piece("; "), Piece(f"{number} {mark.word}", list_anchor(mark))]
+    return (*parts, *_results(report.claims), Piece("."))
+
+
+def list_anchor(mark: status.Status) -> str:
+    """Where the claims of one verdict are listed."""
+    return f"claims-{mark.key}"
+
+
+def plain(pieces: Sequence[Piece]) -> str:
+    """The words alone."""
+    return "".join(piece.words for piece in pieces)
+
+
+def _number(report: Report, mark: status.Status) -> int:
+    return dict(report.counts).get(mark, 0)
+
+
+def _proved(report: Report) -> Iterator[Piece]:
+    full, modulo, open_ = (
+        _number(report, mark) for mark in (status.FULLY, status.MODULO_CITATIONS, status.MODULO_OPEN)
+    )
+    every = f"{full + modulo + open_} of {counted(report.total, 'statement')}"
+    yield Piece(every, "claims")
+    yield Piece(" is proved" if report.total == 1 else " are proved")
+    besides = [
+        Piece(f"{number} given what is {word}", list_anchor(mark))
+        for number, word, mark in (
+            (modulo, "cited", status.MODULO_CITATIONS),
+            (open_, "still open", status.MODULO_OPEN),
+        )
+        if number
+    ]
+    for place, piece in enumerate(besides):
+        yield Piece(", " if place else " (")
+        yield piece
+    if besides:
+        yield Piece(")")
+
+
+def _false(report: Report) -> Iterator[Piece]:
+    if not report.errata:
+        return
+    false = [item for item in report.errata if item.printed.status == status.REFUTED]
+    mended = [item for item in false if any(other.status.proved for other in item.corrections)]
+    yield Piece("; ")
+    yield Piece(f"{len(false)} printed {'one is' if len(false) == 1 else 'ones are'} false", "errata")
+    if mended and len(mended) == len(false):
+        yield Piece(", and what holds instead is proved")
+    elif mended:
+        yield Piece(f", and for {len(mended)} of them what holds instead is proved")
+
+
+def _results(claims: Sequence[ClaimView]) -> Iterator[Piece]:
+    named: dict[str, list[ClaimView]] = {}
+    for claim in claims:
+        if (found := _RESULT.match(claim.ref.title)) and claim.status not in (status.CITED, status.REFUTED):
+            named.setdefault(found.group(), []).append(claim)
+    for name, inside in named.items():
+        yield Piece("; ")
+        yield Piece(name, inside[0].ref.anchor)
+        if not all(claim.status.proved for claim in inside):
+            yield Piece(" is open")
+            continue
+        yield Piece(" stands")
+        given = {ref.anchor: ref for claim in inside for ref in claim.rests_on}
+        if any(claim.status == status.MODULO_OPEN for claim in inside):
+            yield Piece(" if what is open holds")
+        elif given:
+            yield Piece(", given ")
+            for place, ref in enumerate([*given.values()][:_MOST]):
+                yield Piece(" and " if place and place + 1 == len(given) else ", " if place else "")
+                yield Piece(f"“{ref.title}”", ref.anchor)
+            if len(given) > _MOST:
+                yield Piece(f" and {len(given) - _MOST} more")
+
+
+def counted(number: int, word: str) -> str:
+    """``1 claim``, ``2 claims``."""
+    return f"{number} {word}" if number == 1 else f"{number} {word}s"

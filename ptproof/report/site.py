@@ -1,0 +1,246 @@
+"""The report as many pages: which part stands on which page, none of them long, and links between them.
+
+A claim's link is ``PAGE#ANCHOR``, where the anchor is made from its id and the page from the heading of its section.
+``index.html#ANCHOR`` leads there as well, wherever it is.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from markupsafe import Markup
+
+from ptproof.report.formula import width
+from ptproof.report.graph import graph_svg
+from ptproof.report.headline import headline
+from ptproof.report.model import Report, Section
+from ptproof.report.picture import FORMS, picture
+from ptproof.report.rendering import html, script, style
+from ptproof.report.search import formulas, search_index
+from ptproof.report.status import ALL
+
+MOST = 400_000  # bytes of a page beside what stands on every page
+ERRATA_AT_FRONT = 5
+SHOWN_LINES, SHOWN_WIDTH = 3, 90.0  # of a formula beside a name; characters
+_ID = re.compile(r'<[a-zA-Z][^<>]*? id="([^"<>]+)"')
+_LINK = re.compile(r'(<a\b[^<>]*? ?href=")#([^"<>]+)"')
+
+
+@dataclass(frozen=True)
+class Page:
+    """A page: its file, its title, its content with links by anchors alone, and the anchor of its section, if any."""
+
+    file: str
+    title: str
+    body: str
+    section: str = ""
+
+
+@dataclass(frozen=True)
+class Site:
+    """The pages of a report, with their content; ``places`` says on which page each anchor stands."""
+
+    report: Report
+    pages: tuple[Page, ...]
+
+    @cached_property
+    def places(self) -> dict[str, str]:
+        return {anchor: page.file for page in self.pages for anchor in _ID.findall(page.body)}
+
+    def address(self, anchor: str) -> str:
+        """Where an anchor is, from the folder of the report."""
+        return f"{self.places.get(anchor, 'index.html')}#{anchor}"
+
+
+def site(report: Report) -> Site:
+    """Set every page of the report."""
+    return Site(report, tuple(_pages(report)))
+
+
+def site_files(of: Site, above: str = "") -> dict[str, bytes]:
+    """The pages, their style and script, the index for searching, and the graph; ``above`` leads to other papers."""
+    files = {}
+    for page in of.pages:
+        whole = _skeleton(of.report, page, above=above, turn=_neighbours(of.pages, page))
+        files[page.file] = linked(whole, of.places, page.file).encode()
+    graph = graph_svg(of.report.nodes(), standalone=True)
+    files["graph.svg"] = linked(graph, of.places, "graph.svg").encode()
+    files["style.css"], files["page.js"] = style().encode(), script().encode()
+    files["formulas.js"] = formulas(_short(of.report)).encode()
+    files["search.js"] = search_index(of.report, of.places).encode()
+    return files
+
+
+def single_page(report: Report) -> str:
+    """One page that needs nothing else: styles, formulas, pictures and figures are inside."""
+    parts = _parts()
+    errata = "".join(map(str, _errata(report)))
+    body = [
+        _front(report), f'<section id="errata">\n<h2>Errata</h2>\n{errata}</section>', _graph(report),
+        *(_section(section, [*_cards(section)]) for section in report.sections),
+        *((parts.drawn(report, True),) if report.figures else ()), *_reference(report),
+        *((parts.appended(report),) if report.appendix else ()),
+        f'<section id="claims">\n<h2>Statements by verdict</h2>\n{_listed(report)}</section>',
+    ]  # fmt: skip
+    page = Page("", report.title, "\n".join(map(str, body)))
+    return _skeleton(report, page, alone=True)
+
+
+def slug(title: str) -> str:
+    """The title as a part of an address: small letters, digits and hyphens."""
+    words = re.sub(r"[^a-z0-9]+", "-", title.lower()).strip("-")
+    return words[:60].rstrip("-") or "part"
+
+
+def packed(items: Sequence[str], most: int = MOST) -> list[list[str]]:
+    """The items in order, in parts of at most ``most`` bytes each; one that is longer has a part to itself."""
+    parts: list[list[str]] = [[]]
+    size = 0
+    for item in items:
+        length = len(item.encode())
+        if parts[-1] and size + length > most:
+            parts.append([])
+            size = 0
+        parts[-1].append(item)
+        size += length
+    return parts
+
+
+def linked(content: str, places: Mapping[str, str], here: str) -> str:
+    """The content with the page before each anchor that stands on another than ``here``."""
+
+    def address(found: re.Match[str]) -> str:
+        page = places.get(found[2], here)
+        return f'{found[1]}{"" if page == here else page}#{found[2]}"'
+
+    return _LINK.sub(address, content)
+
+
+def _parts() -> Any:
+    """The macros of the parts."""
+    return html().get_template("parts.html.j2").module
+
+
+def _pages(report: Report) -> Iterator[Page]:
+    parts = _parts()
+    yield Page("index.html", report.title, _front(report))
+    yield from _split("errata", "Errata", [*_errata(report)], "errata")
+    yield Page("graph.html", "Graph of the claims", _topped(_graph(report)))
+    taken: dict[str, int] = {}
+    for section in report.sections:
+        name = slug(section.title)
+        taken[name] = taken.get(name, 0) + 1
+        name = f"section-{name}" + (f"--{taken[name]}" if taken[name] > 1 else "")
+        for number, cards in enumerate(packed([*_cards(section)]), 1):
+            file = f"{name}.html" if number == 1 else f"{name}-{number}.html"
+            yield Page(file, section.title, _topped(str(_section(section, cards, number))), section.anchor)
+    yield from _split("statements", "Statements by verdict", [_listed(report)], "claims")
+    if report.figures or report.appendix:
+        body = [parts.drawn(report, False)] if report.figures else []
+        body += [parts.appended(report)] if report.appendix else []
+        yield Page("figures.html", "Figures", _topped("\n".join(body)))
+    yield Page("reference.html", "Notation and sources", _topped("\n".join(_reference(report))))
+
+
+def _topped(body: str) -> str:
+    """The content with its first heading as that of the page."""
+    return re.sub(r"<h2>(.*?)</h2>", r"<h1>\1</h1>", body, count=1)
+
+
+def _split(name: str, title: str, items: Sequence[str], anchor: str) -> Iterator[Page]:
+    """The items on as many pages as they need; the anchor is on the first."""
+    inside = packed(items)
+    for number, part in enumerate(inside, 1):
+        more = f'<p class="more"><a href="#{anchor}-{number + 1}">More {title.lower()}</a></p>'
+        head = f'<section id="{anchor}{f"-{number}" if number > 1 else ""}">\n<h1>{title}</h1>\n'
+        body = head + "\n".join(map(str, part)) + (more if number < len(inside) else "") + "</section>"
+        yield Page(f"{name}{f'-{number}' if number > 1 else ''}.html", title, body)
+
+
+def _front(report: Report) -> str:
+    rows = picture(report.sections)
+    return str(_parts().front(report, headline(report), rows, FORMS, ALL, ERRATA_AT_FRONT))
+
+
+def _errata(report: Report) -> Iterator[str]:
+    parts = _parts()
+    yield parts.errata_table(report)
+    for erratum in report.errata:
+        yield parts.correction(erratum, "printed")
+    if report.besides:
+        yield parts.besides_head()
+        for erratum in report.besides:
+            yield parts.correction(erratum, "claimed")
+
+
+def _graph(report: Report) -> str:
+    return str(_parts().graphed(Markup(graph_svg(report.nodes(), standalone=False))))
+
+
+def _cards(section: Section) -> Iterator[str]:
+    parts = _parts()
+    for item in section.definitions:
+        yield parts.defined(item)
+    for claim in section.claims:
+        yield parts.card(claim)
+
+
+def _section(section: Section, cards: Sequence[str], number: int = 1) -> str:
+    return str(_parts().sectioned(section, Markup("\n").join(map(Markup, cards)), number))
+
+
+def _listed(report: Report) -> str:
+    return str(_parts().listed(report, ALL))
+
+
+def _short(report: Report) -> dict[str, str]:
+    """The statements that can be shown beside a name, since they are short, by their anchors."""
+    return {
+        claim.ref.anchor: str(_parts().formula(claim.lines, claim.words))
+        for claim in report.claims
+        if len(claim.lines) <= SHOWN_LINES and sum(width(line.latex) for line in claim.lines) < SHOWN_WIDTH
+    }
+
+
+def _reference(report: Report) -> Iterator[str]:
+    parts = _parts()
+    yield parts.quoted(report)
+    if report.labels:
+        yield parts.indexed(report)
+    if report.letters:
+        yield parts.lettered(report)
+    yield parts.verdicts(ALL)
+    yield parts.versioned(report)
+
+
+def _neighbours(pages: Sequence[Page], page: Page) -> tuple[Page | None, Page | None]:
+    """The pages of sections before and after a page of a section."""
+    inside = [item for item in pages if item.section]
+    if page not in inside:
+        return None, None
+    place = inside.index(page)
+    return inside[place - 1] if place else None, inside[place + 1] if place + 1 < len(inside) else None
+
+
+def _skeleton(
+    report: Report,
+    page: Page,
+    *,
+    alone: bool = False,
+    above: str = "",
+    turn: tuple[Page | None, Page | None] = (None, None),
+) -> str:
+    parts = [("errata", "Errata"), ("claims", "Statements"), ("graph", "Graph")]
+    parts += [("figures", "Figures")] if report.figures else []
+    parts += [("appendix", "Appendix")] if report.appendix else []
+    parts += [("notation" if report.letters else "cited", "Notation" if report.letters else "Sources")]
+    title = page.title if page.title == report.title else f"{page.title} · {report.title}"
+    return html().get_template("page.html.j2").render(
+        title=title, brand=report.title, parts=parts, sections=report.sections, current=page.section,
+        side=alone or bool(page.section), turn=turn, body=Markup(page.body), alone=alone, above=above,
+        style=Markup(style()), script=Markup(script()),
+    )  # fmt: skip
