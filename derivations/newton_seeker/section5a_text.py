@@ -7,10 +7,10 @@ import sympy as sp
 from ptproof.proof import Evidence, Goal, Smooth, claim, eq, every, exact, gt, integrals, lt, reals, refute, smooth
 
 from . import chain
-from .notation import F_z, H, alpha, alpha_t, d, h, nu, omega, omega_0, omega_d, r, t, z1, z2
+from .notation import F_z, H, J_n, alpha, alpha_t, d, h, nu, omega, omega_0, omega_d, r, t, z1, z2
 from .section4_linear import equilibrium as gradient_equilibrium
 from .section4_linear import linearisation as gradient_linearisation
-from .section5a_design import J_n, average_newton, equilibrium, linearisation
+from .section5a_design import average_newton, equilibrium, linearisation
 from .section5b_1_coordinates import shifted
 from .section8_newton_average import u1, u2, u3
 

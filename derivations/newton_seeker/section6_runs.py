@@ -135,7 +135,7 @@ too_slow = observed(
 )  # fmt: skip
 published = observed(
     "newton/6-observed-published", "The h of the figures is 1",
-    "At six instants until t = 1.6 the run with h = 1 has the published d and positions to 1%, that of no other h to 2%",
+    "Until t = 1.6 the run with h = 1 has the published d and positions to 1%, that of no other h to 2%",
     "published", place="Section VI, fig:hessian",
 )  # fmt: skip
 threshold = observed(

@@ -7,28 +7,46 @@ Definite integration by SymPy is never asked: over a full period it has been wro
 
 from __future__ import annotations
 
+import contextlib
+import itertools
+from collections.abc import Mapping
+from typing import Any
+
 import sympy as sp
 
+from ptproof.errors import InputError
 from ptproof.proof.claim import Goal, engine
 from ptproof.proof.engines.evaluation import carried_out
-from ptproof.proof.signs import vanishes
-from ptproof.proof.statement import relations_of
+from ptproof.proof.engines.witnesses import candidates
+from ptproof.proof.signs import holds, vanishes
+from ptproof.proof.statement import Relation, relations_of
+from ptproof.proof.substitution import Substitution
 from ptproof.proof.verdict import Evidence, Verdict
+
+_TRIED = 12  # points at which an integral whose value is another is looked at
 
 
 @engine
 def integrals(goal: Goal) -> Evidence:
-    """Show equalities whose left side contains definite integrals."""
+    """Show equalities whose left side contains definite integrals; where a value is another, a point is suspected."""
     converging = set()
     for part in relations_of(goal.statement):
-        if part.sign != "=":
-            return Evidence("fundamental theorem", Verdict.UNDECIDED, f"not an equality: {part}")
         found = carried_out(part.left)
         if found is None:
             return Evidence("fundamental theorem", Verdict.UNDECIDED, f"no checked antiderivative for {part}")
-        if not vanishes(found - part.right):
-            detail = f"the integral is {found}"
-            return Evidence("fundamental theorem", Verdict.UNDECIDED, detail, found={part.left: found})
+        if part.sign != "=" or not vanishes(found - part.right):
+            detail = f"the integral is {found}" if part.sign == "=" else f"not an equality: {part}"
+            suspect = _failing(goal, Relation(found, part.sign, part.right))
+            return Evidence("fundamental theorem", Verdict.UNDECIDED, detail, found={part.left: found}, suspect=suspect)
         converging |= part.left.atoms(sp.Integral)
     detail = "an antiderivative whose derivative is the integrand by exact algebra, between the ends"
     return Evidence("fundamental theorem", Verdict.PROVED, detail, found=dict.fromkeys(converging))
+
+
+def _failing(goal: Goal, part: Relation) -> Mapping[Any, Any] | None:
+    """Exact values at which the part fails with the integrals' values put in; whoever checks them has the integrals."""
+    for values in itertools.islice(candidates(goal), _TRIED):
+        with contextlib.suppress(InputError):
+            if holds(Substitution(values).relation(part).negation()):
+                return values
+    return None

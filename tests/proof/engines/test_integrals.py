@@ -8,8 +8,9 @@ import sympy as sp
 from ptproof.proof.claim import Goal
 from ptproof.proof.engines.evaluation import definite
 from ptproof.proof.engines.integrals import integrals
+from ptproof.proof.relation import RelationSign
 from ptproof.proof.settling import settle
-from ptproof.proof.statement import eq
+from ptproof.proof.statement import Relation, eq
 from ptproof.proof.verdict import Verdict
 
 s, theta = sp.symbols("s theta", real=True)
@@ -70,3 +71,20 @@ def test_a_logarithm_serves_where_its_argument_is_positive() -> None:
     assert definite(sp.Integral(1 / (1 + s), (s, 0, T))) == sp.log(1 + T)
     assert definite(sp.Integral(1 / (1 + s), (s, 0, sp.oo))) is sp.oo
     assert definite(sp.Integral(1 / (1 + s), (s, -2, 0))) is None
+
+
+@pytest.mark.parametrize("sign", ["!=", "<", ">"])
+def test_what_is_no_equality_is_refuted_by_the_value(sign: RelationSign) -> None:
+    """At a point that the engine suspects, without a search."""
+    goal = Goal("t", Relation(WAVES, sign, sp.S.Zero))
+    assert settle(goal, integrals, seconds=0).verdict is Verdict.REFUTED
+
+
+@pytest.mark.parametrize("sign", ["<=", ">="])
+def test_what_is_no_equality_is_not_refuted_where_it_holds(sign: RelationSign) -> None:
+    assert settle(Goal("t", Relation(WAVES, sign, sp.S.Zero)), integrals, seconds=0).verdict is Verdict.UNDECIDED
+
+
+def test_another_value_is_refuted_without_a_search() -> None:
+    goal = Goal("t", eq(PARTS, 21 * sp.pi / (9 * a**3)))
+    assert settle(goal, integrals, seconds=0).verdict is Verdict.REFUTED
