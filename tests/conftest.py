@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import sys
 from collections.abc import Callable
 from typing import Any
 
@@ -9,6 +11,13 @@ import pytest
 
 from ptproof.reading import limits
 from ptproof.reading.outcomes import Answered, Unanswered, Why, in_words
+
+# More than a hundred processes are started, and each would compile ptproof again.
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+sys.dont_write_bytecode = False
+# Each of pytest's workers has one processor: threads of linear algebra would only wait for each other, at full speed.
+for _name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
+    os.environ.setdefault(_name, "1")
 
 
 @pytest.fixture

@@ -4,6 +4,7 @@ import ast
 import itertools
 import os
 import re
+import shlex
 import subprocess
 import sys
 from dataclasses import dataclass
@@ -11,6 +12,7 @@ from pathlib import Path
 
 import pytest
 
+from ptproof.commands.cli import main
 from ptproof.commands.starter import write_starter
 from ptproof.simulation.drawing import BLUE
 from tests.pictures import ink, pixels
@@ -18,6 +20,7 @@ from tests.pictures import ink, pixels
 TUTORIAL = Path(__file__).resolve().parents[1] / "TUTORIAL.md"
 README = TUTORIAL.with_name("README.md")
 BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+WRITTEN = re.compile(r"[%#] (added to )?(\S+\.(?:tex|py))")
 STATUS = re.compile(r"  # exit status (\d)$")
 
 
@@ -36,6 +39,18 @@ def steps(language, page=TUTORIAL):
         if kind == language:
             after = blocks[i + 1] if i + 1 < len(blocks) and blocks[i + 1][0] in ("text", "math") else ("", "")
             yield Step(code, after[1], after[0])
+
+
+def blocks_of(part):
+    """The blocks of one part of the tutorial, for a shell: commands, and what is written into files."""
+    text = TUTORIAL.read_text("utf-8").partition("## From a paper's source\n")[0 if part == 1 else 2]
+    blocks = BLOCK.findall(text)
+    for i, (kind, code) in enumerate(blocks):
+        if kind in ("sh", "latex", "py"):
+            yield (
+                kind,
+                Step(code, blocks[i + 1][1] if blocks[i + 1 : i + 2] and blocks[i + 1][0] == "text" else "", "text"),
+            )
 
 
 def assert_shown(shown, output):
@@ -59,10 +74,10 @@ def run(command, folder):
 
 def test_every_block_is_run_or_says_what_came_out():
     kinds = [kind for kind, _ in BLOCK.findall(TUTORIAL.read_text("utf-8"))]
-    assert set(kinds) == {"sh", "python", "text", "math"}
+    assert set(kinds) == {"sh", "python", "text", "math", "latex", "py"}
     assert TUTORIAL.read_text("utf-8").count("```") == 2 * len(kinds)
     for before, kind in itertools.pairwise(kinds):
-        assert kind in ("sh", "python") or before in ("sh", "python")
+        assert kind in ("sh", "python", "latex", "py") or before in ("sh", "python")
 
 
 @pytest.mark.parametrize("shown", ["one\n", "two\none\n", "on…\n…o\n", "a    b\n"])
@@ -76,16 +91,60 @@ def test_what_is_shown_and_does_not_come_out_is_found_out(shown):
         assert_shown(shown, "one\ntwo\n")
 
 
+def follow(step, folder, run=run):
+    """Run the commands of a block, each with its status, and hold what they print against what is shown."""
+    output = ""
+    for line in step.code.splitlines():
+        status = STATUS.search(line)
+        done = run(STATUS.sub("", line), folder)
+        assert done.returncode == (int(status[1]) if status else 0), f"{line}\n{done.stdout}{done.stderr}"
+        assert "Traceback" not in done.stdout + done.stderr
+        output += done.stdout
+    assert_shown(step.shown, output)
+
+
+def write(code, folder):
+    """Write a block into the file that its first line names, or add it there."""
+    first, _, text = code.partition("\n")
+    name = WRITTEN.fullmatch(first)
+    assert name, f"{first!r} names no file"
+    with (folder / name[2]).open("a" if name[1] else "x", encoding="utf-8") as file:
+        file.write(("\n\n" if name[1] else "") + text)
+
+
+@pytest.fixture
+def here(tmp_path, monkeypatch, capfd):
+    """Runs a command line in this process where it is one of ptproof's own; what it has loaded is forgotten first."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", "120")
+
+    def call(line, folder):
+        program, *arguments = shlex.split(line)
+        if program != "ptproof":
+            return run(line, folder)
+        for name, module in list(sys.modules.items()):
+            if str(getattr(module, "__file__", None) or "").startswith(str(folder)):
+                del sys.modules[name]
+        with pytest.raises(SystemExit) as ended:
+            main(arguments)
+        return subprocess.CompletedProcess(line, int(ended.value.code or 0), *capfd.readouterr())
+
+    return call
+
+
+def test_a_derivation_from_a_papers_source(tmp_path, here):
+    for kind, step in blocks_of(2):
+        if kind == "sh":
+            follow(step, tmp_path, here)
+        else:
+            write(step.code, tmp_path)
+    assert ": letters guessed" not in "".join(file.read_text("utf-8") for file in tmp_path.glob("swing/*.py"))
+
+
 def test_the_commands(tmp_path):
-    for step in steps("sh"):
-        output = ""
-        for line in step.code.splitlines():
-            status = STATUS.search(line)
-            done = run(STATUS.sub("", line), tmp_path)
-            assert done.returncode == (int(status[1]) if status else 0), f"{line}\n{done.stdout}{done.stderr}"
-            assert "Traceback" not in done.stdout + done.stderr
-            output += done.stdout
-        assert_shown(step.shown, output)
+    for kind, step in blocks_of(1):
+        assert kind == "sh"
+        follow(step, tmp_path)
     for name in ("report/index.html", "report/report.md"):
         assert "The average as printed, without the factor 1/2" in (tmp_path / name).read_text("utf-8")
     assert pixels(tmp_path / "path.png").shape == (960, 1200, 3)

@@ -114,21 +114,19 @@ gradient_from_any_heading = in_rotating_frame(solve_state(_gradient, theta, head
 # --- The Newton seeker -----------------------------------------------------------------------------------------------
 
 
-def newton_loop(estimate: sp.Symbol) -> System:
-    """The Newton seeker, with that letter for the state of the Riccati filter."""
-    law = c * estimate * (F_x - nu) * sp.sin(omega * t) + alpha_t * sp.cos(omega * t)
-    riccati = omega_d * estimate * (1 - estimate * 8 * omega**2 / alpha_t**2 * (F_x - nu) * sp.cos(2 * omega * t))
-    loop = unicycle(law, omega_0, {estimate: riccati, nu: h * (F_x - nu)}, "Newton seeker")
-    return solve_state(loop, theta, omega_0 * t)
-
-
-newton = newton_loop(d)
+_law = c * d * (F_x - nu) * sp.sin(omega * t) + alpha_t * sp.cos(omega * t)
+_riccati = omega_d * d * (1 - d * 8 * omega**2 / alpha_t**2 * (F_x - nu) * sp.cos(2 * omega * t))
+_newton = unicycle(_law, omega_0, {d: _riccati, nu: h * (F_x - nu)}, "Newton seeker")
+newton = solve_state(_newton, theta, omega_0 * t)
 newton_in_z = in_rotating_frame(newton)
 newton_dithered = powered(newton_in_z)
 newton_found = derive_powered(newton_dithered)
 newton_averaged = newton_found.system
 
-logarithmic = change_variable(in_rotating_frame(newton_loop(d_plus)), d_plus, d_t, sp.log(d_plus), sp.exp(d_t))
+_where_positive = replace(
+    newton_in_z, state=(*rotated, d_plus, nu), rhs=tuple(rate.subs(d, d_plus) for rate in newton_in_z.rhs)
+)
+logarithmic = change_variable(_where_positive, d_plus, d_t, sp.log(d_plus), sp.exp(d_t))
 logarithmic_dithered = powered(logarithmic)
 logarithmic_averaged = average(logarithmic_dithered)
 

@@ -49,6 +49,9 @@ b = letter("b", "b", "1/s", "weight of the second part of the Lyapunov function"
 V_dot = letter("V_dot", r"\dot{V}", "1/s", "rate of the Lyapunov function")
 norm_G = letter("norm_G", r"\|G\|", "1", "norm of the matrix G", nonnegative=True)
 lambda_P = letter("lambda_min", r"\lambda_{\text{min}}(P)", "s", "least eigenvalue of P", positive=True)
+lambda_1, lambda_2, lambda_3, lambda_4 = (
+    letter(f"lambda_{n}", rf"\lambda_{n}", "1/s", "eigenvalue of a linearised averaged system") for n in range(1, 5)
+)
 
 position, source, rotated = (x1, x2), (xs1, xs2), (z1, z2)
 HALF = sp.Rational(1, 2)
@@ -67,11 +70,20 @@ I = sp.ImmutableDenseMatrix.eye(2)  # noqa: E741 - the paper's letter
 J_0 = sp.ImmutableDenseMatrix([[0, omega_0], [-omega_0, 0]])
 Lambda = sp.ImmutableDenseMatrix([[0, 0], [0, -alpha * H / 2]])
 Lambda_t = sp.ImmutableDenseMatrix([[0, 0], [0, -alpha / 2]])  # H⁻¹ Λ
+J_g = sp.ImmutableDenseMatrix([[0, omega_0, 0], [-omega_0, -alpha * H / 2, 0], [0, 0, -h]])
+J_n = sp.ImmutableDenseMatrix([[0, omega_0, 0, 0], [-omega_0, -alpha / 2, 0, 0], [0, 0, -omega_d, 0], [0, 0, 0, -h]])
+P = sp.ImmutableDenseMatrix([[alpha / (4 * omega_0**2) + 2 / alpha, 1 / (2 * omega_0)], [1 / (2 * omega_0), 2 / alpha]])
+G = sp.ImmutableDenseMatrix([[0, -alpha / (4 * omega_0)], [-alpha / (4 * omega_0), -2]])
 
 
 def Y(angle: sp.Expr = omega_0 * t) -> sp.ImmutableDenseMatrix:
     """The matrix of the rotating frame, as printed for θ = ω₀t."""
     return sp.ImmutableDenseMatrix([[sp.sin(angle), sp.cos(angle)], [-sp.cos(angle), sp.sin(angle)]])
+
+
+def rate_of(name: str) -> sp.Expr:
+    """The derivative of a signal, for the left side of a displayed system."""
+    return sp.Derivative(sp.Function(name)(t), t)
 
 
 # How SymPy's printer writes the letters, for the report.

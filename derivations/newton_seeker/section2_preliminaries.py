@@ -9,7 +9,7 @@ from ptproof.proof import Evidence, Goal, Prose, claim, definition, eq, every, e
 from ptproof.system import DitherSystem, jacobian, lie_bracket
 
 from .chain import phase
-from .notation import HALF, letter, omega, t
+from .notation import HALF, letter, omega, rate_of, t, x1, x2
 
 SECTION = "II Preliminaries: second-order Lie bracket approximations"
 
@@ -59,10 +59,26 @@ def bracket(goal: Goal) -> Evidence:
 
 # --- The general system and what is assumed of it --------------------------------------------------------------------
 
+_k, _p = sp.symbols("k_1:3", positive=True), sp.symbols("p_1:3", positive=True)
+
+
+def _fields(at: tuple[sp.Symbol, ...]) -> list[sp.Matrix]:
+    """f₀, f₁ and f₂ of two states."""
+    return [sp.Matrix([sp.Function(f"f{i}{row}", real=True)(*at) for row in (1, 2)]) for i in range(3)]
+
+
+def _dithers(of: sp.Expr, at: sp.Symbol) -> sp.Expr:
+    return sp.Function(f"u_{of}", real=True)(sp.Symbol(f"k_{of}", positive=True) * omega * at)
+
+
+_f0, *_driven = _fields((x1, x2))
 general_system = definition(
     "newton/2-general-system", "A system with powers of the frequency",
-    Prose("dx/dt = f₀(x) + Σ f_i(x) ω^(p_i) u_i(k_i ω t), with positive rational k_i and p_i between 0 and 1"),
-    labels=["eq:general_nominal_system"], prose="Its control inputs are the dithers.",
+    eq(sp.Matrix([rate_of("x1"), rate_of("x2")]),
+       sum((_driven[i - 1] * omega ** _p[i - 1] * _dithers(i, t) for i in (1, 2)), _f0)),
+    labels=["eq:general_nominal_system"],
+    prose="Its control inputs are the dithers; k_i are rational and positive, p_i between 0 and 1. Written for two "
+    "states and l = 2.",
 )  # fmt: skip
 assumption_1 = definition(
     "newton/2-assumption-1", "Assumption 1",
@@ -81,6 +97,42 @@ practical_stability = definition(
     Prose("Bounded, stable and practically convergent from every bounded neighbourhood, for small enough parameters, "
           "each chosen after the one before it"),
     labels=["def:sGPUAS"], prose="sGPUAS is taken from the literature as it stands.",
+)  # fmt: skip
+
+# --- The average and its coefficients, as they are printed ------------------------------------------------------------
+
+_T, _i, _j, _m = sp.Symbol("T", positive=True), *(sp.Symbol(f"p_{n}", positive=True) for n in "ijm")
+_zero, *_ones = _fields(_averaged := sp.symbols("xb1:3", real=True))
+_bracket_12 = lie_bracket(list(_ones[0]), list(_ones[1]), _averaged)
+
+
+def _gamma_of(name: str) -> sp.Expr:
+    return sp.Function(f"gamma_{name}", real=True)(omega)
+
+
+_seconds = [lie_bracket(_bracket_12, list(field), _averaged) for field in _ones]
+average_printed = definition(
+    "newton/2-average", "The second-order Lie bracket system",
+    eq(sp.Matrix([rate_of("xb1"), rate_of("xb2")]), sp.Matrix([
+        _zero[row] + sp.Limit(_bracket_12[row] * _gamma_of("12"), omega, sp.oo)
+        + sp.Limit(sum(_seconds[m][row] * _gamma_of(f"12{m + 1}") for m in (0, 1)), omega, sp.oo)
+        for row in (0, 1)
+    ])),
+    labels=["eq:second_order_LBS_general"], prose="Written here for two states and l = 2.",
+)  # fmt: skip
+coefficients_printed = definition(
+    "newton/2-coefficients", "γ_ij(ω) and γ_ijm(ω) as printed",
+    every(
+        eq(_gamma_of("ij"), omega ** (_i + _j) / _T
+           * sp.Integral(_dithers("j", s) * _dithers("i", s_p), (s_p, 0, s), (s, 0, _T))),
+        eq(_gamma_of("ijm"), omega ** (_i + _j + _m) / _T * sp.Integral(
+            _dithers("m", tau) * sp.Integral(
+                _dithers("j", s) * _dithers("i", s_p) - _dithers("i", s) * _dithers("j", s_p), (s_p, 0, _T)
+            ),
+            (s, 0, s), (tau, 0, tau),
+        )),
+    ),
+    labels=[], prose="With the factor and the limits as they stand; both are the subject of claims.",
 )  # fmt: skip
 
 # --- The coefficients: of f₁ = 1 and f₂ = f(x), with cos and cos 2, both with the power 2/3 ---------------------------

@@ -4,16 +4,21 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ptproof.proof import Evidence, Goal, Prose, claim, definition, eq, every, exact, le, reals
+from ptproof.proof import Evidence, Goal, claim, definition, eq, every, exact, le, reals
 
-from .notation import F_star, F_x, H, I, position, source, x1, x2, xs1, xs2
+from .notation import F_star, F_x, H, I, position, rate_of, source, theta, x1, x2, xs1, xs2
 
 SECTION = "III Unicycle source seeking problem"
 
+u1, u2 = sp.symbols("u1 u2", real=True)
 unicycle = definition(
     "newton/3-unicycle", "The unicycle",
-    Prose("dx/dt = u₁ (cos θ, sin θ), dθ/dt = u₂, y = F(x), from x(t₀) = x₀ and θ(t₀) = θ₀"),
-    labels=["eq:unicycle_model", "eq:unicycle_with_drift-a"], prose="The inputs are forward and angular velocity.",
+    every(
+        eq(sp.Matrix([rate_of("x1"), rate_of("x2")]), u1 * sp.Matrix([sp.cos(theta), sp.sin(theta)])),
+        eq(rate_of("theta"), u2), eq(sp.Symbol("y", real=True), sp.Function("F", real=True)(x1, x2)),
+    ),
+    labels=["eq:unicycle_model", "eq:unicycle_with_drift-a"],
+    prose="The inputs are forward and angular velocity; the start is any x₀ and θ₀ at any time t₀.",
 )  # fmt: skip
 
 field = definition(

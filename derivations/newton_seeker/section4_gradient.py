@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ptproof.proof import Evidence, ForAll, Goal, Prose, claim, definition, eq, every, exact, refute
+from ptproof.proof import Evidence, ForAll, Goal, claim, definition, eq, every, exact, refute
 
 from . import chain
 from .notation import (
@@ -26,6 +26,7 @@ from .notation import (
     omega,
     omega_0,
     position,
+    rate_of,
     rotated,
     source,
     t,
@@ -42,16 +43,20 @@ ahead = sp.Matrix([sp.cos(omega_0 * t), sp.sin(omega_0 * t)])
 second = sp.Matrix([0, 1])
 offset = sp.Matrix(position) - sp.Matrix(source)
 
-law = definition(
-    "newton/4-law", "The gradient seeker",
-    Prose("u₁ = c (F(x) − ν) sin ωt + α̃ cos ωt, u₂ = ω₀, dν/dt = h (F(x) − ν)"),
-    labels=["eq:gradient_seeker_control_law"], prose="Due to Zhang and others.",
-)  # fmt: skip
-
 
 def forward(field: sp.Expr, gain: sp.Expr = c) -> sp.Expr:
     """The forward velocity u₁ as printed."""
     return gain * (field - nu) * sp.sin(omega * t) + alpha_t * sp.cos(omega * t)
+
+
+law = definition(
+    "newton/4-law", "The gradient seeker",
+    every(
+        eq(sp.Symbol("u1", real=True), forward(F_x)), eq(sp.Symbol("u2", real=True), omega_0),
+        eq(rate_of("nu"), h * (F_x - nu)),
+    ),
+    labels=["eq:gradient_seeker_control_law"], prose="Due to Zhang and others.",
+)  # fmt: skip
 
 
 @claim(
@@ -100,6 +105,16 @@ def any_heading(goal: Goal) -> Evidence:
 )  # fmt: skip
 def rotation_undone(goal: Goal) -> Evidence:
     """Y is orthogonal."""
+    return exact(goal)
+
+
+@claim(
+    "newton/4-inverse", "x − x* = Yz for z = Yᵀ(x − x*)", eq(offset, Y() * z),
+    given=[eq(own, entry) for own, entry in zip(rotated, Y().T * offset, strict=True)],
+    labels=["eq:z_transformation", "eq-inverse-of-x-to-z"],
+)  # fmt: skip
+def inverse(goal: Goal) -> Evidence:
+    """z put in."""
     return exact(goal)
 
 

@@ -7,12 +7,12 @@ import sympy as sp
 from ptproof.proof import Evidence, Goal, Relation, claim, eq, every, exact, ge, gt, le, lt, reals, refute
 
 from . import chain
-from .notation import F_star, H, alpha, h, nu, omega_0, rotated
+from .notation import F_star, H, J_g, alpha, h, lambda_1, lambda_2, lambda_3, nu, omega_0, rotated
 
 SECTION = "IV Gradient-based source seeking: linearisation"
 
 equilibrium = {rotated[0]: 0, rotated[1]: 0, nu: F_star}
-J_g = sp.ImmutableDenseMatrix([[0, omega_0, 0], [-omega_0, -alpha * H / 2, 0], [0, 0, -h]])
+deviation = sp.Matrix([*rotated, nu])
 
 
 @claim(
@@ -25,12 +25,13 @@ def is_equilibrium(goal: Goal) -> Evidence:
 
 
 @claim(
-    "newton/4-linearisation", "The matrix J_g", eq(J_g, chain.gradient_averaged.linearization(equilibrium)),
+    "newton/4-linearisation", "The linear system with the matrix J_g",
+    eq(J_g * deviation, chain.gradient_averaged.linearization(equilibrium) * deviation),
     labels=["eq:gradient_seeker_lin"], uses=[is_equilibrium],
 )  # fmt: skip
 def linearisation(goal: Goal) -> Evidence:
-    """The derivative of the averaged system at its equilibrium. The state of the linear system, printed as (z̄, ν̄), is
-    the deviation (z̄, ν̄ − F*)."""
+    """For every state: J_g is the derivative of the averaged system at its equilibrium. The state of the linear system,
+    printed as (z̄, ν̄), is the deviation (z̄, ν̄ − F*)."""
     return exact(goal)
 
 
@@ -51,17 +52,24 @@ discriminant = decay**2 - (2 * omega_0) ** 2
 ROOT = {alpha: 2, H: 4, omega_0: 1, h: 7}
 
 
+def both(middle: sp.Expr, under_root: sp.Expr) -> list[Relation]:
+    """λ₁ and λ₂ as printed: ``middle`` ± √(…)/2."""
+    signs = ((lambda_1, 1), (lambda_2, -1))
+    return [eq(value, middle + sign * sp.Rational(1, 2) * sp.sqrt(under_root)) for value, sign in signs]
+
+
 @claim(
     "newton/4-eigenvalues-printed", "λ₁, λ₂ = −αH/2 ± √((αH/2)² − (2ω₀)²)/2 are eigenvalues of J_g",
-    every(*(eq(characteristic(J_g, -decay + sign * sp.sqrt(discriminant) / 2), 0) for sign in (1, -1))),
-    given=[ge(discriminant, 0)], labels=["eq:ev_zbar_grad"], uses=[linearisation], expected="refuted", grade="error",
+    every(*(eq(characteristic(J_g, value), 0) for value in (lambda_1, lambda_2))),
+    given=[ge(discriminant, 0), *both(-decay, discriminant)], labels=["eq:ev_zbar_grad"],
+    uses=[linearisation], expected="refuted", grade="error",
     wrong="The eigenvalues begin with −αH/2 where it is −αH/4.",
     survives="Yes for what is concluded, that convergence depends on H; where the root is imaginary, its rate is half "
     "of what is printed.",
 )  # fmt: skip
 def eigenvalues_printed(goal: Goal) -> Evidence:
     """Their sum would be −αH, and the trace of that block is −αH/2."""
-    return refute(goal, ROOT)
+    return refute(goal, {**ROOT, lambda_1: sp.sqrt(3) - 4, lambda_2: -sp.sqrt(3) - 4})
 
 
 @claim(
@@ -85,7 +93,8 @@ def eigenvalues_complex(goal: Goal) -> Evidence:
 
 
 @claim(
-    "newton/4-third-eigenvalue", "λ₃ = −h", eq(characteristic(J_g, -h), 0), place="Section IV", uses=[linearisation],
+    "newton/4-third-eigenvalue", "λ₃ = −h", eq(characteristic(J_g, lambda_3), 0), given=[eq(lambda_3, -h)],
+    place="Section IV", uses=[linearisation],
 )  # fmt: skip
 def third_eigenvalue(goal: Goal) -> Evidence:
     """The filter is alone in the linear part."""

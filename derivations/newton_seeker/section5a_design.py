@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ptproof.proof import Evidence, Goal, Prose, claim, definition, eq, every, exact, ge, gt, le, lt, reals, refute
+from ptproof.proof import Evidence, Goal, claim, definition, eq, every, exact, ge, gt, le, lt, reals, refute
 
 from . import chain
 from .notation import (
@@ -14,21 +14,28 @@ from .notation import (
     F_x,
     F_z,
     H,
+    J_n,
     Lambda,
     alpha,
     alpha_t,
+    c,
     d,
     h,
+    lambda_1,
+    lambda_2,
+    lambda_3,
+    lambda_4,
     nu,
     omega,
     omega_0,
     omega_d,
+    rate_of,
     rotated,
     t,
     z,
 )
 from .section4_gradient import ahead, forward, generator, orthogonal, rotation_rate, rotation_undone, second
-from .section4_linear import characteristic, is_root
+from .section4_linear import both, characteristic, is_root
 from .section8_newton_average import (
     first_coefficients,
     form,
@@ -42,13 +49,6 @@ from .section8_newton_brackets import bracket_12, bracket_232
 
 SECTION = "V.A Newton-based source seeking: design"
 
-law = definition(
-    "newton/5-law", "The Newton seeker",
-    Prose("u₁ = c d (F(x) − ν) sin ωt + α̃ cos ωt, u₂ = ω₀, dd/dt = ω_d d (1 − d (8ω²/α̃²) (F(x) − ν) cos 2ωt), "
-          "dν/dt = h (F(x) − ν)"),
-    labels=["eq:newton_seeker_control_law"], prose="d is the state of a Riccati filter.",
-)  # fmt: skip
-
 
 def riccati(field: sp.Expr) -> sp.Expr:
     """The rate of d as printed."""
@@ -57,7 +57,17 @@ def riccati(field: sp.Expr) -> sp.Expr:
 
 def driven(field: sp.Expr) -> sp.Expr:
     """u₁ of the Newton seeker."""
-    return forward(field, sp.Symbol("c", positive=True) * d)
+    return forward(field, c * d)
+
+
+law = definition(
+    "newton/5-law", "The Newton seeker",
+    every(
+        eq(sp.Symbol("u1", real=True), driven(F_x)), eq(sp.Symbol("u2", real=True), omega_0),
+        eq(rate_of("d"), riccati(F_x)), eq(rate_of("nu"), h * (F_x - nu)),
+    ),
+    labels=["eq:newton_seeker_control_law"], prose="d is the state of a Riccati filter.",
+)  # fmt: skip
 
 
 @claim(
@@ -117,7 +127,7 @@ def average_by_hand(goal: Goal) -> Evidence:
 # --- Linearisation ---------------------------------------------------------------------------------------------------
 
 equilibrium = {rotated[0]: 0, rotated[1]: 0, d: 1 / H, nu: F_star}
-J_n = sp.ImmutableDenseMatrix([[0, omega_0, 0, 0], [-omega_0, -alpha / 2, 0, 0], [0, 0, -omega_d, 0], [0, 0, 0, -h]])
+deviation = sp.Matrix([*rotated, d, nu])
 
 
 @claim(
@@ -130,7 +140,8 @@ def is_equilibrium(goal: Goal) -> Evidence:
 
 
 @claim(
-    "newton/5-linearisation", "The matrix J_n", eq(J_n, chain.newton_averaged.linearization(equilibrium)),
+    "newton/5-linearisation", "The linear system with the matrix J_n",
+    eq(J_n * deviation, chain.newton_averaged.linearization(equilibrium) * deviation),
     labels=["eq:newton_seeker_lin"], uses=[is_equilibrium],
 )  # fmt: skip
 def linearisation(goal: Goal) -> Evidence:
@@ -145,15 +156,17 @@ discriminant = decay**2 - (2 * omega_0) ** 2
 
 @claim(
     "newton/5-eigenvalues-printed", "λ₁, λ₂ = −α/2 ± √((α/2)² − (2ω₀)²)/2 are eigenvalues of J_n",
-    every(*(eq(characteristic(J_n, -decay + sign * sp.sqrt(discriminant) / 2), 0) for sign in (1, -1))),
-    given=[ge(discriminant, 0)], labels=["eq:ev_zbar_newton"], uses=[linearisation], expected="refuted", grade="error",
+    every(*(eq(characteristic(J_n, value), 0) for value in (lambda_1, lambda_2))),
+    given=[ge(discriminant, 0), *both(-decay, discriminant)], labels=["eq:ev_zbar_newton"],
+    uses=[linearisation], expected="refuted", grade="error",
     wrong="The eigenvalues begin with −α/2 where it is −α/4.",
     survives="Yes for what is concluded, that they do not depend on H; where the root is imaginary, the rate is half "
     "of what is printed.",
 )  # fmt: skip
 def eigenvalues_printed(goal: Goal) -> Evidence:
     """As for the gradient seeker: the trace of that block is −α/2."""
-    return refute(goal, {alpha: 8, omega_0: 1, omega_d: 5, h: 7})
+    values = {lambda_1: sp.sqrt(3) - 4, lambda_2: -sp.sqrt(3) - 4}
+    return refute(goal, {alpha: 8, omega_0: 1, omega_d: 5, h: 7, **values})
 
 
 @claim(
@@ -178,8 +191,8 @@ def eigenvalues_complex(goal: Goal) -> Evidence:
 
 @claim(
     "newton/5-other-eigenvalues", "λ₃ = −ω_d and λ₄ = −h",
-    every(eq(characteristic(J_n, -omega_d), 0), eq(characteristic(J_n, -h), 0)), place="Section V.A",
-    uses=[linearisation],
+    every(eq(characteristic(J_n, lambda_3), 0), eq(characteristic(J_n, lambda_4), 0)),
+    given=[eq(lambda_3, -omega_d), eq(lambda_4, -h)], place="Section V.A", uses=[linearisation],
 )  # fmt: skip
 def other_eigenvalues(goal: Goal) -> Evidence:
     """Both filters are alone in the linear part."""

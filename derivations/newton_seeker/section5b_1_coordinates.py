@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ptproof.proof import Evidence, Goal, Prose, claim, definition, eq, every, exact, refute
+from ptproof.proof import Evidence, Goal, claim, definition, eq, every, exact, gt, refute
 
 from . import chain
 from .notation import (
@@ -20,6 +20,7 @@ from .notation import (
     d_plus,
     d_t,
     h,
+    letter,
     nu,
     omega,
     omega_0,
@@ -37,8 +38,8 @@ SECTION = "V.B Newton-based source seeking: analysis, Steps 1 and 2"
 STEP_1, STEP_2 = "Section V.B, Step 1", "Section V.B, Step 2"
 
 logarithm = definition(
-    "newton/5-logarithm", "d̃ = ln d, for d > 0", eq(d_t, sp.log(d_plus)), labels=["eq-d-to-dtilde"],
-    prose="It leaves out the unstable point d = 0 of the Riccati filter.",
+    "newton/5-logarithm", "d̃ = ln d, for d > 0", every(eq(d_t, sp.log(d_plus)), gt(d_plus, 0)),
+    labels=["eq-d-to-dtilde"], prose="It leaves out the unstable point d = 0 of the Riccati filter.",
 )  # fmt: skip
 in_logarithm_printed = sp.Matrix(
     [
@@ -94,10 +95,12 @@ def lambda_tilde(goal: Goal) -> Evidence:
     return exact(goal)
 
 
+d_tb = letter("d_tb", r"\bar{\tilde{d}}", "1", "d̃, averaged, beside d̃ itself")
+nu_b = letter("nu_b", r"\bar{\nu}", "[F]", "ν, averaged, beside ν itself")
 shift = definition(
     "newton/5-shift", "d̂ is d̃, averaged, less ln(1/H), and r is ν̄ − F(z̄)",
-    Prose("d̂ = d̃ − ln(H⁻¹) and r = ν̄ − F(z̄)"), labels=[],
-    prose="Printed with F(z); z̄ is meant, as in newton/4-field-of-average.",
+    every(eq(d_h, d_tb - sp.log(1 / H)), eq(r, nu_b - F_z)), labels=[],
+    prose="Printed with F(z), as here; z̄ is meant, as in newton/4-field-of-average.",
 )  # fmt: skip
 
 

@@ -8,14 +8,12 @@ from ptproof.proof import Evidence, Goal, Relation, claim, definition, eq, every
 from ptproof.system import System
 
 from . import chain
-from .notation import J_0, I, Lambda_t, alpha, b, d_h, omega_0, omega_d, t, z, z1, z2
+from .notation import J_0, G, I, Lambda_t, P, alpha, b, d_h, omega_0, omega_d, t, z, z1, z2
 from .section5b_1_coordinates import shifted
 
 SECTION = "V.B Newton-based source seeking: analysis, Step 3"
 STEP_3 = "Section V.B, Step 3"
 
-P = sp.ImmutableDenseMatrix([[alpha / (4 * omega_0**2) + 2 / alpha, 1 / (2 * omega_0)], [1 / (2 * omega_0), 2 / alpha]])
-G = sp.ImmutableDenseMatrix([[0, -alpha / (4 * omega_0)], [-alpha / (4 * omega_0), -2]])
 A = J_0 + Lambda_t
 grown = sp.exp(d_h) - 1
 square = z1**2 + z2**2

@@ -1,13 +1,14 @@
 """Section VI: the numbers of the simulation, and what follows from them for the averaged systems.
 
-The rate h of the measurement's filter is not given, so that the figures cannot be repeated from the text alone.
+The rate h of the measurement's filter is not given, so that the figures cannot be repeated from the text alone. What
+h was is found from the data that the authors published with the paper: newton/6-observed-published.
 """
 
 from __future__ import annotations
 
 import sympy as sp
 
-from ptproof.proof import Evidence, Goal, claim, eq, every, exact, ge, gt, limits, lt, reals
+from ptproof.proof import Evidence, Goal, claim, definition, eq, every, exact, ge, gt, limits, lt, reals
 
 from . import chain
 from .notation import F_star, F_x, H, alpha, d, nu, omega, omega_0, omega_d, p, t, x1, x2, xs1, xs2
@@ -30,6 +31,11 @@ NUMBERS = {
     H: sp.Rational(1, 100),
 }
 START = {x1: 4, x2: -4, xs1: 1, xs2: -1, F_star: 5, nu: 0, d: 1}
+parameters = definition(
+    "newton/6-parameters", "The parameters of the simulation",
+    every(*(eq(letter, value) for letter, value in {**NUMBERS, **START}.items())), labels=[],
+    prose="Of x, ν and d at the start. The rate h of the measurement's filter is not given.",
+)  # fmt: skip
 
 
 @claim(
@@ -118,3 +124,13 @@ def riccati_estimate(goal: Goal) -> Evidence:
 def estimate_limit(goal: Goal) -> Evidence:
     """Here from 1 to 100."""
     return limits(goal)
+
+
+@claim(
+    "newton/6-half-way", "It is half of H⁻¹ at t = ln(1/H − 1)/ω_d",
+    eq(estimate.subs(t, sp.log(1 / H - 1) / omega_d), 1 / (2 * H)), given=[lt(H, 1)], place=PLACE,
+    uses=[riccati_estimate],
+)  # fmt: skip
+def half_way(goal: Goal) -> Evidence:
+    """Here at 15.3: how long the estimate takes depends on H, of which only the rate at the source is free."""
+    return exact(goal)

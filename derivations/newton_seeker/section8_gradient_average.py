@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ptproof.proof import Evidence, Goal, claim, eq, every, exact, gt, integrals, le, lt, reals
+from ptproof.proof import Evidence, Goal, claim, definition, eq, every, exact, gt, integrals, le, lt, reals
 from ptproof.system import lie_bracket
 
 from . import chain
@@ -21,6 +21,11 @@ f2 = (0, alpha, 0)
 POWERS = (1 - p, p)
 sine, cosine = sp.sin(phase), sp.cos(phase)
 gains = {c: omega ** (1 - p), alpha_t: alpha * omega**p}
+gains_by_powers = definition(
+    "newton/A-gains", "The gains by powers of the frequency: c = ω^(1 − p), α̃ = αω^p",
+    every(*(eq(letter, value) for letter, value in gains.items())), labels=["prop:average_gradient_seeker"],
+    prose="With p between 1/2 and 1, in both Propositions and in the Theorem.",
+)  # fmt: skip
 
 
 def put_together(drift: sp.Matrix, *parts: tuple[tuple[sp.Expr, ...], sp.Expr, sp.Expr]) -> sp.Matrix:

@@ -7,48 +7,28 @@ nothing that is proved uses it.
 
 from __future__ import annotations
 
-import time
-from typing import TYPE_CHECKING
+from typing import Any
 
-from ptproof.proof import Claim, Evidence, Goal, Prose, Verdict, claim, engine
-
-if TYPE_CHECKING:
-    from .experiments.observations import Statement
+from ptproof.proof import Claim
+from ptproof.simulation.observed import Statement
+from ptproof.simulation.observed import observed as observation
 
 SECTION = "7.4 Simulation: what is observed"
 
 HEADINGS = 12  # for the saturated seeker, whose runs are long
 
 
-@engine
-def simulation(goal: Goal, statement: str, *arguments: str | int) -> Evidence:
-    """Run the named statement of :mod:`.experiments.observations`; numbers that don't support it leave it open."""
+def made(name: str, *arguments: Any) -> Statement:
+    """The named statement of :mod:`.experiments.observations`, which is read only now."""
     from .experiments import observations
 
-    start = time.perf_counter()
-    found: Statement = getattr(observations, statement)(*arguments)
-    verdict = Verdict.OBSERVED if found.supported else Verdict.UNDECIDED
-    return Evidence("simulation", verdict, _detail(found), time.perf_counter() - start)
+    found: Statement = getattr(observations, name)(*arguments)
+    return found
 
 
-def _detail(found: Statement) -> str:
-    numbers = "; ".join(f"{name} {value:.4g}" for name, value in found.data.items())
-    settings = ", ".join(f"{name} {value}" for name, value in found.settings.items())
-    words = "supported" if found.supported else "not supported"
-    remark = f" ({found.remark})" if found.remark else ""
-    return f"{words}: {found.criterion}. {numbers}. Settings: {settings}{remark}"
-
-
-def observed(
-    id: str, title: str, text: str, place: str, statement: str, *arguments: str | int, expected: str = "observed"
-) -> Claim:
-    """One statement about simulations."""
-
-    def prove(goal: Goal) -> Evidence:
-        return simulation(goal, statement, *arguments)
-
-    prove.__doc__ = "A numerical experiment over initial headings, repeated by `ptproof verify -k " + id + "`."
-    return claim(id, title, Prose(text), expected=expected, place=place)(prove)
+def observed(id: str, title: str, text: str, place: str, name: str, *arguments: Any) -> Claim:
+    """One statement about simulations, over initial headings."""
+    return observation(id, title, text, place, made, name, *arguments)
 
 
 vanishing_reaches = observed(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence, Set
+from collections.abc import Sequence, Set
 from typing import TYPE_CHECKING
 
 import click
@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from ptproof.proof.load import Derivation
     from ptproof.report.coverage import Coverage
     from ptproof.report.printed import Compared
+    from ptproof.report.running import Running
 
 
 @click.command()
@@ -28,7 +29,8 @@ def coverage(paper: str, paths: tuple[str, ...], as_json: bool) -> int:
     Where there are several derivations, the one that names most labels of the paper is taken for its own.
 
     Each displayed formula is read from the source, by the table notation.toml beside the derivation, and held against
-    what the claims that cover it say: equal, different, or not read and why.
+    what the claims that cover it say: equal, different, or not read and why. A relation in running text is looked up
+    among all that the derivation states or assumes.
 
     Exit status 1 if a label of an equation is not covered, a claim names a label that the paper does not have, or a
     formula that was read is different from what is claimed.
@@ -38,7 +40,8 @@ def coverage(paper: str, paths: tuple[str, ...], as_json: bool) -> int:
     from ptproof.reading.latex.source import read_paper
     from ptproof.report.coverage import coverage as match
     from ptproof.report.labels import all_labels, equation_labels
-    from ptproof.report.printed import compare_all, readable
+    from ptproof.report.printed import compare_all
+    from ptproof.report.running import hold_running
     from ptproof.report.stated import printed
 
     source = read_paper(paper)
@@ -52,16 +55,22 @@ def coverage(paper: str, paths: tuple[str, ...], as_json: bool) -> int:
             click.echo(f"ptproof: {paper} has no label {label}, which is named by {', '.join(ids)}", err=True)
         notation = printed(derivation)
         compared = compare_all(formulas, notation)
-        running = {"found": len(formulas.running), "read": readable(formulas, notation)}
+        running = hold_running(formulas, notation, derivation)
         if as_json:
-            read = {"formulas": [item.to_json() for item in compared], "running": running}
+            count = {
+                "found": len(running),
+                "read": sum(item.read != "not read" for item in running),
+                "equal": sum(item.read == "equal" for item in running),
+                "items": [item.to_json() for item in running],
+            }
+            read = {"formulas": [item.to_json() for item in compared], "running": count}
             options.print_json({**found.to_json(), "paper": name, **read})
         else:
             if len(papers) > 1:
                 click.echo(f"{paper} is held against {name}", err=True)
             _show(found)
             _show_formulas(compared, running)
-    return 0 if found.complete and all(item.read != "different" for item in compared) else 1
+    return 0 if found.complete and all(item.read != "different" for item in (*compared, *running)) else 1
 
 
 def own(papers: Sequence[Opened], labels: Set[str], tex: str) -> tuple[str, Derivation]:
@@ -94,7 +103,7 @@ def _show(found: Coverage) -> None:
     console.print(f"{len(found.covered)} of {total} labelled equations are covered, {len(found.missing)} missing")
 
 
-def _show_formulas(compared: Sequence[Compared], running: Mapping[str, int]) -> None:
+def _show_formulas(compared: Sequence[Compared], running: Sequence[Running]) -> None:
     """How many formulas were read, and those that are not equal with what stood in the way."""
     from rich.text import Text
 
@@ -103,7 +112,7 @@ def _show_formulas(compared: Sequence[Compared], running: Mapping[str, int]) -> 
     console = output()
     count = Counter(item.read for item in compared)
     styles = {"different": "bold red", "not read": "yellow"}
-    others = [item for item in compared if item.read != "equal"]
+    others = [*(item for item in compared if item.read != "equal"), *(r for r in running if r.read == "different")]
     rows = [
         (Text(item.formula.place), Text(str(item.formula.line)), Text(item.read, styles[item.read]), Text(item.detail))
         for item in others
@@ -114,4 +123,9 @@ def _show_formulas(compared: Sequence[Compared], running: Mapping[str, int]) -> 
         f"{len(compared)} displayed formulas: {count['equal']} read and equal, {count['different']} read and "
         f"different, {count['not read']} not read"
     )
-    console.print(f"{running['found']} relations in running text, {running['read']} of them can be read")
+    text = Counter(item.read for item in running)
+    console.print(
+        f"{len(running)} relations in running text: {text['equal']} read and equal to what is claimed, "
+        f"{text['restates']} restate what is assumed, {text['different']} different, "
+        f"{text['not claimed']} not claimed, {text['not read']} not read (--json lists them)"
+    )

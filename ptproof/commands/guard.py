@@ -39,16 +39,10 @@ def doing(what: str) -> None:
 
 
 def limit() -> None:
-    """From here on this process, if it is one of its own, reads nothing, and has no more memory than one for a claim.
-
-    Linear algebra starts no threads in it: of a process with one thread a copy can be made, and each worker has one
-    processor anyway.
-    """
+    """From here on this process, if it is one of its own, reads nothing, and has no more memory than one for a claim."""
     if _state["guarded"]:
         streams.nothing_to_read()
         limit_memory(MEMORY)
-        for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
-            os.environ.setdefault(name, "1")
 
 
 def own_interrupt() -> bool:
@@ -82,7 +76,11 @@ def guarded(work: Callable[[], int]) -> NoReturn:
 
 
 def _work(work: Callable[[], int], say: int, closed: set[int]) -> NoReturn:
-    """In the process that works."""
+    """In the process that works.
+
+    Linear algebra starts no threads in it: of a process with one thread a copy can be made, each worker has one
+    processor anyway, and small matrices cost several times as much where threads wait for each other.
+    """
     status = 1
     try:
         os.setsid()
@@ -92,6 +90,8 @@ def _work(work: Callable[[], int], say: int, closed: set[int]) -> NoReturn:
         for number in _SIGNALS:
             signal.signal(number, _interrupt)
         _state.update(guarded=True, pipe=say)
+        for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
+            os.environ.setdefault(name, "1")
         streams.private(say)
         results, own = streams.settle(closed), os.getpid()
         try:

@@ -156,3 +156,7 @@ def _print_summary(console: Console, shown: Shown) -> None:
     line.append(f"; {summary['fully_proved']} fully proved, ")
     line.append(f"{summary['unexpected']} not as expected", style="bold red" if summary["unexpected"] else "")
     console.print(line)
+    if gaps := summary.get("gaps", 0):
+        console.print(
+            f"{gaps} {'formula is a gap' if gaps == 1 else 'formulas are gaps'}: nothing is stated of them yet"
+        )

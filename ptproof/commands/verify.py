@@ -34,6 +34,7 @@ def verify(
 ) -> int:
     """Verify the claims below each PATH (the shipped derivations where left out), one paper after the other.
 
+    Of a derivation that was written from a paper it also says how many formulas are gaps, of which nothing is stated.
     What an earlier run has decided is not decided again while every file that it depends on is the same. Exit status 1
     if a claim did not come out as its author recorded.
     """
@@ -88,6 +89,8 @@ def _decided(
             )  # fmt: skip
     except Interrupted as interrupted:
         return interrupted.verification, options.interrupted(interrupted)
+    if not select:
+        verification = replace(verification, gaps=len(derivation.gaps))
     memory.keep_run(select, Shown.of(verification).data, verification)
     return verification, 0 if verification.as_expected else 1
 

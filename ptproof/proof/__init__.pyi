@@ -1,11 +1,13 @@
 from . import lemmas as lemmas
 from .claim import Claim as Claim
 from .claim import Definition as Definition
+from .claim import Gap as Gap
 from .claim import Goal as Goal
 from .claim import cited as cited
 from .claim import claim as claim
 from .claim import definition as definition
 from .claim import engine as engine
+from .claim import gap as gap
 from .engines.comparison import comparison as comparison
 from .engines.enclosures import enclosures as enclosures
 from .engines.exact import exact as exact

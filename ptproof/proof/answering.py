@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Generator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
+from ptproof.errors import InputError
 from ptproof.proof.claim import Claim
 from ptproof.proof.deciding import run_one
-from ptproof.proof.load import claims_in
+from ptproof.proof.load import claims_in, load
 from ptproof.proof.statement import Prose
 from ptproof.proof.verdict import Evidence, Verdict
 from ptproof.reading.hashes import foreign, opened
@@ -123,6 +125,12 @@ _one_at_a_time = threading.Lock()
 def read(files: Sequence[str]) -> None:
     """In a worker: the claims of these files, so that they can be asked for by their ids."""
     _read.update(claims_in(files))
+
+
+def import_apart(path: str) -> None:
+    """In a worker: import a module, which may end its process; what is wrong with it is said where it is loaded."""
+    with suppress(InputError):
+        load([path])
 
 
 def run_by_id(id: str) -> Decided:

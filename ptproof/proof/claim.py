@@ -172,6 +172,22 @@ class Definition:
     statement: Statement
     prose: str = ""
     section: str = ""
+    place: str = ""
+
+
+@dataclass(frozen=True)
+class Gap:
+    """A displayed formula of a paper of which nothing is stated yet, and why.
+
+    It covers no label and decides nothing: it is there to be counted, and to be replaced by a claim.
+    """
+
+    id: str
+    place: str
+    line: int
+    latex: str
+    why: str
+    labels: tuple[str, ...] = ()
 
 
 def claim(
@@ -214,11 +230,30 @@ def _section_of_caller(frame: FrameType | None) -> str:
 
 
 def definition(
-    id: str, title: str, states: Statement, *, labels: Iterable[str], prose: str = "", section: str = ""
+    id: str,
+    title: str,
+    states: Statement,
+    *,
+    labels: Iterable[str],
+    prose: str = "",
+    section: str = "",
+    place: str = "",
 ) -> Definition:
-    """A displayed definition; ``section`` is taken from the module that calls, where left out."""
+    """A displayed definition; ``section`` is taken from the module that calls, where left out.
+
+    ``place`` says where in the paper it stands, if it has no label.
+    """
     section = section or _section_of_caller(inspect.currentframe())
-    return Definition(id, title, _labels(id, labels), states, inspect.cleandoc(prose), section)
+    return Definition(id, title, _labels(id, labels), states, inspect.cleandoc(prose), section, place)
+
+
+def gap(id: str, place: str, line: int, latex: str, why: str, *, labels: Iterable[str] = ()) -> Gap:
+    """A formula of which nothing is stated yet: where it stands, its LaTeX, and why it was not read.
+
+    >>> gap("3/rates", "Section 3 (2)", 41, r"\\ddot{x} = -x", r"\\ddot is not known").place
+    'Section 3 (2)'
+    """
+    return Gap(id, place, line, latex, why, _labels(id, labels))
 
 
 def _labels(id: str, labels: Iterable[str]) -> tuple[str, ...]:

@@ -13,7 +13,7 @@ from pathlib import Path
 from types import ModuleType
 
 from ptproof.errors import InputError
-from ptproof.proof.claim import Claim, Definition
+from ptproof.proof.claim import Claim, Definition, Gap
 from ptproof.proof.shipped import shipped as shipped
 from ptproof.reading.outcomes import in_words
 
@@ -28,7 +28,7 @@ class NoClaims(InputError):
 class Derivation:
     """The claims and definitions of one or more folders, sections in the order of their files.
 
-    ``homes`` says for each claim in which file it stands.
+    ``homes`` says for each claim in which file it stands; ``gaps`` are formulas of a paper that nothing states yet.
 
     Raises
     ------
@@ -41,6 +41,7 @@ class Derivation:
     paths: tuple[str, ...]
     packages: tuple[ModuleType, ...] = ()
     homes: Mapping[str, str] = field(default_factory=dict)
+    gaps: tuple[Gap, ...] = ()
 
     def __post_init__(self) -> None:
         seen: dict[str, Claim | Definition] = {}
@@ -93,8 +94,8 @@ def load(paths: Sequence[str | Path] = (), only: Collection[Path] | None = None)
     Raises
     ------
     InputError
-        If a path does not exist, holds no claim (:class:`NoClaims`), or a module cannot be imported: with file,
-        line and reason.
+        If a path does not exist, holds no claim, definition or gap (:class:`NoClaims`), or a module cannot be imported:
+        with file, line and reason.
     """
     chosen = [Path(path) for path in paths] or [shipped()]
     names = {file: _module_name(file, chosen) for file in files_of(chosen)}
@@ -114,7 +115,8 @@ def load(paths: Sequence[str | Path] = (), only: Collection[Path] | None = None)
                         raise twice(first, item, f"{module.__file__}: ")
                     homes.setdefault(item.id, str(module.__file__))
     claims = [item for item in found.values() if isinstance(item, Claim)]
-    if not claims:
+    gaps = {id(value): value for module in modules for value in vars(module).values() if isinstance(value, Gap)}
+    if not found and not gaps:
         raise NoClaims(f"{', '.join(map(str, chosen))}: no claims found")
     missing = {used.id: used for used in with_ancestors(claims) if used.id not in found}
     definitions = (item for item in found.values() if isinstance(item, Definition))
@@ -125,6 +127,7 @@ def load(paths: Sequence[str | Path] = (), only: Collection[Path] | None = None)
         tuple(map(str, chosen)),
         tuple(sys.modules[p] for p in packages),
         homes,
+        tuple(gaps.values()),
     )
 
 

@@ -52,11 +52,15 @@ class Result:
 
 @dataclass(frozen=True)
 class Verification:
-    """The outcome of every claim, in the order of the derivation; ``remembered`` are those of an earlier run."""
+    """The outcome of every claim, in the order of the derivation; ``remembered`` are those of an earlier run.
+
+    ``gaps`` is the number of formulas of which nothing is stated yet.
+    """
 
     results: tuple[Result, ...]
     seconds: float
     remembered: frozenset[str] = frozenset()
+    gaps: int = 0
 
     @property
     def as_expected(self) -> bool:
@@ -72,7 +76,7 @@ class Verification:
         counts["fully_proved"] = sum(result.fully_proved for result in self.results)
         counts["unexpected"] = sum(not result.as_expected for result in self.results)
         counts["hit"] = sum(result.hit is not None for result in self.results)
-        return counts
+        return counts | ({"gaps": self.gaps} if self.gaps else {})
 
     def to_json(self) -> dict[str, Any]:
         claims = [result.to_json() for result in self.results]

@@ -45,7 +45,7 @@ def _alone() -> bool:
 class Copies:
     """Processes for work as :class:`ptproof.reading.limits.Workers` describes them, on systems that can copy a process.
 
-    The host is a copy of this process if this has a single thread, and otherwise a fresh one.
+    The host is a copy of this process if this has a single thread, and otherwise of its nursery.
     """
 
     def __init__(self, count: int, start: Callable[..., None] | None, arguments: tuple[Any, ...], memory: int) -> None:
@@ -73,7 +73,7 @@ class Copies:
         check_seconds(seconds)
         keys = dict(enumerate(tasks))
         try:
-            connection = self._connected()
+            connection = self._connected(work)
             connection.send((seconds, [(n, pickle.dumps((work, tasks[key]))) for n, key in keys.items()]))
             while keys:
                 if not connection.poll(None if self._ready else LOADING):
@@ -91,17 +91,19 @@ class Copies:
             if keys:
                 self.stop()
 
-    def _connected(self) -> Connection:
-        from ptproof.reading.host import serve
-
+    def _connected(self, work: Callable[..., Any]) -> Connection:
         if self._to_host is None:
-            copied = _alone()
-            context: Any = multiprocessing.get_context("fork" if copied else "spawn")
+            from ptproof.reading import nursery
+            from ptproof.reading.host import serve
+
+            context: Any = multiprocessing.get_context("fork")
             ours, theirs = context.Pipe()
-            held = os.getpid() if threading.current_thread() is threading.main_thread() else 0
-            arguments = (theirs, ours if copied else None, held, *self._given)
-            self._host = context.Process(target=serve, args=arguments, daemon=True)
-            self._host.start()
+            if _alone():
+                held = threading.current_thread() is threading.main_thread()
+                self._host = context.Process(target=serve, args=(theirs, ours, held, *self._given), daemon=True)
+                self._host.start()
+            else:
+                self._host = nursery.host(theirs, work, *self._given)
             theirs.close()
             self._to_host, self._ready = ours, False
         return self._to_host

@@ -27,13 +27,13 @@ _PATIENCE = 1.0  # for a keeper to say how its worker ended [s]
 
 
 def serve(
-    connection: Connection, other_end: Connection | None, parent: int, count: int, start: Callable[..., None] | None,
+    connection: Connection, other_end: Connection | None, held: bool, count: int, start: Callable[..., None] | None,
     arguments: tuple[Any, ...], memory: int,
 ) -> None:  # fmt: skip
-    """In the host: read, then serve until the connection is closed."""
+    """In the host, which may be ``held`` by its parent: read, then serve until the connection is closed."""
     if other_end is not None:
         other_end.close()
-    if parent:
+    if held:
         system.end_with_parent()
     os.setsid()
     system.adopt()

@@ -11,10 +11,13 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, Literal
 
+from sympy.core.function import AppliedUndef
+
 from ptproof.reading.latex.formulas import Formula, Formulas
-from ptproof.reading.latex.notation import notation
+from ptproof.reading.latex.rewrite import Rules
 from ptproof.reading.latex.statements import Pair, Reading, read_formula
 from ptproof.reading.latex.tokens import NotUnderstood
+from ptproof.report.sameness import same
 from ptproof.report.stated import Item, Printed, Stated, stated
 
 Read = Literal["equal", "different", "not read"]
@@ -77,19 +80,6 @@ def compare_all(formulas: Formulas, source: Printed) -> tuple[Compared, ...]:
     return tuple(compare(formula, formulas, source) for formula in formulas.displayed)
 
 
-def readable(formulas: Formulas, source: Printed) -> int:
-    """How many of the relations in running text can be read; they are held against nothing."""
-    return sum(_can_be_read(formula, formulas, source) for formula in formulas.running)
-
-
-def _can_be_read(formula: Formula, formulas: Formulas, source: Printed) -> bool:
-    try:
-        read_formula(formula, formulas.macros, notation(source.table, source.names, formula.place, source.where))
-    except NotUnderstood:
-        return False
-    return True
-
-
 def compare(formula: Formula, formulas: Formulas, source: Printed) -> Compared:
     """Read one formula and hold it against what covers it."""
     items = source.covering(formula)
@@ -101,7 +91,7 @@ def _compared(formula: Formula, formulas: Formulas, source: Printed, items: tupl
     ids = tuple(item.id for item in items)
     if not source.known:
         return Compared(formula, ids, "not read", "notation", f"{source.where}, so that no letter means anything")
-    meaning = notation(source.table, source.names, formula.place, source.where)
+    meaning = source.letters(formula)
     try:
         reading = read_formula(formula, formulas.macros, meaning)
     except NotUnderstood as error:
@@ -122,6 +112,10 @@ class _Comparison:
     def _stated(self) -> dict[str, Stated | None]:
         return {}
 
+    @property
+    def ids(self) -> tuple[str, ...]:
+        return tuple(item.id for item in self.items)
+
     def candidates(self) -> Iterator[Stated]:
         for item in self.items:
             if getattr(item, "corrects", None):
@@ -138,16 +132,41 @@ class _Comparison:
             *((p, True) for p in self.reading.conditions),
         ]:
             found = self.saying(pair)
-            if found is None:
+            if found is not None:
+                used[found.id] = None
+            elif not self.by_notation(pair):
                 return self.unsaid(pair, condition)
-            used[found.id] = None
+        if self.reading.unread:
+            return Compared(self.formula, self.ids, "not read", "brace", self.reading.unread[0], str(self.reading))
+        wrong = [brace for brace in self.reading.braces if self.contradicted(brace)]
+        if wrong:
+            return self.unsaid(wrong[0], False)
+        said = [brace for brace in self.reading.braces if self.saying(brace) or self.by_notation(brace)]
         remarks = [
-            *self.reading.unread,
-            *(f"no claim says what stands at a brace, {p}" for p in self.reading.braces if self.saying(p) is None),
+            f"no claim says what stands at a brace, {p}" for p in self.reading.braces if p not in said
         ]  # fmt: skip
+        if not used:
+            used = dict.fromkeys(self.ids)
+            remarks.append("the table of notation says it")
         return Compared(
             self.formula, tuple(used), "equal", "", "; ".join(remarks), str(self.reading), said=self.said(used)
         )
+
+    def by_notation(self, pair: Pair) -> bool:
+        """Whether both sides are the same by what the table says of their letters, where something covers this."""
+        return pair.sign == "=" and bool(self.items) and same(self._plain(pair.left), self._plain(pair.right))
+
+    @cached_property
+    def _plain(self) -> Rules:
+        return self.source.meaning(self.formula)
+
+    def contradicted(self, brace: Pair) -> bool:
+        """Whether a brace gives a name to something else than what the table or a claim says of the name."""
+        if self.saying(brace) is not None or self.by_notation(brace):
+            return False
+        name = self._plain(brace.left)
+        unknown = name.has(AppliedUndef) or (name.is_Symbol and not brace.entry)
+        return not unknown or any(says.knows(brace.left) for says in self.candidates())
 
     def said(self, used: Iterable[str]) -> dict[str, Part]:
         """What each that says a relation of this formula says of it; ``used`` may say it among what it assumes."""
@@ -167,16 +186,15 @@ class _Comparison:
             verdict = says.says(pair)
             if verdict is not None:
                 return says if verdict else None
-        return None
+        return next((says for says in self.candidates() if says.implies(pair)), None)
 
     def unsaid(self, pair: Pair, condition: bool) -> Compared:
         """A relation that no claim says, beside the one that comes nearest."""
-        ids = tuple(item.id for item in self.items)
         entries = [(says, claimed) for says in self.candidates() for claimed in says.pairs]
         if not entries:
-            detail = "read, but nothing that covers it states a relation" if ids else "read, but nothing covers it"
-            return Compared(self.formula, ids, "not read", "not stated", detail, str(self.reading))
+            detail = "read, but nothing that covers it states a relation" if self.ids else "read, but nothing covers it"
+            return Compared(self.formula, self.ids, "not read", "not stated", detail, str(self.reading))
         nearest, claimed = max(entries, key=lambda entry: entry[0].nearness(entry[1], pair))
         beside = f"for all {pair}" if condition else str(nearest.spoken(pair))
         detail = f"the paper: {beside}; {nearest.id}: {claimed}"
-        return Compared(self.formula, ids, "different", "", detail, str(self.reading), beside=nearest.id)
+        return Compared(self.formula, self.ids, "different", "", detail, str(self.reading), beside=nearest.id)

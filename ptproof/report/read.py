@@ -9,6 +9,7 @@ from typing import Any
 from ptproof.proof.load import Derivation
 from ptproof.reading.latex.formulas import find_formulas
 from ptproof.report.printed import Compared, Read, compare_all
+from ptproof.report.running import Running, hold_running
 from ptproof.report.stated import Item, printed
 
 
@@ -22,7 +23,8 @@ class ReadSide:
         ``equal`` if it says a formula of the paper and every formula that it covers was read and is what is claimed,
         ``different`` if a formula that it covers says something else, ``not read`` otherwise.
     places
-        The formulas: those that it says, the one that is different, or those that were not read.
+        The formulas: those that it says, the one that is different, or those that were not read. A relation in running
+        text has a place such as ``Section 2, text (3)``.
     detail
         Why it is not equal, or which part of a claim of several relations was met in the paper.
     """
@@ -36,29 +38,34 @@ class ReadSide:
 
 
 def read_sides(source: str, derivation: Derivation) -> Mapping[str, ReadSide]:
-    """What a machine makes of each claim and definition that transcribes a formula displayed in ``source``.
+    """What a machine makes of each claim and definition that transcribes a formula of the paper.
 
-    ``source`` is the LaTeX of the paper (:func:`ptproof.reading.latex.source.read_paper`). By id; corrections are left
-    out, and what covers no displayed formula.
+    ``source`` is the LaTeX of the paper (:func:`ptproof.reading.latex.source.read_paper`). By id: all that cover a
+    displayed formula, and what states a relation of the running text and nothing else. Corrections are left out.
 
     Raises
     ------
     InputError
         If the table of notation beside the derivation is wrong.
     """
-    return sides(compare_all(find_formulas(source), printed(derivation)), derivation)
+    formulas, notation = find_formulas(source), printed(derivation)
+    return sides(compare_all(formulas, notation), hold_running(formulas, notation, derivation), derivation)
 
 
-def sides(compared: Iterable[Compared], derivation: Derivation) -> Mapping[str, ReadSide]:
+def sides(compared: Iterable[Compared], running: Iterable[Running], derivation: Derivation) -> Mapping[str, ReadSide]:
     """The same from formulas that are compared already."""
     items: list[Item] = [*derivation.definitions, *derivation.claims]
-    wanted = [item.id for item in items if not getattr(item, "corrects", None)]
-    covering: dict[str, list[Compared]] = {id: [] for id in wanted}
+    covering: dict[str, list[Compared]] = {item.id: [] for item in items if not getattr(item, "corrects", None)}
     for formula in compared:
         for id in formula.covered:
             if id in covering:
                 covering[id].append(formula)
-    return {id: _side(id, formulas) for id, formulas in covering.items() if formulas}
+    in_text: dict[str, list[str]] = {}
+    for relation in running:
+        for id in relation.whole if relation.read == "equal" else ():
+            in_text.setdefault(id, []).append(relation.formula.place)
+    found = {id: _side(id, formulas) for id, formulas in covering.items() if formulas}
+    return found | {id: ReadSide("equal", tuple(places)) for id, places in in_text.items() if id not in found}
 
 
 def _side(id: str, formulas: list[Compared]) -> ReadSide:

@@ -2,28 +2,27 @@
 
 from __future__ import annotations
 
-import hashlib
 import sys
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from functools import cached_property
 from pathlib import Path
+from typing import Any
 
 import sympy as sp
-from sympy.core.function import AppliedUndef
 
 from ptproof.errors import InputError
-from ptproof.proof.algebra import NotAlgebraic, is_zero
 from ptproof.proof.claim import Claim, Definition
 from ptproof.proof.load import Derivation
 from ptproof.proof.statement import All, ForAll, Relation, relations_of
 from ptproof.reading.latex.formulas import Formula
 from ptproof.reading.latex.grammar import Grammar
-from ptproof.reading.latex.notation import Table, meanings, notation, read_table, says_of, vocabulary
+from ptproof.reading.latex.notation import Notation, Table, context, meanings, notation, read_table, says_of, vocabulary
 from ptproof.reading.latex.rewrite import Rules, Vocabulary, rules
 from ptproof.reading.latex.statements import Pair, read_tokens
 from ptproof.reading.latex.tokens import NotUnderstood, Token, read
 from ptproof.reading.tables import read_file
+from ptproof.report.sameness import same
 
 TABLE = "notation.toml"
 MIRRORED = {"<=": ">=", "<": ">", ">=": "<=", ">": "<", "=": "=", "!=": "!="}
@@ -39,6 +38,27 @@ class Printed:
     where: str
     items: Mapping[str, tuple[Item, ...]]
     known: bool = True
+
+    @cached_property
+    def _kept(self) -> dict[Any, Any]:
+        return {}
+
+    def letters(self, formula: Formula) -> Notation:
+        """What letters mean in the formula."""
+        key = context(self.table, formula.place)
+        if key not in self._kept:
+            self._kept[key] = notation(self.table, self.names, formula.place, self.where)
+        found: Notation = self._kept[key]
+        return found
+
+    def meaning(self, formula: Formula, takes: Mapping[str, str] | None = None, who: str = "") -> Rules:
+        """What names stand for in the formula, for a claim that ``takes`` some letters for others."""
+        key = (context(self.table, formula.place), tuple(sorted((takes or {}).items())))
+        if key not in self._kept:
+            where = f"{self.where}, {who}" if who else self.where
+            self._kept[key] = meanings(self.table, self.names, formula.place, takes or {}, where)
+        found: Rules = self._kept[key]
+        return found
 
     def covering(self, formula: Formula) -> tuple[Item, ...]:
         """What names a label of the formula, or its place."""
@@ -61,21 +81,25 @@ def printed(derivation: Derivation) -> Printed:
         if (folder / TABLE).is_file():
             known = vars(sys.modules.get(f"{package.__name__}.notation", sys))
             symbols = {value.name: value for value in known.values() if isinstance(value, sp.Symbol)}
+            matrices = {name: value for name, value in known.items() if isinstance(value, sp.MatrixBase)}
             text = read_file(folder / TABLE, "a table of notation")
-            return with_table(derivation, text, str(folder / TABLE), symbols)
+            return with_table(derivation, text, str(folder / TABLE), {**matrices, **symbols})
     return replace(with_table(derivation, "", f"no {TABLE} stands beside the derivation", {}), known=False)
 
 
-def with_table(derivation: Derivation, text: str, where: str, symbols: Mapping[str, sp.Symbol]) -> Printed:
-    """The claims of ``derivation`` with the notation that the table ``text`` says."""
+def with_table(derivation: Derivation, text: str, where: str, known: Mapping[str, Any]) -> Printed:
+    """The claims of ``derivation`` with the notation that the table ``text`` says.
+
+    ``known`` are the symbols and matrices of the derivation's own notation.
+    """
     table = read_table(text, where)
     items: dict[str, list[Item]] = {}
     everything: list[Item] = [*derivation.definitions, *derivation.claims]
     for item in everything:
-        for key in dict.fromkeys([*item.labels, getattr(item, "place", "")]):
+        for key in dict.fromkeys([*item.labels, getattr(item, "place", ""), *says_of(table, item.id).at]):
             if key:
                 items.setdefault(key, []).append(item)
-    return Printed(table, vocabulary(table, symbols), where, {key: tuple(found) for key, found in items.items()})
+    return Printed(table, vocabulary(table, known), where, {key: tuple(found) for key, found in items.items()})
 
 
 @dataclass(frozen=True)
@@ -102,6 +126,31 @@ class Stated:
                 return True
             found = False
         return found
+
+    def implies(self, wanted: Pair) -> bool:
+        """Whether the claim has the sides equal by a chain of its equalities.
+
+        What is the same number need not be meant by each other: no chain passes through one.
+        """
+        if wanted.sign != "=":
+            return False
+        pair = self.spoken(wanted)
+        equal = [own for own in (*self.pairs, *self.given) if own.sign == "="]
+        first, last = (pair.left, pair.right) if pair.left.free_symbols else (pair.right, pair.left)
+        sides: list[sp.Expr] = [first]
+        for side in sides:
+            if not side.free_symbols:
+                continue
+            for own in equal:
+                for mine, other in ((own.left, own.right), (own.right, own.left)):
+                    if same(mine, side) and not any(other == known for known in sides):
+                        sides.append(other)
+        return len(sides) > 1 and any(same(side, last) for side in sides[1:])
+
+    def knows(self, side: sp.Expr) -> bool:
+        """Whether a relation of the claim has this side."""
+        spoken = self.meaning(side)
+        return any(same(spoken, mine) for own in (*self.pairs, *self.given) for mine in (own.left, own.right))
 
     def parts(self, wanted: Pair) -> frozenset[int]:
         """Which of the relations that the claim itself states this is, by number."""
@@ -130,7 +179,7 @@ def stated(item: Item, formula: Formula, source: Printed) -> Stated | None:
     says = says_of(source.table, item.id)
     where = f"{source.where}, {item.id}"
     has = rules([says.has], source.names, where)
-    meaning = meanings(source.table, source.names, formula.place, says.takes, where)
+    meaning = source.meaning(formula, says.takes, item.id)
 
     def spoken(part: Relation) -> Pair:
         return Pair(meaning(has(part.left)), part.sign, meaning(has(part.right)))
@@ -140,7 +189,7 @@ def stated(item: Item, formula: Formula, source: Printed) -> Stated | None:
 
     parts = relations_of(item.statement)
     left, right = (list(_heads(item.id, texts, formula, source, meaning)) for texts in (says.left, says.right))
-    pairs = [spoken(part) for part in parts] if not (left or right) else []
+    pairs = [spoken(part) for part in parts] if says.both or not (left or right) else []
     for heads, values in ((left, [part.left for part in parts]), (right, [part.right for part in parts])):
         for (before, head), part, value in zip(heads, parts, values, strict=False):
             pairs += before
@@ -166,7 +215,7 @@ _Head = tuple[list[Pair], sp.Expr | None]
 
 def _heads(id: str, texts: Sequence[str], formula: Formula, source: Printed, meaning: Rules) -> Iterator[_Head]:
     """What sides are printed as, entry by entry, each with the relations that come before it in a chain."""
-    letters = notation(source.table, source.names, formula.place, source.where)
+    letters = source.letters(formula)
     for text in texts:
         try:
             tokens = read(text, 0, {})
@@ -191,35 +240,3 @@ def _is_chain(tokens: Sequence[Token]) -> bool:
         if token.text == "=" and depth == 0:
             return True
     return False
-
-
-def same(left: sp.Expr, right: sp.Expr) -> bool:
-    """Whether two expressions are equal by exact algebra; a number that differs says no before that is asked."""
-    if left == right:
-        return True
-    if _number(left) != _number(right):
-        return False
-    try:
-        return is_zero(left - right)
-    except (NotAlgebraic, sp.PolynomialError, NotImplementedError):
-        return False
-
-
-@lru_cache(maxsize=8192)
-def _number(expression: sp.Expr) -> str:
-    """The value where every letter has a value of its own, in a few digits; equal expressions have equal ones."""
-    nodes = {n for n in sp.preorder_traversal(expression) if isinstance(n, _OPAQUE)}
-    values = {node: _value_of(node) for node in nodes}
-    value = expression.xreplace(values).evalf(40)
-    try:
-        return f"{complex(value):.9e}"
-    except (TypeError, ValueError):
-        return ""
-
-
-_OPAQUE = (sp.Symbol, AppliedUndef, sp.Derivative, sp.Subs, sp.Integral, sp.Limit)
-
-
-def _value_of(node: sp.Basic) -> sp.Float:
-    digest = hashlib.sha256(str(node).encode()).digest()
-    return sp.Float(int.from_bytes(digest[:6], "big") / 2**48 + 0.25, 40)

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import contextlib
 import sys
 from pathlib import Path
 
 from ptproof.errors import InputError
-from ptproof.proof.answering import decided, read, run_by_id
+from ptproof.proof.answering import decided, import_apart, read, run_by_id
 from ptproof.proof.claim import Claim
 from ptproof.proof.load import NoClaims, load, twice, with_ancestors
 from ptproof.proof.result import Result
@@ -46,7 +45,7 @@ class Claims:
         InputError
             If it cannot be imported, or ends the process that does, or an id stands twice in its folder.
         """
-        outcome = self._vetting.run(_LOADING, _can_be_imported, str(_loadable(file)))
+        outcome = self._vetting.run(_LOADING, import_apart, str(_loadable(file)))
         if isinstance(outcome, Unanswered):
             raise InputError(f"{file}: cannot be imported: {outcome.reason.replace('the work', 'the module', 1)}")
         try:
@@ -80,12 +79,6 @@ class Claims:
             outcome = self._workers[folder].run(self.seconds, run_by_id, claim.id)
             self._evidence[folder, claim.id] = decided(claim, outcome, self.seconds).evidence
         return self._evidence[folder, claim.id]
-
-
-def _can_be_imported(path: str) -> None:
-    """In a process of its own: a module may end its process, and with it pytest as if all were well."""
-    with contextlib.suppress(InputError):  # it is said in pytest's own process
-        load([path])
 
 
 def _text(file: Path) -> str:

@@ -161,6 +161,53 @@ def fail_now():
     raise OSError(28, "No space left on device")
 
 
+PAPER = "\\section{Law}\n\\[ u = -k x \\]\n\\[ k u \\le 0 \\]\n\\[ \\sup_x u = 1 \\]\n\\input{rest}\n"
+
+
+def test_a_paper_becomes_a_derivation_and_what_was_not_read_is_said(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "law.tex").write_text(PAPER)
+    assert call("law", "--from", "law.tex") == 0
+    assert sorted(os.listdir("law")) == ["__init__.py", "notation.py", "notation.toml", "section1_law.py"]
+    said = capsys.readouterr()
+    assert said.out.startswith("law holds 4 files with 1 definition, 1 claim, 1 gap.")
+    assert said.err.splitlines() == [
+        "ptproof: law.tex inputs rest, which is not beside it; nothing of that was read",
+        r"ptproof: Section 1 (3): line 4: \sup is not known",
+    ]
+
+
+def test_a_paper_in_json(tmp_path, capsys):
+    (tmp_path / "law.tex").write_text(PAPER)
+    assert call(str(tmp_path / "law"), "--from", str(tmp_path / "law.tex"), "--json") == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["counts"] == {"definition": 1, "claim": 1, "gap": 1}
+    assert [(item["place"], item["line"]) for item in found["gaps"]] == [("Section 1 (3)", 4)]
+
+
+@pytest.mark.parametrize(
+    ("paper", "place", "reason"),
+    [
+        (b"\x00", "law", "is not a text file"),
+        (b"", "law", "no formula is displayed"),
+        (None, "law", "no such file"),
+        (b"\\[ x = 1 \\]", "taken", "is not empty"),
+        (b"\\[ x = 1 \\]", "json", "already has"),
+    ],
+)
+def test_a_paper_that_is_none_and_a_folder_that_is_taken_leave_nothing(tmp_path, capsys, paper, place, reason):
+    (tmp_path / "taken").mkdir()
+    (tmp_path / "taken" / "mine").write_text("")
+    if paper is not None:
+        (tmp_path / "law.tex").write_bytes(paper)
+    before = sorted(tmp_path.rglob("*"))
+    assert call(str(tmp_path / place), "--from", str(tmp_path / "law.tex")) == 2
+    said = capsys.readouterr().err
+    assert reason in said
+    assert said.count("\n") == 1
+    assert sorted(tmp_path.rglob("*")) == before
+
+
 def test_help_and_a_missing_argument(capsys):
     assert call("--help") == 0
     assert "DIR" in capsys.readouterr().out

@@ -5,7 +5,7 @@ import json
 import pytest
 
 from ptproof.commands.cli import main
-from ptproof.report.stated import same
+from ptproof.report.sameness import same
 
 PAPER = r"""
 \newcommand{\norm}[1]{\left\lVert#1\right\rVert}
@@ -23,6 +23,7 @@ PAPER = r"""
 \end{equation}
 \begin{equation} k^2 \in \mathcal{S} \label{eq:set} \end{equation}
 \begin{equation} g = k \label{eq:unknown} \end{equation}
+In the text, $V = \frac{x^\top x}{2}$ and $V = k$.
 \end{document}
 """
 DERIVATION = '''
@@ -103,12 +104,25 @@ def command(tmp_path, capsys, paper=PAPER, table=TABLE):
 
 
 def test_what_is_printed_is_what_is_claimed(tmp_path, capsys):
-    status, found, _, read = command(tmp_path, capsys)
+    status, found, _, _ = command(tmp_path, capsys)
     assert [place for place, item in found.items() if item["read"] == "equal"] == EQUAL
     assert found["eq:first"]["claims"] == ["s/system"]
     assert found["eq:rate"]["line"] == 13
-    assert read["running"] == {"found": 0, "read": 0}
     assert status == 0
+
+
+def test_running_text_is_counted_and_listed(tmp_path, capsys):
+    _, _, _, read = command(tmp_path, capsys)
+    running = read["running"]
+    assert (running["found"], running["read"], running["equal"]) == (2, 2, 1)
+    assert running["items"][0]["claims"] == ["s/function"]
+
+
+def test_in_running_text_different_is_said_only_where_the_table_names_the_place(tmp_path, capsys):
+    table = TABLE + "[[says]]\nclaims = ['s/function']\nat = ['Section 1, text (2)']"
+    status, _, _, read = command(tmp_path, capsys, table=table)
+    assert read["running"]["items"][1]["read"] == "different"
+    assert status == 1
 
 
 def test_what_is_not_read_says_why(tmp_path, capsys):

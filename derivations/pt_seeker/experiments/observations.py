@@ -7,8 +7,6 @@ a criterion that is written out; none of this is a proof.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import asdict, dataclass
 from functools import lru_cache
 from typing import Any
 
@@ -18,6 +16,7 @@ from ptproof.problem import Problem, example
 from ptproof.simulation import Ensemble, Outcome, Trajectory, ensemble, hover_radius, simulate
 from ptproof.simulation.engines import installed
 from ptproof.simulation.ensembles import headings
+from ptproof.simulation.observed import Statement
 from ptproof.simulation.plan import Array
 from ptproof.simulation.quantities import field_function
 
@@ -27,39 +26,6 @@ _RTOL = 1e-8
 _NEAR = 2.0
 # Where a search for an arrival ends, the time between two looks, and that of the run until it is asked for more. [s]
 _END, _STEP, _PIECE = 12.0, 0.004, 0.5
-
-
-@dataclass(frozen=True)
-class Statement:
-    """One statement of Section 7, quantified.
-
-    Attributes
-    ----------
-    id, words
-        A name, and what the paper says, in short.
-    criterion
-        What has to hold for every heading for the numbers to support it.
-    supported
-        Whether it does.
-    data
-        The numbers, plain floats.
-    settings
-        What repeats them.
-    remark
-        What the numbers say beyond the words.
-    """
-
-    id: str
-    words: str
-    criterion: str
-    supported: bool
-    data: Mapping[str, float]
-    settings: Mapping[str, Any]
-    remark: str = ""
-
-    def to_json(self) -> dict[str, Any]:
-        """The whole as data."""
-        return asdict(self)
 
 
 def reaches_source(name: str, count: int = HEADINGS) -> Statement:

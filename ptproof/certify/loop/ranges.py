@@ -188,14 +188,20 @@ class Waves:
         angles = np.outer(np.arange(_GRID), turns)
         parts = _COSINES[angles % _GRID], _COSINES[(angles + _GRID // 4) % _GRID]  # cos and −sin
         waves = np.concatenate([twice * part for part in parts], axis=1)
-        values = waves @ middle
-        reach = np.abs(np.matmul(waves, slopes)).sum(axis=0)
+        values, reach = waves @ middle, np.zeros((_GRID, boxes))
+        for part in slopes:
+            moved = waves @ part
+            reach += np.abs(moved, out=moved)
         steady = (turns == 0).astype(float)
         mean, wide = steady @ middle[:few], steady @ np.abs(slopes[:, :few]).sum(axis=0)
         slack = (twice @ moduli + rest) * _SLACK + 1e-280
-        high = np.minimum(mean + wide + whole, (values + reach).max(axis=0) + missed) + rest + slack
-        low = np.maximum(mean - wide - whole, (values - reach).min(axis=0) - missed) - rest - slack
-        return low, high, values.min(axis=0), values.max(axis=0)
+        least, most = values.min(axis=0), values.max(axis=0)
+        top = np.add(values, reach).max(axis=0)
+        high = np.minimum(mean + wide + whole, top + missed) + rest + slack
+        low = (
+            np.maximum(mean - wide - whole, np.subtract(values, reach, out=values).min(axis=0) - missed) - rest - slack
+        )
+        return low, high, least, most
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,6 +8,7 @@ import os
 import shutil
 import sys
 import tempfile
+from collections.abc import Mapping
 from importlib import resources
 from pathlib import Path
 
@@ -17,7 +18,13 @@ FILES = ("__init__.py", "notation.py", "claims.py", "test_derivation.py", "dithe
 
 
 def write_starter(folder: str | Path) -> tuple[Path, ...]:
-    """Write the starter's files into ``folder``, which is made if it does not exist, and name them.
+    """Write the starter's files into ``folder``, as :func:`write_files` does, and name them."""
+    name = Path(folder).resolve().name
+    return write_files(folder, {file: _text(file).replace("@NAME@", name) for file in FILES})
+
+
+def write_files(folder: str | Path, contents: Mapping[str, str]) -> tuple[Path, ...]:
+    """Write the files of a derivation into ``folder``, which is made if it does not exist, and name them.
 
     All files are written beside the folder first and then moved into it, so that it never holds a part of them.
 
@@ -27,14 +34,18 @@ def write_starter(folder: str | Path) -> tuple[Path, ...]:
         If the folder is a file, is not empty, cannot be written to, or its name cannot be that of a Python package.
     """
     place = Path(folder)
-    _check_place(place)
-    _check_name(place.resolve())
-    contents = {name: _text(name).replace("@NAME@", place.resolve().name) for name in FILES}
+    check(place)
     try:
         _move_into(place, contents)
     except OSError as error:
         raise InputError(f"{place}: cannot be written: {error.strerror or error}") from error
-    return tuple(place / name for name in FILES)
+    return tuple(place / name for name in contents)
+
+
+def check(place: Path) -> None:
+    """Refuse a folder that is not new or empty, and a name that cannot be that of a package."""
+    _check_place(place)
+    _check_name(place.resolve())
 
 
 def _text(name: str) -> str:
@@ -67,7 +78,7 @@ def _check_name(place: Path) -> None:
         raise InputError(f"{name!r} is the name of a module that Python already has; use another name")
 
 
-def _move_into(place: Path, contents: dict[str, str]) -> None:
+def _move_into(place: Path, contents: Mapping[str, str]) -> None:
     target = place.resolve()
     beside = Path(tempfile.mkdtemp(prefix=f".{target.name}-", dir=target.parent))
     moved: list[Path] = []

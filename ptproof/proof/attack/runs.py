@@ -10,13 +10,15 @@ import math
 import time as clock
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-import numpy as np
 import sympy as sp
 
 from ptproof.proof.relation import MEANING, Relation
 from ptproof.proof.runs import Runs
+
+if TYPE_CHECKING:
+    import numpy as np
 
 _STARTS, _TRIES, _INSTANTS = 4, 4000, 400
 _TOLERANCES = 1e-7, 1e-8
@@ -78,6 +80,8 @@ class _Rates:
 
 def _starts(said: Runs, seed: int) -> Iterator[np.ndarray[Any, Any]]:
     """Starts that are allowed: equations for a state are solved by putting in the others, the rest is drawn."""
+    import numpy as np
+
     fixed = [part for part in said.starts if part.sign == "=" and part.left in said.state]
     given = {part.left: sp.lambdify(said.state, part.right, modules="numpy") for part in fixed}
     rest = [part for part in said.starts if part not in fixed]
@@ -98,6 +102,7 @@ def _starts(said: Runs, seed: int) -> Iterator[np.ndarray[Any, Any]]:
 
 def _run(said: Runs, rates: Any, start: Any, tolerance: float) -> Any:
     """The states (n × instants), from the first instant to the last that is spoken of; None where that fails."""
+    import numpy as np
     from scipy.integrate import solve_ivp
 
     begin, first, last = (float(instant) for instant in (said.span[0], *said.during))
@@ -112,6 +117,8 @@ def _run(said: Runs, rates: Any, start: Any, tolerance: float) -> Any:
 
 
 def _failure(said: Runs, start: Any, first: Any, second: Any) -> Failure | None:
+    import numpy as np
+
     instants = np.linspace(float(said.during[0]), float(said.during[1]), first.shape[1])
     for part in said.parts:
         sides = sp.lambdify(said.letters, [part.left, part.right], modules="numpy")

@@ -1,18 +1,19 @@
-"""What calculus writes: derivatives, rates, gradients, integrals, limits, sums over an index, values at a point."""
+"""What calculus writes: derivatives, rates, gradients, brackets of fields, integrals."""
 
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Callable
+from collections.abc import Sequence
 from typing import Any
 
 import sympy as sp
+from sympy.core.function import AppliedUndef
 
 from ptproof.reading.latex.cursor import differential
 from ptproof.reading.latex.letters import Letters
 from ptproof.reading.latex.rewrite import RATE
 from ptproof.reading.latex.tokens import Token
-from ptproof.reading.latex.values import add
+from ptproof.reading.latex.values import integral
 
 
 class Calculus(Letters):
@@ -28,18 +29,40 @@ class Calculus(Letters):
     def product(self) -> Any: ...
 
     def derivative(self, above: list[Token], below: list[Token], at: Token) -> Any:
-        if any(token.text == "^" for token in [*above[:1], *below[-2:]]) or any(
-            differential(below[i:]) for i in range(1, len(below))
-        ):
-            raise self.refuse("derivative", "a derivative of second order is not read", at)
-        variable = self.inner(below)
-        if not above:
-            return self.differentiated(self.factor(), variable, at)
-        return self.differentiated(self.inner(above), variable, at)
+        """The derivative that a fraction of differentials writes, its orders above and below the same."""
+        order, above = self.order_of(above, at)
+        variables = [variable for part in _differentials(below) for variable in self.repeated(part, at)]
+        if order != len(variables):
+            raise self.refuse("derivative", "a derivative whose orders above and below are not the same", at)
+        value = self.inner(above) if above else self.factor()
+        for variable in reversed(variables):
+            value = self.differentiated(value, variable, at)
+        return value
+
+    def order_of(self, tokens: list[Token], at: Token) -> tuple[int, list[Token]]:
+        """The exponent that stands first, and the rest."""
+        if not tokens or tokens[0].text != "^":
+            return 1, tokens
+        part = type(self)(tokens[1:], self.notation)
+        exponent = part.argument(at)
+        if len(exponent) != 1 or exponent[0].text not in ("2", "3", "4"):
+            raise self.refuse("derivative", "a derivative of an order that is no small number", at)
+        return int(exponent[0].text), part.tokens[part.position :]
+
+    def repeated(self, tokens: Sequence[Token], at: Token) -> list[Any]:
+        """What is differentiated by, as often as its exponent says; the exponent of x^* is none."""
+        part = type(self)(tokens, self.notation)
+        last = next((i for i in range(len(tokens) - 1, 0, -1) if tokens[i].text == "^"), 0)
+        if last and "".join(token.text for token in tokens[last + 1 :]).strip("{}") in ("2", "3", "4"):
+            count = int("".join(token.text for token in tokens[last + 1 :]).strip("{}"))
+            return [part.inner(tokens[:last])] * count
+        return [part.inner(tokens)]
 
     def differentiated(self, value: Any, variable: Any, at: Token) -> Any:
         """The derivative by a symbol, a rate where that is a time; by a column, a gradient as a row or a Jacobian."""
         if isinstance(variable, sp.MatrixBase):
+            if isinstance(value, sp.MatrixBase) and 1 not in value.shape:
+                raise self.refuse("derivative", "a derivative of a matrix by a column is not read", at)
             entries = list(value) if isinstance(value, sp.MatrixBase) else [value]
             return sp.ImmutableDenseMatrix([[sp.diff(entry, symbol) for symbol in variable] for entry in entries])
         if not isinstance(variable, sp.Symbol):
@@ -52,6 +75,15 @@ class Calculus(Letters):
             else sp.diff(value, variable)
         )
 
+    def listed(self, values: list[Any], at: Token) -> Any:
+        """What ``[…, …]`` is: a row of numbers and rows, or the Lie bracket of two columns."""
+        columns = [value for value in values if isinstance(value, sp.MatrixBase) and value.rows > 1]
+        if len(values) == 2 and (columns or len(self.notation.state) == 1):
+            return self.bracket(values[0], values[1], at)
+        if columns:
+            raise self.refuse("matrix", "a row of columns is not read", at)
+        return sp.ImmutableDenseMatrix([[entry for value in values for entry in sp.Matrix([value])]])
+
     def bracket(self, first: Any, second: Any, at: Token) -> Any:
         """The Lie bracket of two vector fields, along the state that the notation names."""
         state = self.notation.state
@@ -62,16 +94,27 @@ class Calculus(Letters):
         return sp.ImmutableDenseMatrix(second.jacobian(state) * first - first.jacobian(state) * second)
 
     def along(self, value: Any, time: sp.Symbol) -> Any:
-        if isinstance(value, sp.MatrixBase):
-            return value.applyfunc(lambda entry: RATE(entry, time))
-        return RATE(value, time)
+        """The rate; of a function of that time alone, the derivative by it."""
 
-    def read_dot(self, at: Token) -> Any:
+        def rate(entry: Any) -> Any:
+            explicit = isinstance(entry, AppliedUndef) and entry.args == (time,)
+            return sp.Derivative(entry, time) if explicit else RATE(entry, time)
+
+        return value.applyfunc(rate) if isinstance(value, sp.MatrixBase) else rate(value)
+
+    def read_dot(self, at: Token, order: int = 1) -> Any:
         tokens = self.argument(at)
         if not self.notation.dot:
             raise self.refuse("derivative", "the notation does not say along what a dot is taken", at)
+        time = self.notation.vocabulary.symbol(self.notation.dot)
         # An index, and what the letter is applied to, stand behind the dot.
-        return self.along(self.dotted(tokens, at), self.notation.vocabulary.symbol(self.notation.dot))
+        value, exponent = self.dotted(tokens, at)
+        for _ in range(order):
+            value = self.along(value, time)
+        return self.raised(value, exponent, at) if exponent else value
+
+    def read_ddot(self, at: Token) -> Any:
+        return self.read_dot(at, 2)
 
     def read_nabla(self, at: Token) -> Any:
         if self.text == "^":
@@ -88,15 +131,17 @@ class Calculus(Letters):
 
     def read_int(self, at: Token) -> Any:
         lower, upper = self.limits(at)
+        self.integrals += 1
         body = self.product()
-        found = differential(self.tokens[self.position : self.position + 4])
-        if found is None:
+        self.integrals -= 1
+        found = self.differential(self.tokens[self.position :])
+        if found is None or found[0] != "d":
             raise self.refuse("integral", "the integral has no differential", at)
-        self.position += 4
+        self.position = len(self.tokens) - len(found[1])
         variable = self.base()
         if not isinstance(variable, sp.Symbol):
             raise self.refuse("integral", f"{variable} is no variable of integration", at)
-        return sp.Integral(body, (variable, self.inner(lower), self.inner(upper)))
+        return integral(body, (variable, self.inner(lower), self.inner(upper)), at)
 
     def limits(self, at: Token) -> tuple[list[Token], list[Token]]:
         lower: list[Token] = []
@@ -110,49 +155,18 @@ class Calculus(Letters):
             raise self.refuse("integral", f"{at.text} without its two limits is not read", at)
         return lower, upper
 
-    def read_sum(self, at: Token) -> Any:
-        lower, upper = self.limits(at)
-        if any(token.text == r"\substack" for token in lower) or len(lower) < 3 or lower[1].text != "=":
-            raise self.refuse("sum", "a sum over this range is not read", at)
-        count = self.notation.counts.get("".join(token.text for token in upper))
-        last = (
-            count if count is not None else int(upper[0].text) if len(upper) == 1 and upper[0].text.isdigit() else None
-        )
-        if last is None or not lower[2].text.isdigit():
-            raise self.refuse("sum", "the notation does not say how many terms the sum has", at)
-        index, start = lower[0].text, self.position
-        total: Any = None
-        for number in range(int(lower[2].text), last + 1):
-            part = type(self)(
-                self.tokens[:start]
-                + [Token(str(number), token.line) if token.text == index else token for token in self.tokens[start:]],
-                self.notation,
-            )
-            part.position, part.bars, part.braces = start, self.bars, self.braces
-            term = part.product()
-            total = term if total is None else add(total, term, at)
-            self.position = part.position
-        return total
 
-    def read_lim(self, at: Token) -> Any:
-        if self.take().text != "_":
-            raise self.refuse("limit", "a limit without its variable", at)
-        under = self.argument(at)
-        arrow = next((i for i, token in enumerate(under) if token.text in (r"\to", r"\rightarrow")), 0)
-        variable, target = self.inner(under[:arrow]), self.inner(under[arrow + 1 :])
-        if not isinstance(variable, sp.Symbol):
-            raise self.refuse("limit", f"{variable} is no variable", at)
-        return sp.Limit(self.product(), variable, target, dir="-")
-
-    def read_evaluate(self, at: Token) -> Any:
-        value = self.expression()
-        self.expect(r"\at", at)
-        if self.text != "_":
-            raise self.refuse("grammar", "it is not said where this is taken", at)
-        self.take()
-        where = self.argument(at)
-        equal = next((i for i, token in enumerate(where) if token.text == "="), 0)
-        variable, point = self.inner(where[:equal]), self.inner(where[equal + 1 :])
-        pairs = list(zip(variable, point, strict=True)) if isinstance(variable, sp.MatrixBase) else [(variable, point)]
-        change: Callable[[Any], Any] = lambda entry: sp.Subs(entry, *map(tuple, zip(*pairs, strict=True)))  # noqa: E731
-        return value.applyfunc(change) if isinstance(value, sp.MatrixBase) else change(value)
+def _differentials(tokens: list[Token]) -> list[list[Token]]:
+    """What stands between the signs of differentials: of ``x ∂y``, x and y."""
+    parts: list[list[Token]] = [[]]
+    depth = position = 0
+    while position < len(tokens):
+        depth += (tokens[position].text == "{") - (tokens[position].text == "}")
+        found = differential(tokens[position:]) if depth == 0 and parts[-1] else None
+        if found is not None and found[1] and tokens[position].text != "d":
+            parts.append([])
+            position = len(tokens) - len(found[1])
+        else:
+            parts[-1].append(tokens[position])
+            position += 1
+    return parts

@@ -34,7 +34,8 @@ class Formula:
     Attributes
     ----------
     place
-        Its first label, or the section and its number among the formulas displayed there.
+        Its first label, or the section and its number among the formulas displayed there; in running text, among the
+        relations in its running text.
     labels
         Its own labels and those of the group of equations in which it stands.
     line
@@ -73,16 +74,25 @@ class _Place:
     appendix: bool = False
     starred: int = 0
     number: int = 0
+    relations: int = 0
 
     def name(self) -> str:
+        return f"{self.part()} ({self.number})"
+
+    def next_in_text(self) -> str:
+        self.relations += 1
+        return f"{self.part()}, text ({self.relations})"
+
+    def part(self) -> str:
         if self.appendix:
-            return f"Appendix ({self.number})"
+            return "Appendix"
         if not self.section:
-            return f"Front ({self.number})"
+            return "Front"
         inner = f".{self.subsection}" if self.subsection else ""
-        return f"Section {self.section}{inner} ({self.number})"
+        return f"Section {self.section}{inner}"
 
     def enter(self, part: str, star: str, title: str) -> None:
+        self.relations = 0
         if part == "appendix" or (star and title.strip().lower().startswith("appendi")):
             self.appendix, self.number = True, 0
         elif part == "section":
@@ -201,13 +211,19 @@ class _Scan:
             end = blank.start() if blank else len(self.text)
             self.running.append(
                 Formula(
-                    self.place.name(), (), self.line(position), self.text[position:end], False, "its end is missing"
+                    self.place.next_in_text(),
+                    (),
+                    self.line(position),
+                    self.text[position:end],
+                    False,
+                    "its end is missing",
                 )
             )
             return end
         text = self.text[position : match.start()]
         if _RELATION.search(text):
-            self.running.append(Formula(self.place.name(), (), self.line(position), text.strip(), displayed=False))
+            place = self.place.next_in_text()
+            self.running.append(Formula(place, (), self.line(position), text.strip(), displayed=False))
         return match.end()
 
     def add(self, start: int, text: str, broken: str) -> None:

@@ -11,10 +11,10 @@ from typing import Any
 
 import sympy as sp
 
-from ptproof.reading.latex.calculus import Calculus
-from ptproof.reading.latex.cursor import CLOSING, OTHER_RELATIONS, RELATIONS, differential
+from ptproof.reading.latex.cursor import CLOSING, OTHER_RELATIONS, RELATIONS
+from ptproof.reading.latex.sets import CASES, Sets
 from ptproof.reading.latex.tokens import Token
-from ptproof.reading.latex.values import add, multiply, negate, norm, power
+from ptproof.reading.latex.values import NORMS, add, multiply, negate, norm, power
 
 _DELIMITERS = {"(": ")", "[": "]", r"\{": r"\}", "{": "}"}
 _BARS = {r"\lVert": r"\rVert", r"\lvert": r"\rvert", "|": "|", r"\|": r"\|"}
@@ -26,7 +26,7 @@ _MATRICES = frozenset({"bmatrix", "pmatrix", "matrix", "array", "smallmatrix", "
 _TRANSPOSE = frozenset({r"\top", "T", r"\intercal", r"\text{T}"})
 
 
-class Grammar(Calculus):
+class Grammar(Sets):
     """Reads one formula, or a piece of one, by a notation."""
 
     def inner(self, tokens: Sequence[Token]) -> Any:
@@ -55,14 +55,16 @@ class Grammar(Calculus):
     def ends(self) -> bool:
         """Whether no further factor follows."""
         text = self.text
-        if text in OTHER_RELATIONS:
+        if text in OTHER_RELATIONS and text != r"\in":
             raise self.refuse("relation", f"{OTHER_RELATIONS[text]} ({text}) is no relation between numbers")
-        if text in CLOSING or text in RELATIONS or text in ("+", "-") or text.startswith(r"\end{"):
+        if text in CLOSING or text in RELATIONS or text in ("+", "-", r"\in") or text.startswith(r"\end{"):
             return True
         if self.bars and text == self.bars[-1]:
             return True
-        return (
-            text in (r"\forall", r"\text") and differential(self.tokens[self.position : self.position + 4]) is not None
+        if text == "d":
+            return self.integrals > 0 and self.differential(self.tokens[self.position :]) is not None
+        return text == r"\text" and (
+            self.is_word() or self.differential(self.tokens[self.position : self.position + 4]) is not None
         )
 
     def product(self) -> Any:
@@ -138,8 +140,11 @@ class Grammar(Calculus):
         value = self.expression()
         self.bars = bars
         if self.text == "," and opened.text == "[":
-            self.take()
-            value = self.bracket(value, self.expression(), opened)
+            listed = [value]
+            while self.text == ",":
+                self.take()
+                listed.append(self.expression())
+            value = self.listed(listed, opened)
         self.expect(_DELIMITERS[opened.text], opened)
         return value
 
@@ -154,9 +159,13 @@ class Grammar(Calculus):
         value = self.expression()
         self.bars.pop()
         self.expect(closing, opened)
-        if self.text == "_":
+        if self.text != "_":
+            return norm(value, opened)
+        self.take()
+        low = "".join(token.text for token in self.argument(opened))
+        if low not in NORMS or not isinstance(value, sp.MatrixBase):
             raise self.refuse("norm", "the notation says nothing of this norm with an index", opened)
-        return norm(value, opened)
+        return norm(value, opened, low)
 
     def norm_by_name(self, opened: Token, closing: str) -> sp.Expr | None:
         depth, end = 1, self.position
@@ -208,8 +217,8 @@ class Grammar(Calculus):
     def environment(self) -> Any:
         opened = self.take()
         name = opened.text[len(r"\begin{") : -1].rstrip("*")
-        if name == "cases":
-            raise self.refuse("cases", "cases are not read", opened)
+        if name in CASES:
+            return self.cases(opened)
         if name not in _MATRICES:
             raise self.refuse("environment", f"the environment {name} is not read", opened)
         if name == "array":
@@ -248,7 +257,7 @@ class Grammar(Calculus):
 
     def read_frac(self, at: Token) -> Any:
         above, below = self.argument(at), self.argument(at)
-        first, second = differential(above), differential(below)
+        first, second = self.differential(above), self.differential(below)
         if first and second and first[0] == second[0]:
             return self.derivative(first[1], second[1], at)
         return multiply(self.inner(above), power(self.inner(below), sp.Integer(-1), at), at)

@@ -8,7 +8,7 @@ from typing import Any
 
 import sympy as sp
 
-from ptproof.reading.latex.cursor import Cursor
+from ptproof.reading.latex.cursor import Cursor, differential
 from ptproof.reading.latex.notation import Notation, spelling
 from ptproof.reading.latex.rewrite import function
 from ptproof.reading.latex.tokens import Token, written
@@ -30,6 +30,12 @@ class Letters(Cursor):
         self.notation = notation
         self.bars: list[str] = []
         self.braces: list[tuple[list[Token], list[Token]]] = []
+        self.integrals = 0
+
+    def differential(self, tokens: Sequence[Token]) -> tuple[str, list[Token]] | None:
+        """The sign of a differential that opens the tokens; a plain d is none where it is a letter of the paper."""
+        plain = bool(tokens) and tokens[0].text == "d" and "d" in {*self.notation.letters, *self.notation.functions}
+        return None if plain else differential(tokens)
 
     @abstractmethod
     def inner(self, tokens: Sequence[Token]) -> Any: ...
@@ -66,6 +72,8 @@ class Letters(Cursor):
                 high = self.argument(start)
         for index, exponent, rest in ((low, high, []), (low, [], high)):
             key = spelling([*base, *_script("_", index), *_script("^", exponent)])
+            if (value := self.at_arguments(key)) is not None:
+                return self.raised(value, rest, start) if rest else value
             if key in self.notation.functions and (self.text == "(" or key not in self.notation.letters):
                 return self.applied(key, rest, start)
             if key in self.notation.letters:
@@ -80,6 +88,19 @@ class Letters(Cursor):
         if start.text.startswith("\\") and start.text not in _ACCENTS and len(base) == 1 and not low_letter(start.text):
             return "macro", f"{start.text} is not known"
         return "letter", f"the notation says nothing of {key}"
+
+    def at_arguments(self, key: str) -> Any:
+        """What the notation says of a letter together with the arguments behind it, as of ``λ_min(P)``."""
+        if self.text != "(":
+            return None
+        depth = 0
+        for end in range(self.position, len(self.tokens)):
+            depth += (self.tokens[end].text == "(") - (self.tokens[end].text == ")")
+            if depth == 0:
+                value = self.notation.letters.get(key + written(self.tokens[self.position : end + 1]))
+                self.position = self.position if value is None else end + 1
+                return value
+        return None
 
     def applied(self, key: str, exponent: list[Token], start: Token) -> Any:
         """A function at its arguments; a column or a matrix of them where the notation says so."""
@@ -104,16 +125,19 @@ class Letters(Cursor):
         self.expect(")" if opened.text == "(" else "}", opened)
         return values
 
-    def dotted(self, tokens: list[Token], at: Token) -> Any:
-        """What a dot stands over: a letter, with the index and the arguments that stand behind it."""
+    def dotted(self, tokens: list[Token], at: Token) -> tuple[Any, list[Token]]:
+        """What a dot stands over: a letter, with the index and the arguments behind it; and the exponent there."""
         low: list[Token] = []
-        if self.text == "_":
-            self.take()
-            low = self.argument(at)
+        high: list[Token] = []
+        while self.text in ("_", "^") and not (low if self.text == "_" else high):
+            if self.take().text == "_":
+                low = self.argument(at)
+            else:
+                high = self.argument(at)
         key = spelling([*tokens, *_script("_", low)])
         if key in self.notation.functions and (self.text == "(" or key not in self.notation.letters):
-            return self.applied(key, [], at)
-        return self.inner([*tokens, *_script("_", low)])
+            return self.applied(key, [], at), high
+        return self.inner([*tokens, *_script("_", low)]), high
 
     def named_norm(self, inside: list[Token], low: list[Token]) -> sp.Expr | None:
         """The norm of which the notation says what it means."""

@@ -30,6 +30,7 @@ class Where:
     means: dict[str, str] = field(default_factory=dict)
     counts: dict[str, int] = field(default_factory=dict)
     dot: str = ""
+    state: list[str] = field(default_factory=list)
 
 
 @dataclass(frozen=True)
@@ -39,7 +40,9 @@ class Says:
     ``left`` says, in LaTeX, what the left sides of its relations are printed as, where a claim gives the printed
     side alone: one for each relation, a column for several, nothing where it is left out. ``right`` says so of its
     right sides.
-    With ``inside`` the printed side is what the claim differentiates, takes the limit of or puts a value in.
+    With ``inside`` the printed side is what the claim differentiates, takes the limit of or puts a value in; with
+    ``both`` the claim's own relation is printed as well.
+    ``at`` names the places of formulas without a label that the claims are about.
     """
 
     claims: list[str]
@@ -48,6 +51,8 @@ class Says:
     left: list[str] = field(default_factory=list)
     right: list[str] = field(default_factory=list)
     inside: bool = False
+    both: bool = False
+    at: list[str] = field(default_factory=list)
 
 
 @dataclass(frozen=True)
@@ -58,7 +63,8 @@ class Table:
     ----------
     letters
         LaTeX of a letter, with its accents, index and star, and the expression that it means; a list for a column, a
-        list of lists for a matrix.
+        list of lists for a matrix, and the name of a matrix of the derivation's own notation. With its arguments,
+        as in ``V(0)``, it means that only together with them.
     functions
         Letters that are applied to what stands behind them in parentheses: the function's name, several for a
         column, rows of them for a matrix.
@@ -133,6 +139,11 @@ def spelled(key: str, where: str) -> str:
         found = read(key, 0, {})
     except NotUnderstood as error:
         raise InputError(f"{where}: {key!r} is not LaTeX ({error.reason})") from None
+    depth = 0
+    for place, token in enumerate(found):
+        if place and depth == 0 and token.text == "(" and found[-1].text == ")":
+            return spelling(found[:place]) + written(found[place:])
+        depth += (token.text == "{") - (token.text == "}")
     return spelling(found)
 
 
@@ -161,8 +172,10 @@ def _bare(text: str) -> str:
     return text[1:-1] if text.startswith("{") and text.endswith("}") else text
 
 
-def vocabulary(table: Table, symbols: Mapping[str, sp.Symbol]) -> Vocabulary:
-    """The names that occur, those of the derivation with what it knows of them."""
+def vocabulary(table: Table, known: Mapping[str, Any]) -> Vocabulary:
+    """The names that occur; those of the derivation, its symbols and matrices, with what it knows of them."""
+    symbols = {name: value for name, value in known.items() if isinstance(value, sp.Symbol)}
+    matrices = {name: value for name, value in known.items() if isinstance(value, sp.MatrixBase)}
     states = {
         text
         for letters in (table.letters, *(item.letters for item in table.where))
@@ -171,7 +184,7 @@ def vocabulary(table: Table, symbols: Mapping[str, sp.Symbol]) -> Vocabulary:
         if text.isidentifier()
     }
     named = {name: symbols.get(name) or sp.Symbol(name, real=True) for name in (*table.times, *states)}
-    return Vocabulary({**named, **symbols}, frozenset(table.times), frozenset(states))
+    return Vocabulary({**named, **symbols}, frozenset(table.times), frozenset(states), matrices)
 
 
 def _texts(value: Any) -> Iterable[str]:
@@ -182,9 +195,17 @@ def _texts(value: Any) -> Iterable[str]:
         yield str(value)
 
 
+def context(table: Table, place: str) -> tuple[int, ...]:
+    """Which of the table's ``where`` are about the formula at ``place``; with the same ones letters mean the same."""
+    return tuple(
+        number for number, item in enumerate(table.where)
+        if any(fnmatchcase(place, pattern) for pattern in item.formulas)
+    )  # fmt: skip
+
+
 def notation(table: Table, names: Vocabulary, place: str, where: str) -> Notation:
     """What letters mean in the formula at ``place``."""
-    here = [item for item in table.where if any(fnmatchcase(place, pattern) for pattern in item.formulas)]
+    here = [table.where[number] for number in context(table, place)]
     letters = dict(table.letters)
     functions = dict(table.functions)
     counts = dict(table.counts)
@@ -200,7 +221,7 @@ def notation(table: Table, names: Vocabulary, place: str, where: str) -> Notatio
         names,
         next((item.dot for item in here if item.dot), table.dot),
         table.division,
-        tuple(names.symbol(name) for name in table.state),
+        tuple(names.symbol(name) for name in next((item.state for item in here if item.state), table.state)),
     )
 
 
@@ -211,7 +232,8 @@ def _names(value: Any) -> tuple[tuple[str, ...], ...]:
 
 def _value(value: Any, names: Vocabulary, where: str) -> Any:
     if not isinstance(value, list):
-        return names.expression(str(value), where)
+        matrix = names.matrices.get(str(value))
+        return names.expression(str(value), where) if matrix is None else sp.ImmutableDenseMatrix(matrix)
     rows = [entry if isinstance(entry, list) else [entry] for entry in value]
     if not rows or len({len(row) for row in rows}) > 1:
         raise InputError(f"{where}: the rows of a matrix are of one length")
@@ -220,7 +242,7 @@ def _value(value: Any, names: Vocabulary, where: str) -> Any:
 
 def meanings(table: Table, names: Vocabulary, place: str, takes: Mapping[str, str], where: str) -> Rules:
     """What names stand for in the formula at ``place``, for a claim that ``takes`` some letters for others."""
-    here = [item.means for item in table.where if any(fnmatchcase(place, pattern) for pattern in item.formulas)]
+    here = [table.where[number].means for number in context(table, place)]
     found = rules([takes, *here, table.means], names, where)
     powers = {
         found(names.expression(text, where)): sp.Symbol(name, positive=True) for name, text in table.positive.items()
@@ -240,5 +262,7 @@ def says_of(table: Table, claim: str) -> Says:
                 left=found.left or item.left,
                 right=found.right or item.right,
                 inside=found.inside or item.inside,
+                both=found.both or item.both,
+                at=[*found.at, *item.at],
             )
     return found

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
@@ -27,6 +27,7 @@ class Vocabulary:
     symbols: Mapping[str, sp.Symbol]
     times: frozenset[str] = frozenset()
     states: frozenset[str] = frozenset()
+    matrices: Mapping[str, sp.MatrixBase] = field(default_factory=dict)
 
     def symbol(self, name: str) -> sp.Symbol:
         """The symbol of this name, a real one where the derivation has none."""
@@ -120,6 +121,8 @@ class Rules:
                 return self._applied(expression, depth)
             case sp.Derivative():
                 return self._derivative(expression, depth)
+            case sp.Integral():
+                return self._integral(expression.function, expression.limits, depth)
             case sp.Subs():
                 inner = self._of(expression.expr, depth)
                 point = [self._of(value, depth) for value in expression.point]
@@ -155,18 +158,56 @@ class Rules:
             for _ in range(int(count)):
                 if along.is_Symbol and along.name in self.vocabulary.times:
                     inner = self._state(inner, along, depth)
-                    inner = RATE(sp.expand(inner), along)
+                    inner = (
+                        sp.diff(inner, along) if self._explicit(inner, node, along) else RATE(sp.expand(inner), along)
+                    )
                 elif along.is_Symbol:
                     inner = sp.diff(inner, along)
                 else:
                     inner = sp.Function("slope", real=True)(inner, along)
         return inner
 
+    def _integral(self, function: sp.Expr, limits: Sequence[sp.Tuple], depth: int) -> sp.Expr:
+        """The integral with one spelling of its bound variables, its integrand multiplied out."""
+        if not limits:
+            return sp.expand(self._of(function, depth))
+        (variable, *ends), inner = limits[-1], list(limits[:-1])
+        bound = sp.Symbol(f"bound_{len(limits) + _nested(function)}", real=True)
+        free = True  # until one of the inner integrals binds the same letter anew
+        for place in reversed(range(len(inner))):
+            own, *between = inner[place]
+            inner[place] = sp.Tuple(own, *(end.xreplace({variable: bound}) if free else end for end in between))
+            free = free and own != variable
+        body = self._integral(function.xreplace({variable: bound}) if free else function, inner, depth)
+        factor, inside = _single(body)
+        if inside is not None:
+            body = sp.Integral(sp.expand(factor * inside.function), *inside.limits)
+        return sp.Integral(body, (bound, *(self._of(end, depth) for end in ends)))
+
+    def _explicit(self, inner: sp.Expr, node: sp.Derivative, time: sp.Symbol) -> bool:
+        """Whether what is differentiated is a function of this time alone, and known."""
+        alone = isinstance(node.expr, AppliedUndef) and node.expr.args == (time,)
+        return alone and inner.has(time) and not inner.has(AppliedUndef)
+
     def _state(self, moved: sp.Expr, time: sp.Symbol, depth: int) -> sp.Expr:
         """The letter of a state that is written as a function of the time along which it moves."""
         if isinstance(moved, AppliedUndef) and moved.args == (time,) and moved.func.__name__ in self.vocabulary.states:
             return self._symbol(sp.Symbol(moved.func.__name__), depth + 1)
         return moved
+
+
+def _nested(function: sp.Expr) -> int:
+    """How many integrals stand in one another in the function, at most."""
+    found = [len(node.limits) + _nested(node.function) for node in function.atoms(sp.Integral)]
+    return max(found, default=0)
+
+
+def _single(body: sp.Expr) -> tuple[sp.Expr, sp.Integral | None]:
+    """A product as an integral and what multiplies it, where just one factor is an integral."""
+    integrals = [factor for factor in sp.Mul.make_args(body) if isinstance(factor, sp.Integral)]
+    if len(integrals) != 1 or body == integrals[0]:
+        return sp.S.One, None
+    return body / integrals[0], integrals[0]
 
 
 def _settled(argument: sp.Expr) -> sp.Expr:

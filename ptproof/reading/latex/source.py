@@ -30,6 +30,21 @@ def read_paper(path: str | Path) -> str:
     return _read(Path(path), Path(path).parent, ())
 
 
+def absent_inputs(path: str | Path) -> tuple[str, ...]:
+    r"""What a paper inputs by ``\\input`` and is not beside it, so that nothing of it was read."""
+    folder = Path(path).parent
+    text = _decoded(Path(path).read_bytes())
+    named = (match.group(1).strip() for match in _INPUT.finditer(without_comments(text)))
+    return tuple(name for name in named if not any((folder / f"{name}{end}").is_file() for end in ("", ".tex")))
+
+
+def _decoded(data: bytes) -> str:
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        return data.decode("latin-1")
+
+
 def _read(path: Path, folder: Path, above: tuple[Path, ...]) -> str:
     if path.is_dir():
         raise InputError(f"{path}: is a folder; name the LaTeX file of the paper")
@@ -41,10 +56,7 @@ def _read(path: Path, folder: Path, above: tuple[Path, ...]) -> str:
         raise InputError(f"{path}: cannot be read: {error.strerror}") from None
     if re.search(rb"[\x00-\x08\x0e-\x1f]", data):
         raise InputError(f"{path}: is not a text file; name the LaTeX source of the paper")
-    try:
-        text = data.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        text = data.decode("latin-1")
+    text = _decoded(data)
     if path in above:
         raise InputError(f"{path}: inputs itself")
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import sympy as sp
@@ -13,7 +13,7 @@ from ptproof.reading.latex.cursor import OTHER_RELATIONS, RELATIONS
 from ptproof.reading.latex.formulas import Formula
 from ptproof.reading.latex.grammar import Grammar
 from ptproof.reading.latex.notation import Notation
-from ptproof.reading.latex.tokens import Macro, NotUnderstood, Token, read
+from ptproof.reading.latex.tokens import Macro, NotUnderstood, Token, argument, read, written
 
 _FLAT = frozenset({"aligned", "split", "gathered", "alignedat", "multlined"})
 _OPENING = frozenset({"(", "[", "{", r"\{"})
@@ -24,11 +24,12 @@ _WORDS = frozenset({"and", "where", "for", "with", "if", "or"})
 
 @dataclass(frozen=True)
 class Pair:
-    """Two neighbours of a chain, numbers both, with the relation between them."""
+    """Two neighbours of a chain, numbers both, with the relation between them; ``entry``: of two matrices."""
 
     left: sp.Expr
     sign: str
     right: sp.Expr
+    entry: bool = field(default=False, compare=False)
 
     def __str__(self) -> str:
         return f"{self.left} {self.sign} {self.right}"
@@ -78,18 +79,55 @@ def read_formula(formula: Formula, macros: Mapping[str, Macro], notation: Notati
 
 
 def read_tokens(tokens: Sequence[Token], notation: Notation) -> Reading:
-    """What tokens say that are a formula."""
+    """What tokens say that are a formula; with ± they are two."""
+    found = [_read(variant, notation) for variant in _signs(list(tokens))]
+    parts = [tuple(dict.fromkeys(item for each in found for item in getattr(each, name))) for name in _FIELDS]
+    return Reading(*parts)
+
+
+_FIELDS = ("pairs", "conditions", "braces", "unread")
+
+
+def _signs(tokens: list[Token]) -> list[list[Token]]:
+    """The formula with the upper and with the lower signs; an index 1, 2 is the first and the second of them."""
+    if not any(token.text in (r"\pm", r"\mp") for token in tokens):
+        return [tokens]
+    variants: list[list[Token]] = [[], []]
+    position = 0
+    while position < len(tokens):
+        token, ahead = tokens[position], [item.text for item in tokens[position : position + 6]]
+        if token.text in (r"\pm", r"\mp"):
+            signs = ("+", "-") if token.text == r"\pm" else ("-", "+")
+            for variant, sign in zip(variants, signs, strict=True):
+                variant.append(Token(sign, token.line))
+        elif ahead[:2] == ["_", "{"] and ahead[3:4] == [","] and ahead[5:] == ["}"] and ahead[2] != ahead[4]:
+            for variant, index in zip(variants, (ahead[2], ahead[4]), strict=True):
+                variant += [token, tokens[position + 1], Token(index, token.line), tokens[position + 5]]
+            position += 5
+        else:
+            for variant in variants:
+                variant.append(token)
+        position += 1
+    return variants
+
+
+def _read(tokens: list[Token], notation: Notation) -> Reading:
     pairs: list[Pair] = []
     conditions: list[Pair] = []
     braces: list[Pair] = []
     unread: list[str] = []
-    for quantified, part in _parts(_flat(list(tokens))):
+    listed: list[Any] = []
+    line = tokens[0].line if tokens else 0
+    for quantified, part in _parts(_flat(tokens)):
         grammar = Grammar(part, notation)
-        (conditions if quantified else pairs).extend(_chain(grammar))
+        found, alone = _chain(grammar, listed)
+        listed = [] if found else [*listed, *alone]
+        (conditions if quantified else pairs).extend(found)
         _name(grammar, notation, braces, unread)
-    if not pairs:
-        line = tokens[0].line if tokens else 0
-        raise NotUnderstood("no relation", "the formula is no relation", line)
+        if quantified:
+            listed = []
+    if not pairs or listed:
+        raise NotUnderstood("no relation", "the formula, or a part of it, is no relation", line)
     return Reading(tuple(pairs), tuple(conditions), tuple(braces), tuple(unread))
 
 
@@ -104,11 +142,17 @@ def _name(grammar: Grammar, notation: Notation, braces: list[Pair], unread: list
     grammar.braces = []
 
 
-def _chain(grammar: Grammar) -> list[Pair]:
+def _chain(grammar: Grammar, listed: Sequence[Any]) -> tuple[list[Pair], list[Any]]:
+    """The relations of a chain, or what stands alone; what was listed before it is in the same set."""
     sides = [grammar.expression()]
     found: list[Pair] = []
+    start = 0
     while grammar.text:
-        token = grammar.take()
+        token, end = grammar.take(), grammar.position - 1
+        if token.text == r"\in":
+            found += [Pair(*item) for item in grammar.membership([*listed, sides[-1]], token)]
+            listed = []
+            continue
         if token.text in OTHER_RELATIONS:
             raise grammar.refuse(
                 "relation", f"{OTHER_RELATIONS[token.text]} ({token.text}) is no relation between numbers", token
@@ -116,8 +160,13 @@ def _chain(grammar: Grammar) -> list[Pair]:
         if token.text not in RELATIONS:
             raise grammar.refuse("grammar", f"{token.text} is not expected here", token)
         sides.append(grammar.expression())
+        if written(grammar.tokens[start:end]) == written(grammar.tokens[end + 1 : grammar.position]):
+            raise grammar.refuse("no relation", "both sides are the same, letter for letter", token)
+        start = end + 1
         found += _entries(sides[-2], RELATIONS[token.text], sides[-1], token)
-    return found
+    if found and listed:
+        raise grammar.refuse("no relation", "a part of the formula is no relation")
+    return found, sides
 
 
 def _entries(left: Any, sign: str, right: Any, at: Token) -> list[Pair]:
@@ -132,7 +181,7 @@ def _entries(left: Any, sign: str, right: Any, at: Token) -> list[Pair]:
         return [Pair(left, sign, right)]
     if sign != "=":
         raise NotUnderstood("matrix", "an inequality between matrices is not read", at.line)
-    return [Pair(a, sign, b) for a, b in zip(left, right, strict=True)]
+    return [Pair(a, sign, b, True) for a, b in zip(left, right, strict=True)]
 
 
 def _flat(tokens: list[Token]) -> list[Token]:
@@ -143,6 +192,10 @@ def _flat(tokens: list[Token]) -> list[Token]:
         token = tokens[position]
         position += 1
         text = token.text
+        if text == r"\substack":
+            group, position = argument(tokens, position, token)
+            result += [token, Token("{", token.line), *group, Token("}", token.line)]
+            continue
         name = text[text.index("{") + 1 : -1].rstrip("*") if text.startswith((r"\begin{", r"\end{")) else ""
         if name in _FLAT:
             if text.startswith(r"\begin") and position < len(tokens) and tokens[position].text == "[":

@@ -23,6 +23,7 @@ SPACING = frozenset(
         ",", ";", ":", "!", " ", ">", "/", "quad", "qquad", "hspace", "hspace*", "vspace", "vspace*", "left", "right",
         "big", "Big", "bigg", "Bigg", "bigl", "bigr", "Bigl", "Bigr", "biggl", "biggr", "displaystyle", "textstyle",
         "limits", "nolimits", "nonumber", "notag", "label", "tag", "thinspace", "enspace", "noindent", "allowbreak",
+        "IEEEyesnumber", "IEEEnonumber", "IEEEyessubnumber", "IEEEnosubnumber",
     )
 )  # fmt: skip
 _WITH_ARGUMENT = frozenset({r"\hspace", r"\hspace*", r"\vspace", r"\vspace*", r"\label", r"\tag"})
@@ -65,6 +66,8 @@ def definitions(source: str) -> dict[str, Macro]:
             arguments = _ARGUMENTS.match(source, position)
             count, position = (int(arguments.group(1)), arguments.end()) if arguments else (0, position)
         body, _ = braced(source, position)
+        if "DeclareMathOperator" in match.group():
+            body = rf"\operatorname{{{body}}}"  # a word, not a product of letters
         found[name] = Macro(count, tuple(tokens(body, 0)))
     return found
 

@@ -41,10 +41,26 @@ def power(value: Any, exponent: Any, at: Token) -> Any:
     return value**exponent
 
 
-def norm(value: Any, at: Token) -> Any:
-    """The Euclidean norm of a column, the absolute value of a number."""
+NORMS = ("1", "2", r"\infty")
+
+
+def norm(value: Any, at: Token, kind: str = "2") -> Any:
+    """The norm of a column of the kind that its index says, the absolute value of a number."""
     if not isinstance(value, sp.MatrixBase):
         return sp.Abs(value)
     if 1 not in value.shape:
         raise NotUnderstood("norm", "the notation says nothing of this norm of a matrix", at.line)
+    if kind == "1":
+        return sum((sp.Abs(entry) for entry in value), sp.S.Zero)
+    if kind == r"\infty":
+        return sp.Max(*(sp.Abs(entry) for entry in value))
     return sp.sqrt(sum((entry**2 for entry in value), sp.S.Zero))
+
+
+def integral(value: Any, limits: tuple[sp.Symbol, Any, Any], at: Token) -> Any:
+    """The integral of a number, or of each entry, between two numbers."""
+    if any(isinstance(limit, sp.MatrixBase) for limit in limits):
+        raise NotUnderstood("integral", "the limits of an integral are numbers", at.line)
+    if isinstance(value, sp.MatrixBase):
+        return value.applyfunc(lambda entry: sp.Integral(entry, limits))
+    return sp.Integral(value, limits)

@@ -32,6 +32,7 @@ x = ["x1", "x2"]
 'x^*' = ["s1", "s2"]
 '\bar{x}' = ["m1", "m2"]
 E = [["p", "q"], ["r", "s"]]
+'\lambda(E)' = "lam"
 'g' = ["b", "0"]
 'h' = ["0", "a"]
 """
@@ -68,6 +69,35 @@ SAID = {
     r"\begin{aligned} a &= b \\ &\quad + k \\ b &= k \end{aligned}": "a = b + k, b = k",
     r"a = \left( b \right. \\ \left. + k \right)": "a = b + k",
     r"a = \underbrace{b k}_{V}": "a = b*k",
+    # Cases, both signs, sets.
+    r"a = \begin{cases} b, & k > 0, \\ -b, & \text{otherwise.} \end{cases}": "a = Piecewise((b, k > 0), (-b, True))",
+    r"a = \begin{cases} 1 & \text{if } b < k \\ 0 & \text{else} \end{cases}":
+        "a = Piecewise((1, b < k), (0, True))",
+    r"a = b \pm k": "a = b + k, a = b - k",
+    r"a_{1,2} = b \pm k \mp t": "a1 = b + k - t, a2 = b - k + t",
+    r"a \in (b, k]": "a > b, a <= k",
+    r"a \in [0, \infty)": "a >= 0",
+    r"a, b \in \R_{>0}": "a > 0, b > 0",
+    # Ranges.
+    r"a = \sum_{\substack{1 \le i < N \\ i < j \le N}} a_i a_j": "a = a1*a2 + a1*a3 + a2*a3",
+    r"a = \sum_{1 \le i < j \le N} a_i a_j": "a = a1*a2 + a1*a3 + a2*a3",
+    r"a = \sum_{i=1}^{2} \frac12 a_i + \frac1k": "a = a1/2 + a2/2 + 1/k",
+    r"a = \sum_{i=1}^{2} \sum_{j=i+1}^{3} a_i a_j": "a = a1*a2 + a1*a3 + a2*a3",
+    r"x = \lim_{k \to \infty} k g": "x1 = Limit(b*k, k, oo, dir='-'), x2 = 0",
+    # Calculus.
+    r"\ddot{a} = b": "rate(rate(a, t), t) = b",
+    r"a = \frac{\text{d}^2 V}{\text{d} t^2}": "a = rate(rate(V, t), t)",
+    r"a = \frac{\partial^2 F(x)}{\partial a \partial b}": "a = 0",
+    r"x = \frac{\partial^2 F(x)}{\partial x^2} g": (
+        "x1 = b*Derivative(F(x1, x2), (x1, 2)), x2 = b*Derivative(F(x1, x2), x1, x2)"
+    ),
+    r"a = \int_0^k \int_0^b t a \, da \, db": "a = Integral(a*t, (a, 0, b), (b, 0, k))",
+    r"a = \norm{x}_1 + \norm{x}_\infty": "a = Abs(x1) + Abs(x2) + Max(Abs(x1), Abs(x2))",
+    r"a = \norm{x}_2^2": "a = x1**2 + x2**2",
+    r"x = [a, b]^\top": "x1 = a, x2 = b",
+    r"x = \dot{Y}^\top(t) x": "x1 = x1*Derivative(y11(t), t) + x2*Derivative(y21(t), t), "
+        "x2 = x1*Derivative(y12(t), t) + x2*Derivative(y22(t), t)",
+    r"a = \lambda(E)": "a = lam",
 }  # fmt: skip
 NOT_READ = {
     r"a = q": ("letter", "q"),
@@ -80,17 +110,31 @@ NOT_READ = {
     r"a = ": ("grammar", "missing"),
     r"a = b +": ("grammar", "missing"),
     r"a \in \R": ("relation", "membership"),
-    r"a = b \pm k": ("relation", "two signs"),
+    r"a \in \mathcal{S}": ("relation", "membership"),
+    r"a \in \{1, 2\}": ("grammar", "not expected"),
+    r"x \in [0, 1]": ("relation", "column"),
+    r"a \in (0, 1": ("bad LaTeX", "not end"),
+    r"a \in \R_+": ("two readings", "whether 0"),
+    r"a = b, k": ("no relation", "a part of it"),
+    r"a = a": ("no relation", "letter for letter"),
+    r"a = \lambda(k)": ("letter", "lambda"),
+    r"a = \sum_{\substack{i=1 \\ j=i+1}}^{N} a_i a_j": ("two readings", "go on"),
+    r"a = \sum_{i \in E} a_i": ("sum", "this range"),
+    r"a = \sum_{i=1}^{999999999} a_i": ("sum", "so many"),
+    r"a = \norm{x}_k": ("norm", "with an index"),
+    r"a = \begin{cases} 1 & E \\ 2 & k > 0 \end{cases}": ("cases", "no condition"),
+    r"a = \begin{cases} 1 & k > 0 \\ 2 & \text{maybe} \end{cases}": ("letter", "maybe"),
+    r"a = \frac{\text{d}^2 V}{\text{d} t}": ("derivative", "orders"),
+    r"a = \nabla^2 F(x)": ("derivative", "second order"),
     r"a b": ("no relation", "no relation"),
     r"a = x": ("matrix", "shapes"),
     r"a = x x": ("matrix", "product"),
     r"x < E": ("matrix", "shapes"),
-    r"a = [b, k]": ("Lie bracket", "no vector fields"),
+    r"x = [g, k]": ("Lie bracket", "no vector fields"),
     r"a = \sum_{i=1}^{M} a_i": ("sum", "how many"),
-    r"a = \begin{cases} 1 \end{cases}": ("cases", "cases"),
+    r"a = \begin{cases} 1 & k > 0 \end{cases}": ("cases", "single"),
     r"a = f": ("letter", "without arguments"),
     r"a = \sin^{-1}(b)": ("two readings", "reciprocal"),
-    r"a = \frac{\text{d}^2 V}{\text{d} t^2}": ("derivative", "second order"),
 }  # fmt: skip
 
 

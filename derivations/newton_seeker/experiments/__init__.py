@@ -1,0 +1,1 @@
+"""What is simulated and drawn for the second paper alone."""

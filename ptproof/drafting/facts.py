@@ -1,0 +1,76 @@
+"""Equations that claims may be under, and what can be told of a relation alone."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import sympy as sp
+
+from ptproof.drafting.printing import can_be_written
+from ptproof.errors import InputError
+from ptproof.proof.statement import Relation
+from ptproof.reading.latex.statements import Pair
+
+
+@dataclass(frozen=True)
+class Fact:
+    """An equation about ``head`` that the claims after it may be under: as the paper defines it, or by the chain rule.
+
+    By the chain rule it is the rate of what the fact ``of`` defines: ``chain`` has the letters that move with the names
+    of their rates (none for the time itself), and ``inner`` what is put in before, round by round.
+    """
+
+    name: str
+    head: sp.Expr
+    pair: Pair
+    file: str
+    of: Fact | None = None
+    chain: tuple[tuple[str, str], ...] = ()
+    inner: tuple[tuple[Fact, ...], ...] = ()
+
+    @property
+    def uses(self) -> tuple[Fact, ...]:
+        """The facts that it is made from."""
+        return () if self.of is None else (self.of, *(fact for put in self.inner for fact in put))
+
+
+def for_all(fact: Fact) -> tuple[str, str]:
+    """A definition of a function as the table of notation has it: for any argument."""
+    free = {argument: sp.Symbol(f"_{argument}", real=True) for argument in fact.head.args}
+    name = fact.head.func.__name__
+    return f"{name}({', '.join(map(str, free.values()))})", str(fact.pair.right.xreplace(free))
+
+
+def is_general(pair: Pair) -> bool:
+    """Whether an equation says what a function is at every argument: these occur on the right, and nothing is bound."""
+    nodes = {type(node) for node in sp.preorder_traversal(pair.right)}
+    return bool(set(pair.left.args) & pair.right.free_symbols) and not nodes & {
+        sp.Integral, sp.Limit, sp.Subs, sp.Derivative, sp.Piecewise,
+    }  # fmt: skip
+
+
+def is_again(fact: Fact, pair: Pair) -> bool:
+    """Whether a relation repeats an equation that defines something."""
+    return not fact.chain and pair.sign == "=" and sp.expand(pair.right - fact.pair.right) == 0
+
+
+def of_atoms(pair: Pair, facts: Mapping[sp.Expr, Fact]) -> bool:
+    """Whether both sides are letters of which nothing is said, or numbers: a condition."""
+    sides = (pair.left, pair.right)
+    return pair.sign != "=" and all((side.is_Symbol and side not in facts) or side.is_number for side in sides)
+
+
+def unwritable(pairs: Sequence[Pair]) -> str:
+    """Why a relation cannot be written as a claim."""
+    for pair in pairs:
+        for side in (pair.left, pair.right):
+            if side.has(sp.nan, sp.zoo) or side in (sp.oo, -sp.oo):
+                return "a side is no real number"
+            if not can_be_written(side):
+                return f"{side} has no form in Python yet"
+        try:
+            Relation(pair.left, pair.sign, pair.right)  # type: ignore[arg-type]
+        except InputError as error:
+            return str(error)
+    return ""

@@ -1,0 +1,276 @@
+"""What each formula of a paper becomes: a definition, a claim or a gap.
+
+- The first equation whose left side is one letter, its rate, or a function at letters is a *definition* of that. So is
+  what stands in an assumption of the paper, an inequality between bare letters or numbers, and a definition repeated.
+- Every other relation is a *claim*, under the definitions of its letters that come before it in the text.
+- The rate of what is defined is what the chain rule makes of it: an equation for it is a claim.
+- What was not read, and what cannot be a claim, is a *gap*.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from ptproof.drafting.facts import Fact, for_all, is_again, is_general, of_atoms, unwritable
+from ptproof.drafting.headings import Heading, slug
+from ptproof.drafting.names import unused
+from ptproof.drafting.paper import Paper, Said
+from ptproof.reading.latex.formulas import Formula
+from ptproof.reading.latex.statements import Pair
+
+
+@dataclass(frozen=True)
+class Item:
+    """One entry of a section file.
+
+    Attributes
+    ----------
+    facts
+        The equations of a definition that stand under a name of their own; those of another entry are ``known``.
+    others
+        Its other relations.
+    givens
+        What a claim is under.
+    again
+        Those of these whose letter is the left side of the claim: what the paper says of it a second time.
+    puts
+        For each relation of a claim, and each that it is under, the definitions of the functions that occur in it.
+    rules
+        What the chain rule says of the rates that occur, where that is not said before.
+    """
+
+    kind: str
+    id: str
+    variable: str
+    formula: Formula
+    heading: Heading
+    why: str = ""
+    facts: tuple[Fact, ...] = ()
+    known: tuple[Fact, ...] = ()
+    others: tuple[Pair, ...] = ()
+    pairs: tuple[Pair, ...] = ()
+    conditions: tuple[Pair, ...] = ()
+    givens: tuple[Fact, ...] = ()
+    again: tuple[Fact, ...] = ()
+    puts: Mapping[Pair, tuple[Fact, ...]] = field(default_factory=dict)
+    rules: tuple[Fact, ...] = ()
+    remarks: tuple[str, ...] = ()
+
+
+def items_of(paper: Paper) -> tuple[tuple[Item, ...], dict[str, str]]:
+    """The entries of all section files, in the order of the text, and what functions mean for every argument."""
+    drafting = _Drafting(paper)
+    items = tuple(item for said in paper.said for item in drafting.of(said))
+    return items, {key: value for fact in drafting.general.values() for key, value in [for_all(fact)]}
+
+
+@dataclass
+class _Drafting:
+    paper: Paper
+    facts: dict[sp.Expr, Fact] = field(default_factory=dict)
+    general: dict[str, Fact] = field(default_factory=dict)
+    ids: set[str] = field(default_factory=set)
+    names: set[str] = field(default_factory=set)
+
+    def of(self, said: Said) -> Iterator[Item]:
+        heading = self.paper.outline.heading(said.formula.line)
+        number = heading.number or heading.file.split("_")[0].removeprefix("section")
+        base = slug(said.formula.place.split(":", 1)[-1].replace("Section", ""), 60).replace("_", "-")
+        self.id, self.formula, self.heading = unused(f"{number}/{base}", self.ids), said.formula, heading
+        self.ids.add(self.id)
+        if said.reading is None:
+            yield self.gap(said.why)
+            return
+        pairs = [*said.reading.pairs, *said.reading.braces]
+        if why := unwritable([*pairs, *said.reading.conditions]) or self.resting(pairs):
+            yield self.gap(f"line {said.formula.line}: {why}")
+            return
+        yield from self.read(pairs, said.reading.conditions, said.reading.unread)
+
+    def gap(self, why: str) -> Item:
+        return Item("gap", self.id, self.variable("gap"), self.formula, self.heading, why=why)
+
+    def variable(self, kind: str) -> str:
+        word = slug(self.id.replace("/", "_"), 60)
+        name = unused(f"{kind}_{word}", self.names)
+        self.names.add(name)
+        return name
+
+    def read(self, pairs: Sequence[Pair], conditions: Sequence[Pair], unread: Sequence[str]) -> Iterator[Item]:
+        facts, known, others, claims, rules = [], [], [], [], []
+        assumed = self.paper.outline.is_assumed(self.formula.line)
+        for pair in pairs:
+            rules += self.chain_rule(pair)
+            if self.is_definition(pair):
+                facts.append(self.new_fact(pair))
+            elif (fact := self.facts.get(pair.left)) is not None and is_again(fact, pair):
+                known.append(fact)
+            elif assumed or of_atoms(pair, self.facts):
+                others.append(pair)
+            else:
+                claims.append(pair)
+        if facts or known or others:
+            spoken = [*others, *conditions] if not claims else others
+            yield Item(
+                "definition", self.id, self.variable("defined"), self.formula, self.heading, facts=tuple(facts),
+                known=tuple(known), others=tuple(spoken), rules=tuple(rules), remarks=tuple(unread),
+            )  # fmt: skip
+            rules = []
+        if claims:
+            id = self.id if not (facts or known or others) else unused(f"{self.id}-holds", self.ids)
+            self.ids.add(id)
+            yield self.claim(id, claims, conditions, rules, unread)
+
+    def claim(
+        self, id: str, claims: Sequence[Pair], conditions: Sequence[Pair], rules: Sequence[Fact], unread: Sequence[str]
+    ) -> Item:
+        givens = tuple(self.givens([*claims, *conditions]))
+        again = tuple(
+            fact for fact in givens if not fact.chain and any(p.sign == "=" and fact.head == p.left for p in claims)
+        )
+        puts = self.puts([*claims, *conditions, *(fact.pair for fact in givens)])
+        return Item(
+            "claim", id, self.variable("stated"), self.formula, self.heading, pairs=tuple(claims),
+            conditions=tuple(conditions), givens=givens, again=again, puts=puts, rules=tuple(rules),
+            remarks=tuple(unread),
+        )  # fmt: skip
+
+    # --- Definitions -------------------------------------------------------------------------------------------------
+
+    def is_definition(self, pair: Pair) -> bool:
+        head = pair.left
+        if pair.sign != "=" or head in self.facts or not self.may_be_head(head):
+            return False
+        return not self.depends(pair.right, head)
+
+    def may_be_head(self, head: sp.Expr) -> bool:
+        if head.is_Symbol:
+            return head.name in self.paper.declared and head.name not in self.paper.table["times"]
+        if not isinstance(head, AppliedUndef):
+            return False
+        name = head.func.__name__
+        bare = all(argument.is_Symbol for argument in head.args) and len(set(head.args)) == len(head.args)
+        return (name in self.paper.states and len(head.args) == 1) or (bare and name not in self.general)
+
+    def depends(self, expression: sp.Expr, head: sp.Expr) -> bool:
+        """Whether the expression, with all that is defined put in, has the head in it."""
+        seen: set[sp.Expr] = set()
+        left = [expression]
+        while left:
+            parts = left.pop().atoms(sp.Symbol, AppliedUndef)
+            if any(part == head or (isinstance(head, AppliedUndef) and part.func == head.func) for part in parts):
+                return True
+            new = parts - seen
+            seen |= new
+            left += [self.facts[part].pair.right for part in new if part in self.facts]
+        return False
+
+    def new_fact(self, pair: Pair) -> Fact:
+        head = pair.left
+        word = head.name if head.is_Symbol else head.func.__name__
+        name = unused(f"{word}_is", {*self.names, *self.paper.declared})
+        self.names.add(name)
+        fact = self.facts[head] = Fact(name, head, pair, self.heading.file)
+        if isinstance(head, AppliedUndef) and word not in self.paper.states and is_general(pair):
+            self.general.setdefault(word, fact)
+        return fact
+
+    def resting(self, pairs: Sequence[Pair]) -> str:
+        """Why a formula says where something is rather than what holds."""
+        for pair in pairs:
+            moves = pair.left.is_Symbol and pair.left.name in self.paper.states and pair.sign == "="
+            if moves and pair.left not in self.facts and not self.moving(pair.right):
+                return f"{pair.left} moves, and this says where it is at some instant"
+        return ""
+
+    def moving(self, expression: sp.Expr) -> bool:
+        names = {symbol.name for symbol in expression.free_symbols}
+        return bool(
+            names & ({*self.paper.states, *self.paper.table["times"]})
+            or expression.atoms(AppliedUndef)
+            or any(self.moving(self.facts[s].pair.right) for s in expression.free_symbols if s in self.facts)
+        )
+
+    # --- The chain rule ----------------------------------------------------------------------------------------------
+
+    def chain_rule(self, pair: Pair) -> list[Fact]:
+        """For each rate in a relation that is the rate of something defined, what the chain rule says of it."""
+        found = []
+        for symbol in sorted(pair.left.free_symbols | pair.right.free_symbols, key=str):
+            if symbol.name in self.paper.moved and symbol not in self.facts:
+                fact = self.by_chain_rule(symbol, *self.paper.moved[symbol.name])
+                if fact is not None:
+                    self.facts[symbol] = fact
+                    self.names.add(fact.name)
+                    found.append(fact)
+        return found
+
+    def by_chain_rule(self, rate: sp.Symbol, moved: sp.Expr, time: sp.Symbol) -> Fact | None:
+        said = self.facts.get(moved)
+        if said is None or said.chain or rate.name == moved:
+            return None
+        value = said.pair.right
+        inner: list[tuple[Fact, ...]] = []
+        rates = {of: name for name, (of, along) in self.paper.moved.items() if along == time}
+        for _ in self.facts:  # what moves without a rate of its own is put in
+            put = [s for s in sorted(value.free_symbols, key=str) if s not in rates and s in self.facts
+                   and self.moving(self.facts[s].pair.right)]  # fmt: skip
+            if not put:
+                break
+            inner.append(tuple(self.facts[s] for s in put))
+            value = value.subs({s: self.facts[s].pair.right for s in put}, simultaneous=True)
+        chain = tuple((s.name, rates[s]) for s in sorted(value.free_symbols, key=str) if s in rates and s != time)
+        if time in value.free_symbols:
+            chain += ((time.name, ""),)
+        if not chain or any(name == rate.name for _, name in chain):
+            return None
+        terms = [
+            sp.diff(value, sp.Symbol(of, real=True)) * (sp.Symbol(name, real=True) if name else 1) for of, name in chain
+        ]
+        pair = Pair(rate, "=", sp.Add(*terms))
+        if self.depends(pair.right, rate):
+            return None
+        name = unused(f"{rate.name}_is", {*self.names, *self.paper.declared})
+        return Fact(name, rate, pair, self.heading.file, said, chain, tuple(inner))
+
+    # --- What claims are under ---------------------------------------------------------------------------------------
+
+    def givens(self, pairs: Sequence[Pair]) -> Iterator[Fact]:
+        """The definitions of all letters that occur, each behind those of the letters that occur in it."""
+        seen: set[sp.Expr] = set()
+        for pair in pairs:
+            yield from self.behind(pair.left, seen)
+            yield from self.behind(pair.right, seen)
+
+    def behind(self, expression: sp.Expr, seen: set[sp.Expr]) -> Iterator[Fact]:
+        for part in sorted(expression.atoms(sp.Symbol, AppliedUndef), key=str):
+            if part in seen:
+                continue
+            seen.add(part)
+            if isinstance(part, AppliedUndef) and part.func.__name__ in self.general:
+                yield from self.behind(self.general[part.func.__name__].pair.right, seen)
+            elif part in self.facts:
+                yield from self.behind(self.facts[part].pair.right, seen)
+                yield self.facts[part]
+
+    def puts(self, pairs: Sequence[Pair]) -> dict[Pair, tuple[Fact, ...]]:
+        """For each relation the definitions of its functions, those first in which others occur."""
+        found = {}
+        for pair in pairs:
+            names: dict[str, None] = {}
+            self.functions_in(pair.left, names)
+            self.functions_in(pair.right, names)
+            if names:
+                found[pair] = tuple(self.general[name] for name in reversed(names))
+        return found
+
+    def functions_in(self, expression: sp.Expr, names: dict[str, None]) -> None:
+        for part in sorted(expression.atoms(AppliedUndef), key=str):
+            name = part.func.__name__
+            if name in self.general and name not in names:
+                self.functions_in(self.general[name].pair.right, names)
+                names[name] = None
