@@ -54,13 +54,15 @@ def report(
     recorded, a figure could not be drawn, or the paper prints something else; the report is written all the same.
     """
     from ptproof.proof.run import Interrupted
+    from ptproof.reading.latex.source import read_paper
     from ptproof.report.printing import browser
     from ptproof.report.writing import check_place
 
     place, printer = check_place(out), browser() if pdf else ""
+    tex = {name: read_paper(name) for name in sources}
     decided: dict[str, Verification] = {}
     with opened(paths, fresh) as papers:
-        read = _read(papers, sources)
+        read = _read(papers, tex)
         for paper in papers:
             try:
                 decided[paper.name] = _decided(paper, **how)
@@ -93,19 +95,17 @@ def _derivation(paper: Opened) -> Derivation:
     return paper.derivation
 
 
-def _read(papers: Sequence[Opened], sources: Sequence[str]) -> dict[str, Mapping[str, ReadSide]]:
+def _read(papers: Sequence[Opened], tex: Mapping[str, str]) -> dict[str, Mapping[str, ReadSide]]:
     """What became of the printed sides of each paper whose source is given, by the paper's name."""
     from ptproof.commands.coverage import own
-    from ptproof.reading.latex.source import read_paper
     from ptproof.report.labels import all_labels
     from ptproof.report.read import read_sides
 
     found: dict[str, Mapping[str, ReadSide]] = {}
-    for tex in sources:
-        source = read_paper(tex)
-        name, derivation = own(papers, {*all_labels(source)}, tex)
+    for file, source in tex.items():
+        name, derivation = own(papers, {*all_labels(source)}, file)
         if name in found:
-            raise InputError(f"--paper: {tex} is about {name}, and so is another that is given")
+            raise InputError(f"--paper: {file} is about {name}, and so is another that is given")
         found[name] = read_sides(source, derivation)
     return found
 

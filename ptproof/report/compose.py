@@ -46,10 +46,9 @@ def compose(
         Of the derivation: its title, and its letters and glyphs.
     versions
         Of the libraries.
-    figures, appendix, notes
-        Pictures and tables from elsewhere, and what the reader has to know, such as a figure that could not be drawn.
-    read
-        What became of printed sides in the paper's own source, by id.
+    figures, appendix, notes, read
+        Pictures and tables from elsewhere, what the reader has to know, such as a figure that could not be drawn, and
+        what became of printed sides in the paper's own source, by id.
     """
     letters = notation or Notation()
     results = {result.claim.id: result for result in verification.results}
@@ -63,12 +62,7 @@ def compose(
         [item.section for item in derivation.definitions],
     )
     shown = [claim for section in sections for claim in section.claims]
-    errata = [
-        Erratum(claim, tuple(views[ref.id] for ref in claim.corrected_by))
-        for claim in shown
-        if claim.status is status.REFUTED or claim.corrected_by
-    ]
-    errata.sort(key=lambda item: item.rank)
+    errata = _errata(shown, views)
     return Report(
         title=title or "Derivation",
         sections=sections,
@@ -86,6 +80,16 @@ def compose(
         appendix=tuple(appendix),
         notes=(*_hits(verification), *notes),
     )
+
+
+def _errata(shown: Sequence[ClaimView], views: Mapping[str, ClaimView]) -> list[Erratum]:
+    """What is refuted or corrected, the gravest first."""
+    found = [
+        Erratum(claim, tuple(views[ref.id] for ref in claim.corrected_by))
+        for claim in shown
+        if claim.status is status.REFUTED or claim.corrected_by
+    ]
+    return sorted(found, key=lambda item: item.rank)
 
 
 def _labels(sections: Sequence[Section]) -> tuple[tuple[str, tuple[Ref, ...]], ...]:

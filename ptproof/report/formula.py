@@ -4,15 +4,13 @@ from __future__ import annotations
 
 import html
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 from xml.etree import ElementTree
 
 import sympy as sp
-from sympy.core.function import _coeff_isneg
-from sympy.printing.latex import LatexPrinter, greek_letters_set
 
 from ptproof.proof.statement import (
     All,
@@ -27,8 +25,10 @@ from ptproof.proof.statement import (
     free_symbols,
     undefined_functions,
 )
+from ptproof.report.printer import Names as Names
+from ptproof.report.printer import latex as latex
+from ptproof.report.printer import ordered
 
-Names = Mapping[Any, str]
 _SIGN = {"=": "=", "<=": r"\le", "<": "<", ">=": r"\ge", ">": ">", "!=": r"\ne"}
 _ROOM = 84.0  # characters in a line of the page
 _FUNCTIONS = frozenset(
@@ -42,62 +42,6 @@ class Line:
 
     latex: str
     indent: int = 0
-
-
-class _Printer(LatexPrinter):
-    """SymPy's printer, but a sum does not open with a minus sign where it need not (τ − t₀, not −t₀ + τ), and a norm
-    needs no parentheses around it before an exponent."""
-
-    def _as_ordered_terms(self, expr: sp.Expr, order: str | None = None) -> list[sp.Expr]:
-        return _ordered(super()._as_ordered_terms(expr, order=order))
-
-    def parenthesize_super(self, s: str) -> str:
-        return f"{{{s}}}" if re.fullmatch(r"\\\|.*\\\||.*\)", s) else str(super().parenthesize_super(s))
-
-    def _print_Symbol(self, expr: sp.Symbol, style: str = "plain") -> str:
-        names = self._settings["symbol_names"]
-        if expr not in names and expr.name.endswith("_dot"):  # the value of a derivative
-            letter = sp.Symbol(expr.name.removesuffix("_dot"), **expr._assumptions_orig)
-            known = next((glyph for other, glyph in names.items() if getattr(other, "name", "") == letter.name), "")
-            return rf"\dot{{{known or super()._print_Symbol(letter)}}}"
-        shown = str(super()._print_Symbol(expr, style=style))
-        return shown if expr in names else _upright(shown)
-
-    def _print_Mul(self, expr: sp.Expr) -> str:
-        # SymPy asks of each power with a negative symbolic exponent whether it is constant, which takes seconds on a
-        # page. None is, so letters that are printed like the powers stand in for them.
-        names = self._settings["symbol_names"]
-        masks = {}
-        for factor in sp.Mul.make_args(expr):
-            exponent = factor.as_base_exp()[1]
-            if exponent.free_symbols and exponent.is_negative:
-                masks[factor] = sp.Symbol(f"zz{len(names)}", positive=True)
-                names[masks[factor]] = self._print(factor)
-        if masks:
-            expr = sp.Mul(*(masks.get(factor, factor) for factor in sp.Mul.make_args(expr)))
-            if not isinstance(expr, sp.Mul):
-                return str(self._print(expr))
-        return str(super()._print_Mul(expr))
-
-
-def _upright(shown: str) -> str:
-    """A letter without a glyph: a word stands upright, and an index such as ``kappa1`` is a letter with a number."""
-    shown = re.sub(rf"\{{({'|'.join(sorted(greek_letters_set))})(\d*)\}}", _greek, shown)
-    return re.sub(r"^[A-Za-z]{3,}(?=$|_)", lambda found: rf"\mathrm{{{found[0]}}}", shown)
-
-
-def _greek(found: re.Match[str]) -> str:
-    return rf"{{\{found[1]}{f'_{{{found[2]}}}' if found[2] else ''}}}"
-
-
-def _ordered(terms: list[sp.Expr]) -> list[sp.Expr]:
-    first = next((place for place, term in enumerate(terms) if not _coeff_isneg(term)), 0)
-    return [terms[first], *terms[:first], *terms[first + 1 :]]
-
-
-def latex(expression: Any, names: Names) -> str:
-    """SymPy's LaTeX with the glyphs of the notation."""
-    return str(_Printer({"symbol_names": dict(names), "ln_notation": True}).doprint(expression))
 
 
 def statement_lines(statement: Statement | Assumption, names: Names) -> tuple[Line, ...]:
@@ -209,7 +153,7 @@ def _broken(expression: Any, whole: str, names: Names) -> list[str]:
     if width(whole) < _ROOM or not isinstance(expression, sp.Add):
         return [whole]
     lines = [""]
-    for term in _ordered(expression.as_ordered_terms()):
+    for term in ordered(expression.as_ordered_terms()):
         text = latex(term, names)
         joined = text if lines == [""] else (f"- {text[1:].lstrip()}" if text.startswith("-") else f"+ {text}")
         if lines[-1] and width(f"{lines[-1]} {joined}") > _ROOM:

@@ -139,7 +139,9 @@ class Report:
     @property
     def read(self) -> dict[str, tuple[Ref, ...]]:
         """The claims and definitions whose printed side was looked for in the paper's source, by what became of it."""
-        items = [item for section in self.sections for item in (*section.definitions, *section.claims)]
+        items: list[ClaimView | DefinitionView] = []
+        for section in self.sections:
+            items += [*section.definitions, *section.claims]
         found: dict[str, list[Ref]] = {}
         for item in items:
             if item.read is not None:

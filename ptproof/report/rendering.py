@@ -10,7 +10,7 @@ from jinja2 import Environment
 from markupsafe import Markup, escape
 
 from ptproof.report.content import Figure
-from ptproof.report.formula import mathml
+from ptproof.report.formula import Line, mathml
 from ptproof.report.headline import Piece
 from ptproof.report.prose import to_html
 from ptproof.report.templating import environment, text
@@ -26,6 +26,7 @@ def html() -> Environment:
         "prose": lambda source: Markup(to_html(source)),
         "data_uri": data_uri,
         "pieces": pieces,
+        "tex": tex,
     }
     jinja.filters = {**jinja.filters, **filters}
     return jinja
@@ -54,6 +55,14 @@ def pieces(said: Sequence[Piece]) -> Markup:
         for piece in said
     )
     return Markup("").join(parts)
+
+
+def tex(lines: Sequence[Line]) -> str:
+    """A formula as LaTeX to be put into a paper."""
+    if len(lines) == 1:
+        return lines[0].latex
+    inside = " \\\\\n".join("& " + r"\quad " * line.indent + line.latex for line in lines)
+    return f"\\begin{{aligned}}\n{inside}\n\\end{{aligned}}"
 
 
 def data_uri(figure: Figure) -> str:

@@ -54,8 +54,10 @@ def spoken(text: str, letters: Mapping[str, str], kept: Iterable[str] = ()) -> s
 
     def written(found: re.Match[str]) -> str:
         name = found[0]
-        if name not in letters or name in known:
+        if name in known:
             return name
+        if name not in letters:  # of another claim, or bound in this one
+            return plain(latex(sp.Symbol(name), {})) if _GREEK_LETTER.fullmatch(name) else name
         before, after = text[: found.start()].rstrip(" ")[-1:], text[found.end() :].lstrip(" ")[:1]
         sure = bool(re.search(r"[\d_]", name)) or name.lower() in _GREEK
         return letters[name] if sure or before in _BEFORE or after in _AFTER else name
@@ -70,8 +72,9 @@ def spoken(text: str, letters: Mapping[str, str], kept: Iterable[str] = ()) -> s
 
 _GREEK = frozenset(
     ["alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "iota", "kappa", "lambda", "mu", "nu", "xi",
-     "rho", "sigma", "tau", "phi", "chi", "psi", "omega"]
+     "rho", "sigma", "tau", "phi", "chi", "pi", "psi", "omega"]
 )  # fmt: skip
+_GREEK_LETTER = re.compile(rf"(?:{'|'.join(sorted(_GREEK))})(?:_?\d+)?")
 _BEFORE, _AFTER = frozenset("=+-*/<>^([|"), frozenset("=+-*/<>^()|]")
 
 

@@ -135,6 +135,12 @@ def test_errata_mark_what_differs(page):
     assert 'class="differs"' not in page[page.index('id="graph"') :]
 
 
+def test_errata_bring_the_correction_as_latex_and_what_hangs_on_it(page):
+    errata = page[page.index('id="errata"') : page.index('id="graph"')]
+    assert r"<pre><code>\left(k + \bar x\right)^{2} = " in errata
+    assert "A theorem</a>" in errata[errata.index("What hangs on it") :]
+
+
 def test_errata_state_the_assumptions(page, text):
     errata = page[page.index('id="errata"') : page.index('id="graph"')]
     assert errata.count("<dt>for all</dt>") == 4

@@ -66,14 +66,14 @@ def files(report):
 
 @pytest.fixture(scope="module")
 def large(report):
-    """700 claims in 40 sections, of which one has a third of all, each claim as long as a claim of a paper is."""
+    """700 claims in 40 sections, of which one has a third of all."""
     kinds, sections, number = report.claims, [], 0
     for place in range(40):
         inside = []
         for _ in range(232 if place == 3 else 12):
             model = kinds[number % len(kinds)]
             ref = Ref(f"s{place}/c{number}", f"c-s{place}-c{number}", f"Claim {number}", model.ref.status)
-            lines = model.lines * 6 if model.lines else kinds[0].lines
+            lines = model.lines * 2 if model.lines else kinds[0].lines
             uses = (inside[-1].ref,) if inside else ((sections[-1].claims[0].ref,) if sections else ())
             inside.append(replace(model, ref=ref, lines=lines, uses=uses, used_by=(), rests_on=(), corrects=None,
                                   corrected_by=()))  # fmt: skip

@@ -33,6 +33,7 @@ def test_a_letter_as_plain_text(source, text):
         ("with 5/step-tau and tau", "with 5/step-tau and τ"),
         ("nobody.py", "nobody.py"),
         ("2 parts", "2 parts"),
+        ("tau_0 = pi/2, v2 = 1", "τ₀ = π/2, v2 = 1"),
     ],
 )
 def test_names_become_letters_where_they_are_letters(said, written):
