@@ -13,7 +13,7 @@ from ptproof.drafting.printing import laid_out, python
 from ptproof.reading.latex.formulas import Formula
 from ptproof.reading.latex.statements import Pair
 
-_SIGNS = {"=": "eq", "<=": "le", "<": "lt", ">=": "ge", ">": "gt"}
+SIGNS = {"=": "eq", "<=": "le", "<": "lt", ">=": "ge", ">": "gt"}
 _WIDTH = 112
 
 
@@ -28,7 +28,7 @@ def entry(item: Item) -> str:
     for rule in item.rules:
         lines += ["# By the chain rule; what has no rate of its own is taken for a constant.", _rule(rule)]
     lines += [
-        laid_out(f"{fact.name} = {_SIGNS[fact.pair.sign]}", (fact.pair.left, fact.pair.right)) for fact in item.facts
+        laid_out(f"{fact.name} = {SIGNS[fact.pair.sign]}", (fact.pair.left, fact.pair.right)) for fact in item.facts
     ]
     lines.append(_definition(item) if item.kind == "definition" else _claim(item))
     return "\n".join(lines)
@@ -65,8 +65,8 @@ def _gap(item: Item) -> str:
 
 
 def _relation(pair: Pair, indent: int) -> str:
-    if pair.sign in _SIGNS:
-        return laid_out(_SIGNS[pair.sign], (pair.left, pair.right), indent)
+    if pair.sign in SIGNS:
+        return laid_out(SIGNS[pair.sign], (pair.left, pair.right), indent)
     return f"{' ' * indent}Relation({python(pair.left)}, {pair.sign!r}, {python(pair.right)})"
 
 
@@ -106,6 +106,7 @@ def _claim(item: Item) -> str:
     where = ", ".join(part for part in _where(item.formula) if part != "labels=[]")
     given = [_put(fact.name, item.puts.get(fact.pair, ())) for fact in item.givens]
     given += [_put(_relation(pair, 0), item.puts.get(pair, ())) for pair in item.conditions]
+    given += [stated.name for stated in item.stated]
     lines = [
         "@claim(",
         f"    {item.id!r}, {f'{_plain(item.formula.place)}: letters guessed'!r},",

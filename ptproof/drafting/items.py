@@ -20,6 +20,7 @@ from ptproof.drafting.headings import Heading, slug
 from ptproof.drafting.names import unused
 from ptproof.drafting.paper import Paper
 from ptproof.drafting.rates import Said
+from ptproof.drafting.stated import Stated
 from ptproof.reading.latex.formulas import Formula
 from ptproof.reading.latex.statements import Pair
 
@@ -38,6 +39,8 @@ class Item:
         What a claim is under.
     again
         Those of these whose letter is the left side of the claim: what the paper says of it a second time.
+    stated
+        What the paper says of its letters alone.
     puts
         For each relation of a claim, and each that it is under, the definitions of the functions that occur in it.
     rules
@@ -57,6 +60,7 @@ class Item:
     conditions: tuple[Pair, ...] = ()
     givens: tuple[Fact, ...] = ()
     again: tuple[Fact, ...] = ()
+    stated: tuple[Stated, ...] = ()
     puts: Mapping[Pair, tuple[Fact, ...]] = field(default_factory=dict)
     rules: tuple[Fact, ...] = ()
     remarks: tuple[str, ...] = ()
@@ -133,11 +137,14 @@ class _Drafting:
         again = tuple(
             fact for fact in givens if not fact.chain and any(p.sign == "=" and fact.head == p.left for p in claims)
         )
-        puts = self.puts([*claims, *conditions, *(fact.pair for fact in givens)])
+        every = [*claims, *conditions, *(fact.pair for fact in givens)]
+        puts = self.puts(every)
+        every += [fact.pair for used in puts.values() for fact in used]
+        letters = {symbol for pair in every for symbol in pair.left.free_symbols | pair.right.free_symbols}
         return Item(
             "claim", id, self.variable("stated"), self.formula, self.heading, pairs=tuple(claims),
             conditions=tuple(conditions), givens=givens, again=again, puts=puts, rules=tuple(rules),
-            remarks=tuple(unread),
+            remarks=tuple(unread), stated=self.paper.conditions.of(letters),
         )  # fmt: skip
 
     # --- Definitions -------------------------------------------------------------------------------------------------

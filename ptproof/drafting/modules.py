@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-import re
 import textwrap
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ptproof.drafting.entries import commented, entry
+from ptproof.drafting.entries import SIGNS, commented, entry
 from ptproof.drafting.facts import Fact
 from ptproof.drafting.headings import Heading
 from ptproof.drafting.items import Item
 from ptproof.drafting.paper import Paper
+from ptproof.drafting.printing import laid_out
+from ptproof.drafting.stated import Conditions
 from ptproof.drafting.toml import toml
 from ptproof.reading.latex.formulas import Formula
 
@@ -91,23 +92,24 @@ def _notation(paper: Paper, source: str, puts: bool) -> str:
     letters = [item for item in paper.declared.values() if not item.function]
     functions = [item for item in paper.declared.values() if item.function]
     rates = [item for item in letters if item.name in paper.rates]
+    used = ["Relation"] * puts + sorted({SIGNS[item.pair.sign] for item in paper.conditions.taken})
     lines = [
         f'"""The letters of {_quoted(source)[3:-3]}, each once, as a machine found them.',
         "",
-        "All are real, and that is all: their signs, their units and what they mean are for the author to say, as in",
+        "All are real. What the paper says of their signs and bounds stands at the end. The rest is for the author to",
+        "say: their units, what they mean, and signs that hold throughout, as in",
         '`k = letter("k", "k", "1/s", "gain", positive=True)`.',
         '"""',
         "",
         *(["from typing import Any", ""] if puts else []),
         *(["import sympy as sp", ""] if puts or functions else []),
-        *(["from ptproof.proof import Relation"] if puts else []),
+        *([f"from ptproof.proof import {', '.join(used)}"] if used else []),
         "from ptproof.report.alphabet import Alphabet",
         "",
         "alphabet = Alphabet()",
         "letter = alphabet.letter",
         "NOTATION = alphabet.entries",
         "",
-        *_signs(paper.running),
     ]
     for item in letters:
         if item.name not in paper.rates:
@@ -121,16 +123,21 @@ def _notation(paper: Paper, source: str, puts: bool) -> str:
     if functions:
         lines += ["", "# Functions: smooth, real, and otherwise unknown."]
         lines += [f'{item.name} = sp.Function("{item.name}", real=True)' for item in functions]
+    lines += _stated(paper.conditions)
     return "\n".join(lines) + "\n" + (_PUT if puts else "")
 
 
-def _signs(running: Iterable[Formula]) -> Iterator[str]:
-    """What running text says of signs, as comments."""
-    found = [item for item in running if re.search(r"(?:[<>]|\\[lg]eq?)\s*0\s*$", item.text)]
-    if found:
-        yield "# The paper says of their signs, wherever that is meant to hold:"
-    for item in found:
-        yield from commented(f"line {item.line}: {item.text}", "    ")
+def _stated(conditions: Conditions) -> Iterator[str]:
+    """What the paper says of letters alone: what claims assume, and as comments what is left to the author."""
+    if conditions.taken:
+        yield "\n# What the paper says of its letters; each claim assumes what is said of its own letters (`given`)."
+    for item in conditions.taken:
+        yield from commented(f"line {item.line}: {item.text}", "")
+        yield laid_out(f"{item.name} = {SIGNS[item.pair.sign]}", (item.pair.left, item.pair.right))
+    if conditions.left:
+        yield "\n# Not assumed, since it may hold in one place only:"
+    for remark in dict.fromkeys(f"line {item.line}: {item.text} ({why})" for item, why in conditions.left):
+        yield from commented(remark, "    ")
 
 
 def _raw(text: str) -> str:
@@ -171,6 +178,7 @@ def _imports(items: Sequence[Item], file: str, used: str) -> Iterator[str]:
         for rule in item.rules:
             names |= {rule.head.name, *(of for of, _ in rule.chain), *(name for _, name in rule.chain if name)}
             names |= {str(fact.head) for put in rule.inner for fact in put}
+        names |= {stated.name for stated in item.stated}
     for fact in _facts_used(items):
         if fact.file != file:
             facts.setdefault(fact.file, set()).add(fact.name)

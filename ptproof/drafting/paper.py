@@ -16,6 +16,7 @@ from ptproof.drafting.letters import Letters
 from ptproof.drafting.occurrences import Scanned, scan
 from ptproof.drafting.rates import Rates, Said
 from ptproof.drafting.spelled import name_at
+from ptproof.drafting.stated import Conditions, conditions
 from ptproof.drafting.toml import toml
 from ptproof.errors import InputError
 from ptproof.reading.latex.cursor import RELATIONS
@@ -50,6 +51,8 @@ class Paper:
         For each name of a rate the moved expression and the time.
     generic
         For each function the names at which it is written most often.
+    conditions
+        What the paper says of its letters alone.
     """
 
     outline: Outline
@@ -61,6 +64,7 @@ class Paper:
     generic: Mapping[str, tuple[str, ...]]
     states: frozenset[str]
     table: Mapping[str, Any]
+    conditions: Conditions
 
 
 def read_with_guesses(source: str) -> Paper:
@@ -80,9 +84,12 @@ def read_with_guesses(source: str) -> Paper:
     named = Rates(guessed)
     translated = tuple(named.translated(item) for item in said)
     named.declare_rest(translated)
+    beside = [item for item in (*formulas.running, *formulas.members) if not item.broken]
+    letters_alone = [name for name, item in guessed.declared.items() if not item.function]
+    stated = conditions(beside, said, lambda item: reader.said(item, formulas.macros), letters_alone)
     return Paper(
         outline(source), translated, formulas.running, {**guessed.declared, **named.declared}, named.rates,
-        named.moved, guessed.generic, guessed.states, guessed.table(named.rates),
+        named.moved, guessed.generic, guessed.states, guessed.table(named.rates), stated,
     )  # fmt: skip
 
 

@@ -97,7 +97,7 @@ def test_a_printed_side_with_a_slip_is_different(folder, right, wrong):
 
 def test_a_file_says_what_is_for_the_author(folder):
     letters = (folder / "notation.py").read_text()
-    assert "#     line 21: a, b > 0" in letters
+    assert "# line 21: a, b > 0\na_stated = gt(a, 0)\n# line 21: a, b > 0\nb_stated = gt(b, 0)\n" in letters
     assert "positive=True" not in letters.replace('gain", positive=True)`', "")
     assert "# line 21: K = 1" in (folder / "section1a_ways_to_v.py").read_text()
 

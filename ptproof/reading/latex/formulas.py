@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
+from ptproof.reading.latex.sentences import sentence
 from ptproof.reading.latex.source import expanded, without_comments
 from ptproof.reading.latex.tokens import Macro, definitions
 
@@ -18,6 +19,7 @@ _MARK = re.compile(
 )
 _LABEL = re.compile(r"\\label\s*(?:\[[^\]]*\]\s*)?\{([^{}]*)\}")
 _NO_NUMBER = re.compile(r"\\(nonumber|notag)(?![a-zA-Z])")
+_MEMBER = re.compile(r"\\in(?![a-zA-Z])")
 _RELATION = re.compile(r"=|<|>|\\(le|leq|leqslant|ge|geq|geqslant|ne|neq|equiv|ll|gg|approx|lt|gt)(?![a-zA-Z])")
 # A row that begins with a relation goes on with the row before it; so does one that begins with a sign and has none.
 _BEFORE = r"^(?:[\s&{}]|\\(?:q?quad(?![a-zA-Z])|[,;:!]|hspace\*?\{[^{}]*\}))*"
@@ -46,6 +48,8 @@ class Formula:
         Whether it is displayed; otherwise it stands in running text.
     broken
         Why it cannot be read, where its end is missing.
+    around
+        What stands in its sentence before it and behind it; no part of what makes two formulas equal.
     """
 
     place: str
@@ -54,15 +58,20 @@ class Formula:
     text: str
     displayed: bool = True
     broken: str = ""
+    around: tuple[str, str] = field(default=("", ""), compare=False, repr=False)
 
 
 @dataclass(frozen=True)
 class Formulas:
-    """The formulas of a paper in the order of the text, and the macros that its author defines."""
+    """The formulas of a paper in the order of the text, and the macros that its author defines.
+
+    ``members`` are those of running text that say in what set something lies, and are no relation otherwise.
+    """
 
     displayed: tuple[Formula, ...]
     running: tuple[Formula, ...]
     macros: dict[str, Macro] = field(default_factory=dict)
+    members: tuple[Formula, ...] = ()
 
 
 @dataclass
@@ -109,7 +118,7 @@ def find_formulas(source: str) -> Formulas:
     clean = without_comments(source)
     scan = _Scan(expanded(clean))
     scan.run()
-    return Formulas(tuple(scan.displayed), tuple(scan.running), definitions(clean))
+    return Formulas(tuple(scan.displayed), tuple(scan.running), definitions(clean), tuple(scan.members))
 
 
 class _Scan:
@@ -117,6 +126,7 @@ class _Scan:
         self.text = text
         self.displayed: list[Formula] = []
         self.running: list[Formula] = []
+        self.members: list[Formula] = []
         self.place = _Place()
         self.groups: list[list[str]] = []
         self.starts: list[int] = []
@@ -158,7 +168,7 @@ class _Scan:
             formula = self.displayed[index]
             place = formula.place if formula.labels or not labels else f"{labels[0]} ({index - start + 1})"
             both = tuple(dict.fromkeys([*formula.labels, *labels]))
-            self.displayed[index] = Formula(place, both, formula.line, formula.text, broken=formula.broken)
+            self.displayed[index] = replace(formula, place=place, labels=both)
 
     def line(self, position: int) -> int:
         return self.text.count("\n", 0, position) + 1
@@ -223,7 +233,11 @@ class _Scan:
         text = self.text[position : match.start()]
         if _RELATION.search(text):
             place = self.place.next_in_text()
-            self.running.append(Formula(place, (), self.line(position), text.strip(), displayed=False))
+            around = sentence(self.text, position - len(closing), match.end())
+            self.running.append(Formula(place, (), self.line(position), text.strip(), False, around=around))
+        elif _MEMBER.search(text):
+            around = sentence(self.text, position - len(closing), match.end())
+            self.members.append(Formula(self.place.part(), (), self.line(position), text.strip(), False, around=around))
         return match.end()
 
     def add(self, start: int, text: str, broken: str) -> None:
@@ -233,7 +247,8 @@ class _Scan:
         labels = tuple(dict.fromkeys(label.strip() for label in _LABEL.findall(text)))
         start += len(text) - len(text.lstrip())
         place = labels[0] if labels else self.place.name()
-        self.displayed.append(Formula(place, labels, self.line(start), text.strip(), broken=broken))
+        around = sentence(self.text, start, start + len(text.strip()))
+        self.displayed.append(Formula(place, labels, self.line(start), text.strip(), broken=broken, around=around))
 
     def rows(self, position: int, end: int, split: bool) -> Iterator[tuple[int, str, bool]]:
         """The rows of a display: where each begins, its text, and whether it is the last."""
