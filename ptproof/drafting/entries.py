@@ -86,7 +86,7 @@ def _put(relation: str, used: Sequence[Fact]) -> str:
 
 
 def _definition(item: Item) -> str:
-    relations = [f"    {fact.name}" for fact in (*item.facts, *item.known)] + [
+    relations = [f"    {fact.name}{_shifted(fact)}" for fact in (*item.facts, *item.known)] + [
         _relation(pair, 4) for pair in item.others
     ]
     title = _plain(item.formula.place)
@@ -100,6 +100,13 @@ def _definition(item: Item) -> str:
         f"    {', '.join(_where(item.formula))}, prose={f'{said} Read by a machine.'!r},",
         ")",
     ])  # fmt: skip
+
+
+def _shifted(fact: Fact) -> str:
+    """What makes of the fact the relation that the paper has."""
+    if fact.shift is None:
+        return ""
+    return f".map(lambda side: side.subs({fact.head.args[0]}, {python(fact.shift)}))"
 
 
 def _claim(item: Item) -> str:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import sympy as sp
+from sympy.core.function import AppliedUndef
 
 from ptproof.drafting.printing import can_be_written
 from ptproof.errors import InputError
@@ -18,13 +19,15 @@ class Fact:
     """An equation about ``head`` that the claims after it may be under: as the paper defines it, or by the chain rule.
 
     By the chain rule it is the rate of what the fact ``of`` defines: ``chain`` has the letters that move with the names
-    of their rates (none for the time itself), and ``inner`` what is put in before, round by round.
+    of their rates (none for the time itself), and ``inner`` what is put in before, round by round. The paper may have
+    it at a ``shift`` of the argument of its head.
     """
 
     name: str
     head: sp.Expr
     pair: Pair
     file: str
+    shift: sp.Expr | None = None
     of: Fact | None = None
     chain: tuple[tuple[str, str], ...] = ()
     inner: tuple[tuple[Fact, ...], ...] = ()
@@ -48,6 +51,21 @@ def is_general(pair: Pair) -> bool:
     return bool(set(pair.left.args) & pair.right.free_symbols) and not nodes & {
         sp.Integral, sp.Limit, sp.Subs, sp.Derivative, sp.Piecewise,
     }  # fmt: skip
+
+
+def unshifted(pair: Pair, times: Iterable[str]) -> Pair | None:
+    """What an equation such as ν(t − t₀) = 1 − (t − t₀)/T says of the function at every argument: ν(t) = 1 − t/T."""
+    head = pair.left
+    if pair.sign != "=" or not (isinstance(head, AppliedUndef) and len(head.args) == 1 and head.args[0].is_Add):
+        return None
+    [argument] = head.args
+    for time in (sp.Symbol(name, real=True) for name in times):
+        by = argument - time
+        right = pair.right.subs(time, time - by)
+        at_all = Pair(head.func(time), "=", right)
+        if by.free_symbols and time not in by.free_symbols and not by.free_symbols & right.free_symbols:
+            return at_all if is_general(at_all) else None
+    return None
 
 
 def is_again(fact: Fact, pair: Pair) -> bool:

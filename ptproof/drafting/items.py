@@ -1,7 +1,8 @@
 """What each formula of a paper becomes: a definition, a claim or a gap.
 
 - The first equation whose left side is one letter, its rate, or a function at letters is a *definition* of that. So is
-  what stands in an assumption of the paper, an inequality between bare letters or numbers, and a definition repeated.
+  one of a function at a shifted time, as ν(t − t₀), and of one at functions that occurs first there. So is what stands
+  in an assumption of the paper, an inequality between bare letters or numbers, and a definition repeated.
 - Every other relation is a *claim*, under the definitions of its letters that come before it in the text.
 - The rate of what is defined is what the chain rule makes of it: an equation for it is a claim.
 - What was not read, and what cannot be a claim, is a *gap*.
@@ -15,7 +16,7 @@ from dataclasses import dataclass, field
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ptproof.drafting.facts import Fact, for_all, is_again, is_general, of_atoms, unwritable
+from ptproof.drafting.facts import Fact, for_all, is_again, is_general, of_atoms, unshifted, unwritable
 from ptproof.drafting.headings import Heading, slug
 from ptproof.drafting.names import unused
 from ptproof.drafting.paper import Paper
@@ -110,7 +111,10 @@ class _Drafting:
         assumed = self.paper.outline.is_assumed(self.formula.line)
         for pair in pairs:
             rules += self.chain_rule(pair)
-            if self.is_definition(pair):
+            at_all = unshifted(pair, self.paper.table["times"])
+            if at_all is not None and self.is_definition(at_all):
+                facts.append(self.new_fact(at_all, pair.left.args[0]))
+            elif self.is_definition(pair):
                 facts.append(self.new_fact(pair))
             elif (fact := self.facts.get(pair.left)) is not None and is_again(fact, pair):
                 known.append(fact)
@@ -164,7 +168,9 @@ class _Drafting:
         if not isinstance(head, AppliedUndef):
             return False
         name = head.func.__name__
-        bare = all(argument.is_Symbol for argument in head.args) and len(set(head.args)) == len(head.args)
+        new = not any(isinstance(known, AppliedUndef) and known.func == head.func for known in self.facts)
+        kinds = (sp.Symbol, AppliedUndef) if new else (sp.Symbol,)
+        bare = all(isinstance(argument, kinds) for argument in head.args) and len(set(head.args)) == len(head.args)
         return (name in self.paper.states and len(head.args) == 1) or (bare and name not in self.general)
 
     def depends(self, expression: sp.Expr, head: sp.Expr) -> bool:
@@ -180,12 +186,12 @@ class _Drafting:
             left += [self.facts[part].pair.right for part in new if part in self.facts]
         return False
 
-    def new_fact(self, pair: Pair) -> Fact:
+    def new_fact(self, pair: Pair, shift: sp.Expr | None = None) -> Fact:
         head = pair.left
         word = head.name if head.is_Symbol else head.func.__name__
         name = unused(f"{word}_is", {*self.names, *self.paper.declared})
         self.names.add(name)
-        fact = self.facts[head] = Fact(name, head, pair, self.heading.file)
+        fact = self.facts[head] = Fact(name, head, pair, self.heading.file, shift)
         if isinstance(head, AppliedUndef) and word not in self.paper.states and is_general(pair):
             self.general.setdefault(word, fact)
         return fact
@@ -247,7 +253,7 @@ class _Drafting:
         if self.depends(pair.right, rate):
             return None
         name = unused(f"{rate.name}_is", {*self.names, *self.paper.declared})
-        return Fact(name, rate, pair, self.heading.file, said, chain, tuple(inner))
+        return Fact(name, rate, pair, self.heading.file, None, said, chain, tuple(inner))
 
     # --- What claims are under ---------------------------------------------------------------------------------------
 

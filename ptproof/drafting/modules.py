@@ -175,6 +175,8 @@ def _imports(items: Sequence[Item], file: str, used: str) -> Iterator[str]:
             *(fact.pair for fact in item.facts if not fact.chain),
         ):
             names |= _names(pair.left) | _names(pair.right)
+        for fact in item.facts:
+            names |= _names(fact.shift) if fact.shift is not None else set()
         for rule in item.rules:
             names |= {rule.head.name, *(of for of, _ in rule.chain), *(name for _, name in rule.chain if name)}
             names |= {str(fact.head) for put in rule.inner for fact in put}

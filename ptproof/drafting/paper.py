@@ -85,8 +85,7 @@ def read_with_guesses(source: str) -> Paper:
     translated = tuple(named.translated(item) for item in said)
     named.declare_rest(translated)
     beside = [item for item in (*formulas.running, *formulas.members) if not item.broken]
-    letters_alone = [name for name, item in guessed.declared.items() if not item.function]
-    stated = conditions(beside, said, lambda item: reader.said(item, formulas.macros), letters_alone)
+    stated = conditions(beside, said, lambda item: reader.said(item, formulas.macros), guessed)
     return Paper(
         outline(source), translated, formulas.running, {**guessed.declared, **named.declared}, named.rates,
         named.moved, guessed.generic, guessed.states, guessed.table(named.rates), stated,

@@ -1,9 +1,10 @@
 """What a paper itself says of its letters alone: signs, and intervals in which they lie.
 
 Only what plainly holds throughout is *taken*, as an assumption of the claims that use the letter. The rest is *left* to
-the author: what stands in a sentence with a condition, a case, a quantifier or a conclusion, what contradicts another
-remark on the same letter, a value of it included, and of two bounds the tighter. A value is nothing that is said here:
-it holds where it stands. Of a natural number it is taken that it is not negative.
+the author: what stands in a sentence with a condition, a case, a quantifier or a conclusion, what is said of a letter
+that moves or that an equation defines, since that is a result, what contradicts another remark on the same letter, a
+value of it included, and of two bounds the tighter. A value is not taken: it holds where it stands. Of a natural number
+it is taken that it is not negative.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from dataclasses import dataclass, replace
 
 import sympy as sp
 
+from ptproof.drafting.guess import Guess
 from ptproof.drafting.names import unused
 from ptproof.drafting.rates import Said
 from ptproof.reading.latex.formulas import Formula
@@ -66,9 +68,10 @@ class Conditions:
 
 
 def conditions(
-    formulas: Sequence[Formula], displayed: Sequence[Said], said: Callable[[Formula], Said], letters: Iterable[str]
+    formulas: Sequence[Formula], displayed: Sequence[Said], said: Callable[[Formula], Said], guessed: Guess
 ) -> Conditions:
-    """What formulas of running text, read by ``said``, and relations in ``displayed`` ones say of these letters."""
+    """What formulas of running text, read by ``said``, and relations in ``displayed`` ones say of letters alone."""
+    letters = [name for name, item in guessed.declared.items() if not item.function]
     sets = {match[1].replace(" ", ""): match[2] for item in formulas for match in _NAMED.finditer(item.text)}
     known = set(letters)
     found: list[tuple[Stated, str]] = []
@@ -77,7 +80,12 @@ def conditions(
             found += _conditions(said(part), formula, known, every=True)
     for item in displayed:
         found += _conditions(item, item.formula, known, every=False)
-    return _sorted(found, known)
+    pairs = [pair for item in displayed if item.reading for pair in item.reading.pairs]
+    results = {str(pair.left): "an equation defines it" for pair in pairs if pair.sign == "=" and pair.left.is_Symbol}
+    results |= dict.fromkeys(guessed.states, "it moves")
+    for time in guessed.times:
+        results.pop(time, None)
+    return _sorted([(item, why or results.get(str(item.pair.left), "")) for item, why in found], known)
 
 
 def _conditions(said: Said, formula: Formula, known: set[str], *, every: bool) -> Iterator[tuple[Stated, str]]:

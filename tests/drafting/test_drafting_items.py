@@ -33,6 +33,13 @@ KINDS = {
     (r"\tau = 2 t", r"\frac{d \tau}{d t} = 3"): ["definition", "claim"],
     ("t = 2", r"\dot{x} = t"): ["gap", "definition"],
     ("u \\approx v",): ["gap"],
+    (r"\nu(t - t_0) = 1 - \frac{t - t_0}{T}", r"\nu(t) = 1 - \frac{t}{T}"): ["definition", "definition"],
+    (r"\nu(t - t_0) = 1 - \frac{t - t_0}{T}", r"\nu(t) = 1 - \frac{t}{2 T}"): ["definition", "claim"],
+    (r"\nu(t - t_0) = 1 - \frac{t + t_0}{T}",): ["claim"],
+    (r"\nu(t - 1) = 1 - t", r"\nu(t) = -t"): ["claim", "definition"],
+    (r"\nu(t + T) = \nu(t)",): ["claim"],
+    (r"\dot{x} = -x", r"V(x(t), \nu(t)) = x + \nu(t)"): ["definition", "definition"],
+    ("V(a, b) = a^2", "V(F(0), b) = 3"): ["definition", "claim"],
 }
 
 
