@@ -92,7 +92,7 @@ def _definition(item: Item) -> str:
     title = _plain(item.formula.place)
     said = "Assumed, or a condition: nothing to decide."
     if item.facts or item.known:
-        said = "As the paper has it first." if item.facts else "The paper says it again."
+        said = "As the paper has it here." if item.facts else "The paper says it again."
     return "\n".join([
         f"{item.variable} = definition(",
         f"    {item.id!r}, {f'{title}: letters guessed'!r},",

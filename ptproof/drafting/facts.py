@@ -68,6 +68,20 @@ def unshifted(pair: Pair, times: Iterable[str]) -> Pair | None:
     return None
 
 
+def depends(expression: sp.Expr, head: sp.Expr, facts: Mapping[sp.Expr, Fact]) -> bool:
+    """Whether the expression, with all that is defined put in, has the head in it."""
+    seen: set[sp.Expr] = set()
+    left = [expression]
+    while left:
+        parts = left.pop().atoms(sp.Symbol, AppliedUndef)
+        if any(part == head or (isinstance(head, AppliedUndef) and part.func == head.func) for part in parts):
+            return True
+        new = parts - seen
+        seen |= new
+        left += [facts[part].pair.right for part in new if part in facts]
+    return False
+
+
 def is_again(fact: Fact, pair: Pair) -> bool:
     """Whether a relation repeats an equation that defines something."""
     return not fact.chain and pair.sign == "=" and sp.expand(pair.right - fact.pair.right) == 0

@@ -100,11 +100,12 @@ class _Guessing:
             frozenset(self.valued),
         )  # fmt: skip
 
-    def name(self, key: str, function: bool = False) -> str:
-        """The name of a letter or function, declared with its first use."""
+    def name(self, key: str, function: bool = False, column: str = "") -> str:
+        """The name of a letter or function, declared with its first use, or that of its column."""
         if (key, function) not in self.names:
             name = self.names[key, function] = python_name(key, self.declared)
-            self.declared[name] = Declared(name, key, self.found.keys.get(key, 0), function)
+            lines = [self.found.keys[letter] for letter in (key, column) if letter in self.found.keys]
+            self.declared[name] = Declared(name, key, min(lines, default=0), function)
         return self.names[key, function]
 
     def value(self, key: str, function: bool = False) -> Any:
@@ -117,8 +118,8 @@ class _Guessing:
             return [["1" if i == j else "0" for j in range(columns)] for i in range(rows)]
         own = self.found.columns.get(key, ())
         if columns == 1:
-            return [self.name(own[i] if own else _entry(key, str(i + 1)), function) for i in range(rows)]
-        return [[self.name(_entry(key, f"{i + 1}{j + 1}"), function) for j in range(columns)] for i in range(rows)]
+            return [self.name(own[i] if own else _entry(key, str(i + 1)), function, key) for i in range(rows)]
+        return [[self.name(_entry(key, f"{i + 1}{j + 1}"), function, key) for j in range(columns)] for i in range(rows)]
 
     def move(self, key: str, times: Sequence[str]) -> None:
         """A letter that moves is the same with and without its time."""

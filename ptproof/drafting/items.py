@@ -3,6 +3,8 @@
 - The first equation whose left side is one letter, its rate, or a function at letters is a *definition* of that. So is
   one of a function at a shifted time, as ν(t − t₀), and of one at functions that occurs first there. So is what stands
   in an assumption of the paper, an inequality between bare letters or numbers, and a definition repeated.
+- An equation for a rate that is defined, in which another letter that moves occurs for the first time, is no result of
+  what was said before: another *system* begins. The rates of its letter, its solution and its laws are said anew.
 - Every other relation is a *claim*, under the definitions of its letters that come before it in the text.
 - The rate of what is defined is what the chain rule makes of it: an equation for it is a claim.
 - What was not read, and what cannot be a claim, is a *gap*.
@@ -16,12 +18,13 @@ from dataclasses import dataclass, field
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ptproof.drafting.facts import Fact, for_all, is_again, is_general, of_atoms, unshifted, unwritable
+from ptproof.drafting.facts import Fact, depends, for_all, is_again, is_general, of_atoms, unshifted, unwritable
 from ptproof.drafting.headings import Heading, slug
 from ptproof.drafting.names import unused
 from ptproof.drafting.paper import Paper
 from ptproof.drafting.rates import Said
 from ptproof.drafting.stated import Stated
+from ptproof.drafting.systems import begins_anew, outdated
 from ptproof.reading.latex.formulas import Formula
 from ptproof.reading.latex.statements import Pair
 
@@ -69,8 +72,13 @@ class Item:
 
 def items_of(paper: Paper) -> tuple[tuple[Item, ...], dict[str, str]]:
     """The entries of all section files, in the order of the text, and what functions mean for every argument."""
-    drafting = _Drafting(paper)
-    items = tuple(item for said in paper.said for item in drafting.of(said))
+    twice = set[str]()
+    while True:  # no single definition holds for a function that two systems have
+        drafting = _Drafting(paper, twice=set(twice))
+        items = tuple(item for said in paper.said for item in drafting.of(said))
+        if drafting.twice == twice:
+            break
+        twice = drafting.twice
     return items, {key: value for fact in drafting.general.values() for key, value in [for_all(fact)]}
 
 
@@ -81,6 +89,7 @@ class _Drafting:
     general: dict[str, Fact] = field(default_factory=dict)
     ids: set[str] = field(default_factory=set)
     names: set[str] = field(default_factory=set)
+    twice: set[str] = field(default_factory=set)
 
     def of(self, said: Said) -> Iterator[Item]:
         heading = self.paper.outline.heading(said.formula.line)
@@ -118,6 +127,9 @@ class _Drafting:
                 facts.append(self.new_fact(pair))
             elif (fact := self.facts.get(pair.left)) is not None and is_again(fact, pair):
                 known.append(fact)
+            elif fact is not None and begins_anew(fact, pair, self.formula.line, self.paper):
+                self.forget(pair.left)
+                facts.append(self.new_fact(pair))
             elif assumed or of_atoms(pair, self.facts):
                 others.append(pair)
             else:
@@ -160,7 +172,7 @@ class _Drafting:
         times = self.paper.table["times"]
         if head.is_Symbol and head.name in times and not {s.name for s in pair.right.free_symbols} & {*times}:
             return False  # an instant; a change of time is a definition
-        return not self.depends(pair.right, head)
+        return not depends(pair.right, head, self.facts)
 
     def may_be_head(self, head: sp.Expr) -> bool:
         if head.is_Symbol:
@@ -173,18 +185,12 @@ class _Drafting:
         bare = all(isinstance(argument, kinds) for argument in head.args) and len(set(head.args)) == len(head.args)
         return (name in self.paper.states and len(head.args) == 1) or (bare and name not in self.general)
 
-    def depends(self, expression: sp.Expr, head: sp.Expr) -> bool:
-        """Whether the expression, with all that is defined put in, has the head in it."""
-        seen: set[sp.Expr] = set()
-        left = [expression]
-        while left:
-            parts = left.pop().atoms(sp.Symbol, AppliedUndef)
-            if any(part == head or (isinstance(head, AppliedUndef) and part.func == head.func) for part in parts):
-                return True
-            new = parts - seen
-            seen |= new
-            left += [self.facts[part].pair.right for part in new if part in self.facts]
-        return False
+    def forget(self, rate: sp.Expr) -> None:
+        """Forget what was said of another system."""
+        for fact in [self.facts.pop(head) for head in outdated(rate, self.facts, self.paper)]:
+            if isinstance(fact.head, AppliedUndef):
+                self.twice.add(fact.head.func.__name__)
+                self.general.pop(fact.head.func.__name__, None)
 
     def new_fact(self, pair: Pair, shift: sp.Expr | None = None) -> Fact:
         head = pair.left
@@ -192,7 +198,7 @@ class _Drafting:
         name = unused(f"{word}_is", {*self.names, *self.paper.declared})
         self.names.add(name)
         fact = self.facts[head] = Fact(name, head, pair, self.heading.file, shift)
-        if isinstance(head, AppliedUndef) and word not in self.paper.states and is_general(pair):
+        if isinstance(head, AppliedUndef) and word not in {*self.paper.states, *self.twice} and is_general(pair):
             self.general.setdefault(word, fact)
         return fact
 
@@ -250,7 +256,7 @@ class _Drafting:
             sp.diff(value, sp.Symbol(of, real=True)) * (sp.Symbol(name, real=True) if name else 1) for of, name in chain
         ]
         pair = Pair(rate, "=", sp.Add(*terms))
-        if self.depends(pair.right, rate):
+        if depends(pair.right, rate, self.facts):
             return None
         name = unused(f"{rate.name}_is", {*self.names, *self.paper.declared})
         return Fact(name, rate, pair, self.heading.file, None, said, chain, tuple(inner))

@@ -43,6 +43,28 @@ KINDS = {
 }
 
 
+FIRST = [r"\dot{x} = u(t)", "u(t) = -k x"]
+SYSTEMS = {
+    (r"\dot{x} = -k x",): ["claim"],
+    (r"\dot{x} = -2 k x",): ["claim"],
+    (r"\dot{x} = -2 q x",): ["claim"],
+    (r"\dot{x} = u(t) + \theta", r"\dot{\theta} = x"): ["definition", "definition"],
+    (r"\dot{\theta} = x", r"\dot{x} = u(t) + \theta"): ["definition", "claim"],
+    (r"\dot{x} = \theta", r"\dot{\theta} = x", "u(t) = k x", r"\dot{x} = 2 \theta"): [*["definition"] * 3, "claim"],
+    (r"\dot{x} \le \theta", r"\dot{\theta} = x"): ["claim", "definition"],
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("formulas", SYSTEMS, ids=str)
+def test_another_system_begins_where_something_new_moves(formulas):
+    assert [item.kind for item in items(*FIRST, *formulas)][2:] == SYSTEMS[formulas]
+
+
+def test_a_claim_about_another_system_is_not_under_the_law_of_the_first_one():
+    *_, last = items(*FIRST, r"\dot{x} = u(t) + \theta", r"\dot{\theta} = x", "u(t) = 3", r"\dot{x} = 3 + \theta")
+    assert [str(fact.pair) for fact in last.givens] == ["u(t) = 3", "x_dot = theta + u(t)"]
+
+
 @pytest.mark.parametrize("formulas", KINDS, ids=str)
 def test_what_a_formula_becomes(formulas):
     assert [item.kind for item in items(*formulas)] == KINDS[formulas]
@@ -110,3 +132,9 @@ def test_what_has_no_form_in_python_is_told():
     x = sp.Symbol("x", real=True)
     assert can_be_written(sp.sqrt(x) + sp.oo)
     assert not can_be_written(sp.gamma(x))
+
+
+def test_the_letters_of_a_column_are_known_since_the_line_of_the_column():
+    text = "\\[ \\dot{x} = -k x \\]\n\\[ x = [x_1, x_2]^\\top \\]\n\\[ x_1 + q > 0 \\]\n"
+    declared = read_with_guesses(text).declared
+    assert {name: declared[name].line for name in ("x1", "x2", "q")} == {"x1": 1, "x2": 1, "q": 3}
