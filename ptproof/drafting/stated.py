@@ -28,7 +28,10 @@ _LOCAL = re.compile(
     r"|cannot|no|or|either|contra\w+|instead|sufficiently|requires?|needs?)\b",
     re.IGNORECASE,
 )
-_QUANTIFIED = re.compile(r"\bfor\s+(?:all|any|every|each)\b|\bfor\b[^,;:]*$", re.IGNORECASE)
+_QUANTIFIED = re.compile(
+    r"\bfor\s+(?:all|any|every|each)\b|\bfor\b[^,;:]*$|\b(?:so|that|then|gets?|obtains?|have|has|shows?|finds?)\W*$",
+    re.IGNORECASE,
+)
 _LET = re.compile(r"\blet\b|\bconsider(?:ing)?\W*$", re.IGNORECASE)
 _INTRODUCED = re.compile(r"\s*\$?\s*(?:be|denote)\b")
 _REFUSED = re.compile(r"\\(?:text|forall|exists|mid|quad|qquad|begin|[{}])(?![a-zA-Z])|\\[{}]|\\(?:to|rightarrow)\b")
