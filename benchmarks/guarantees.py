@@ -8,16 +8,12 @@ edge of what is found come from ``ptproof certify … --smallest-omega`` and ``-
 from __future__ import annotations
 
 import json
+import resource
+import subprocess
 import sys
-import time
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
-
-import sympy as sp
-
-from ptproof.certify import certify_loop
-from ptproof.problem import example
 
 FILE = Path(__file__).resolve().parents[1] / "derivations" / "pt_seeker" / "guarantees.json"
 
@@ -42,17 +38,21 @@ class Row:
         )
 
     def found(self) -> dict[str, Any]:
-        """The certificate, or why there is none."""
-        problem, begin = example(self.example), time.process_time()
-        given = {name: sp.Rational(text) for name, text in (("omega", self.omega), ("mu", self.mu)) if text}
-        radius = sp.sympify(sp.Rational(self.radius)) if self.radius else None
-        certificate = certify_loop(
-            replace(problem, tuning=replace(problem.tuning, **given)), radius, tolerance=self.tolerance
+        """The certificate, or why there is none, with the processor's seconds that the command took."""
+        begin = _spent()
+        done = subprocess.run(
+            [sys.executable, "-m", *self.command.split(), "--json"], capture_output=True, text=True, check=False
         )
-        data = certificate.to_json()
+        if done.returncode not in (0, 1):
+            raise SystemExit(f"{self.command}: {done.stderr}")
+        data = json.loads(done.stdout)
         kept = ("verdict", "omega", "mu", "start_radius", "final", "hover", "detail")
-        seconds = round(time.process_time() - begin, 1)
-        return {"command": self.command, **{name: data[name] for name in kept}, "seconds": seconds}
+        return {"command": self.command, **{name: data[name] for name in kept}, "seconds": round(_spent() - begin, 1)}
+
+
+def _spent() -> float:
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
 ROWS = (
@@ -69,6 +69,8 @@ ROWS = (
     Row("vanishing", radius="13/10", tolerance=0.3),
     Row("vanishing", tolerance=0.3),
     Row("nonvanishing", omega="3000", mu="1/99000", tolerance=0.25),
+    Row("nonvanishing", radius="26/25", tolerance=0.3),
+    Row("nonvanishing", radius="109/100", tolerance=0.3),
     Row("nonvanishing", tolerance=0.3),
 )
 

@@ -147,13 +147,9 @@ class System:
                 raise InputError(f"{self.name}: {old} can't be called {new}, which is in use")
             if old._assumptions_orig != new._assumptions_orig:
                 raise InputError(f"{self.name}: {old} and {new} are not declared to be of one kind")
-        return replace(
-            self,
-            state=tuple(states.get(symbol, symbol) for symbol in self.state),
-            rhs=tuple(replaced(entry, states) for entry in self.rhs),
-            parameters=None,
-            name=self.name if name is None else name,
-        )
+        state = tuple(states.get(symbol, symbol) for symbol in self.state)
+        rhs = tuple(replaced(entry, states) for entry in self.rhs)
+        return replace(self, state=state, rhs=rhs, parameters=None, name=self.name if name is None else name)
 
     def latex(self) -> str:
         """The system as a LaTeX ``aligned`` block, without delimiters."""
@@ -191,13 +187,10 @@ def substitute(expressions: Sequence[sp.Expr], values: Mapping[Any, Any]) -> tup
 
 
 def replaced(expression: sp.Expr, values: Mapping[sp.Symbol, sp.Expr]) -> sp.Expr:
-    """The expression with all symbols replaced at once.
-
-    Where nothing is bound a plain exchange does it, and SymPy's substitution takes many times as long.
-    """
-    if expression.has(*_BINDING):
-        return expression.subs(values, simultaneous=True)
-    return expression.xreplace(values)
+    """The expression with all symbols replaced at once."""
+    # Where nothing is bound a plain exchange does it, and SymPy's substitution takes many times as long.
+    bound = expression.has(*_BINDING)
+    return expression.subs(values, simultaneous=True) if bound else expression.xreplace(values)
 
 
 def differentiated(expression: sp.Expr) -> sp.Expr:
@@ -271,12 +264,11 @@ class DitherSystem:
         if len(self.drift) != n:
             raise InputError(f"{self.name}: {n} states but a drift of {len(self.drift)} entries")
         for i, field in enumerate(self.fields, start=1):
+            where = f"{self.name}: field {i}"
             if len(field) != n:
-                raise InputError(f"{self.name}: field {i} has {len(field)} entries for {n} states")
+                raise InputError(f"{where} has {len(field)} entries for {n} states")
             if any(self.phase in entry.free_symbols for entry in field):
-                raise InputError(
-                    f"{self.name}: field {i} depends on the phase {self.phase}; that belongs into its signal"
-                )
+                raise InputError(f"{where} depends on the phase {self.phase}; that belongs into its signal")
         if len(self.fields) != len(self.dithers):
             raise InputError(f"{self.name}: {len(self.fields)} fields but {len(self.dithers)} dithers")
         for i, dither in enumerate(self.dithers, start=1):

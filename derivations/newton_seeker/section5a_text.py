@@ -14,7 +14,7 @@ from .section5a_design import average_newton, equilibrium, linearisation
 from .section5b_1_coordinates import shifted
 from .section8_newton_average import u1, u2, u3
 
-SECTION = "III to VII: running text"
+SECTION = "Running text of Sections III to VII"
 
 _near, _far = sp.symbols("s_1 s_2", nonnegative=True)
 

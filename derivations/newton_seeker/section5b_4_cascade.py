@@ -197,7 +197,8 @@ def back(goal: Goal) -> Evidence:
 
 
 theorem = claim(
-    "newton/5-theorem", "The point x*, 1/H, F* is sGPUAS for the Newton seeker on d > 0, for p > 5/8",
+    "newton/5-theorem", "Theorem 1: x*, 1/H, F* is sGPUAS for the Newton seeker on d > 0, for p > 5/8",
     Prose("The stability of the last step in the coordinates x, d and ν"),
     uses=[practical, back, rotation_undone, in_z], labels=["thm:newton_ss_theorem"], expected="cited",
-)(cited("the paper's Theorem 1, and nothing else: its hypotheses are the claims listed"))  # fmt: skip
+)(cited("the definition of sGPUAS in other coordinates: |z| = |x − x*|, and ln d is near ln(1/H) where d is near "
+        "1/H; no engine speaks of sGPUAS"))  # fmt: skip

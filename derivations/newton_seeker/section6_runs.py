@@ -122,7 +122,7 @@ def made(name: str, *arguments: Any) -> Statement:
 
 def observed(id: str, title: str, text: str, name: str, *arguments: Any, place: str = PLACE) -> Claim:
     """One statement about simulations."""
-    return observation(id, title, text, place, made, name, *arguments)
+    return observation(id, title, text, place, made, name, *arguments, section=SECTION)
 
 
 estimate = observed(

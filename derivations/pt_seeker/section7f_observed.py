@@ -28,7 +28,7 @@ def made(name: str, *arguments: Any) -> Statement:
 
 def observed(id: str, title: str, text: str, place: str, name: str, *arguments: Any) -> Claim:
     """One statement about simulations, over initial headings."""
-    return observation(id, title, text, place, made, name, *arguments)
+    return observation(id, title, text, place, made, name, *arguments, section=SECTION)
 
 
 vanishing_reaches = observed(

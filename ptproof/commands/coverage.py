@@ -32,8 +32,8 @@ def coverage(paper: str, paths: tuple[str, ...], as_json: bool) -> int:
     what the claims that cover it say: equal, different, or not read and why. A relation in running text is looked up
     among all that the derivation states or assumes.
 
-    Exit status 1 if a label of an equation is not covered, a claim names a label that the paper does not have, or a
-    formula that was read is different from what is claimed.
+    Exit status 1 if a label of an equation is not covered, a claim or the table names a label or a place that the paper
+    does not have, or a formula that was read is different from what is claimed.
     """
     from ptproof.errors import InputError
     from ptproof.reading.latex.formulas import find_formulas
@@ -42,7 +42,7 @@ def coverage(paper: str, paths: tuple[str, ...], as_json: bool) -> int:
     from ptproof.report.labels import all_labels, equation_labels
     from ptproof.report.printed import compare_all
     from ptproof.report.running import hold_running
-    from ptproof.report.stated import printed
+    from ptproof.report.stated import places_missing, printed
 
     source = read_paper(paper)
     labels, formulas = equation_labels(source), find_formulas(source)
@@ -54,6 +54,9 @@ def coverage(paper: str, paths: tuple[str, ...], as_json: bool) -> int:
         for label, ids in found.stale:
             click.echo(f"ptproof: {paper} has no label {label}, which is named by {', '.join(ids)}", err=True)
         notation = printed(derivation)
+        missing = places_missing(notation, formulas)
+        for place in missing:
+            click.echo(f"ptproof: {paper} has no formula {place}, which {notation.where} names", err=True)
         compared = compare_all(formulas, notation)
         running = hold_running(formulas, notation, derivation)
         if as_json:
@@ -71,7 +74,7 @@ def coverage(paper: str, paths: tuple[str, ...], as_json: bool) -> int:
             _show(found)
             _show_formulas(compared, running)
     held: list[Compared | Running] = [*compared, *running]
-    return 0 if found.complete and all(item.read != "different" for item in held) else 1
+    return 0 if found.complete and not missing and all(item.read != "different" for item in held) else 1
 
 
 def own(papers: Sequence[Opened], labels: Set[str], tex: str) -> tuple[str, Derivation]:

@@ -24,8 +24,8 @@ class Piece:
 def headline(report: Report) -> tuple[Piece, ...]:
     """How much is proved, what is false, and which results stand on what.
 
-    A result of the paper, such as Theorem 2, is a claim whose title begins with its name and that is neither cited nor
-    printed falsely; it stands if all its claims are proved, given what is cited.
+    A result of the paper, such as Theorem 2, is a claim whose title begins with its name and that is not printed
+    falsely; it stands if all its claims are proved, given what is cited, and may be cited itself.
     """
     parts = [*_proved(report), *_false(report)]
     for mark in (status.UNDECIDED, status.OBSERVED):
@@ -86,13 +86,15 @@ def _false(report: Report) -> Iterator[Piece]:
 def _results(claims: Sequence[ClaimView]) -> Iterator[Piece]:
     named: dict[str, list[ClaimView]] = {}
     for claim in claims:
-        if (found := _RESULT.match(claim.ref.title)) and claim.status not in (status.CITED, status.REFUTED):
+        if (found := _RESULT.match(claim.ref.title)) and claim.status != status.REFUTED:
             named.setdefault(found.group(), []).append(claim)
     for name, inside in named.items():
         yield Piece("; ")
         yield Piece(name, inside[0].ref.anchor)
         if not all(claim.status.proved for claim in inside):
-            yield Piece(" is open")
+            yield Piece(
+                " rests on what is cited" if any(claim.status == status.CITED for claim in inside) else " is open"
+            )
             continue
         yield Piece(" stands")
         given = {ref.anchor: ref for claim in inside for ref in claim.rests_on}

@@ -15,7 +15,7 @@ from ptproof.errors import InputError
 from ptproof.proof.claim import Claim, Definition
 from ptproof.proof.load import Derivation
 from ptproof.proof.statement import All, ForAll, Relation, relations_of
-from ptproof.reading.latex.formulas import Formula
+from ptproof.reading.latex.formulas import Formula, Formulas
 from ptproof.reading.latex.grammar import Grammar
 from ptproof.reading.latex.notation import Notation, Table, context, meanings, notation, read_table, says_of, vocabulary
 from ptproof.reading.latex.rewrite import Rules, Vocabulary, rules
@@ -64,6 +64,13 @@ class Printed:
         """What names a label of the formula, or its place."""
         found = [item for key in (*formula.labels, formula.place) for item in self.items.get(key, ())]
         return tuple({item.id: item for item in found}.values())
+
+
+def places_missing(source: Printed, formulas: Formulas) -> tuple[str, ...]:
+    """The places that the table names and the paper does not have."""
+    everything = (*formulas.displayed, *formulas.running)
+    known = {key for formula in everything for key in (formula.place, *formula.labels)}
+    return tuple(dict.fromkeys(place for says in source.table.says for place in says.at if place not in known))
 
 
 def printed(derivation: Derivation) -> Printed:

@@ -6,7 +6,7 @@ An observation is evidence for what no engine can decide. It is never a proof, a
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 from ptproof.proof import Claim, Evidence, Goal, Prose, Verdict, claim, engine
@@ -61,13 +61,13 @@ def simulation(goal: Goal, experiment: Callable[..., Statement], *arguments: Any
 
 def observed(
     id: str, title: str, text: str, place: str, experiment: Callable[..., Statement], *arguments: Any,
-    expected: str = "observed",
+    section: str, expected: str = "observed",
 ) -> Claim:  # fmt: skip
     """The claim that an experiment supports its statement, which is decided by making it.
 
     Parameters
     ----------
-    id, title, text, place
+    id, title, text, place, section
         As for any claim; the text is what it states.
     experiment, arguments
         What is made, when the claim is decided.
@@ -77,4 +77,4 @@ def observed(
         return simulation(goal, experiment, *arguments)
 
     prove.__doc__ = f"A numerical experiment, repeated by `ptproof verify -k {id} --fresh`."
-    return claim(id, title, Prose(text), expected=expected, place=place)(prove)
+    return replace(claim(id, title, Prose(text), expected=expected, place=place)(prove), section=section)

@@ -125,6 +125,13 @@ def test_in_running_text_different_is_said_only_where_the_table_names_the_place(
     assert status == 1
 
 
+def test_a_place_that_the_paper_does_not_have_is_named(tmp_path, capsys):
+    table = TABLE + "[[says]]\nclaims = ['s/function']\nat = ['Section 1 (9)']"
+    status, _, error, _ = command(tmp_path, capsys, table=table)
+    assert status == 1
+    assert "Section 1 (9)" in error
+
+
 def test_what_is_not_read_says_why(tmp_path, capsys):
     _, found, _, _ = command(tmp_path, capsys)
     assert (found["eq:set"]["read"], found["eq:set"]["kind"]) == ("not read", "relation")

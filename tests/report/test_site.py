@@ -206,7 +206,7 @@ def test_the_sentence_of_result_counts(report):
         (status.MODULO_OPEN, "Theorem 2 stands if what is open holds."),
         (status.UNDECIDED, "Theorem 2 is open."),
         (status.REFUTED, "1 observed."),
-        (status.CITED, "1 observed."),
+        (status.CITED, "Theorem 2 rests on what is cited."),
     ],
 )
 def test_a_result_stands_as_its_claim_does(report, mark, said):
