@@ -65,6 +65,8 @@ ROWS = (
     Row("vanishing", omega="3000", mu="1/99000", tolerance=0.05),
     Row("vanishing", omega="300", mu="1/9900", tolerance=0.06),
     Row("vanishing", omega="100", mu="1/3300", tolerance=0.06),
+    Row("vanishing", omega="131/2", mu="3/6550", tolerance=0.1),
+    Row("vanishing", omega="627/10", mu="1/2090", tolerance=0.1),
     Row("vanishing", radius="31/25", tolerance=0.3),
     Row("vanishing", radius="13/10", tolerance=0.3),
     Row("vanishing", tolerance=0.3),
