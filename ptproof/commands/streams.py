@@ -13,6 +13,7 @@ from contextlib import contextmanager, suppress
 from typing import Any, TextIO
 
 _results: TextIO | None = None
+_settled = False
 
 
 def out() -> TextIO:
@@ -22,14 +23,18 @@ def out() -> TextIO:
 
 @contextmanager
 def aside() -> Iterator[None]:
-    """While the code of a derivation may run: what it prints goes to standard error, and :func:`out` stays."""
+    """While the code of a derivation may run: what it prints goes to standard error, and :func:`out` stays.
+
+    In a process of the program's own that is so to its end, since a derivation may have started threads that go on.
+    """
     global _results
     usual, held = sys.stdout, _results
     _results, sys.stdout = out(), sys.stderr
     try:
         yield
     finally:
-        sys.stdout, _results = usual, held
+        if not _settled:
+            sys.stdout, _results = usual, held
 
 
 class Output(io.TextIOWrapper):
@@ -96,7 +101,9 @@ def settle(closed: set[int]) -> Output:
     if os.isatty(1) and not os.isatty(2):
         with suppress(OSError):  # libraries look at 0, 1 and 2 for the width
             os.environ.setdefault("COLUMNS", str(os.get_terminal_size(1).columns))
+    global _settled
     encoding = getattr(sys.stdout, "encoding", None) or "utf-8"
+    _settled = True
     results = Output(os.dup(1), encoding, "it is closed" if 1 in closed else "")
     private(results.fileno())
     os.dup2(2, 1)
