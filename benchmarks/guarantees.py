@@ -71,6 +71,8 @@ ROWS = (
     Row("vanishing", radius="13/10", tolerance=0.3),
     Row("vanishing", tolerance=0.3),
     Row("nonvanishing", omega="3000", mu="1/99000", tolerance=0.25),
+    Row("nonvanishing", omega="100", mu="1/2000", tolerance=0.25),
+    Row("nonvanishing", omega="479/5", mu="1/1916", tolerance=0.25),
     Row("nonvanishing", radius="26/25", tolerance=0.3),
     Row("nonvanishing", radius="109/100", tolerance=0.3),
     Row("nonvanishing", tolerance=0.3),
