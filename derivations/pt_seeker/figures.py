@@ -101,7 +101,8 @@ def _guarantees() -> Table:
         hover = "" if row["hover"] is None else at_most(row["hover"], 3)
         said = at_most(row["final"], 3) if known else "no guarantee is known"
         numbers = (f"{row['omega']:g}", f"{row['mu']:.3g}", at_least(row["start_radius"]))
-        return (row["command"], *numbers, said, hover, f"{row['seconds']:.0f}", "" if known else row["detail"])
+        spent = "" if row["seconds"] is None else f"{row['seconds']:.0f}"  # one was found by a search, not timed alone
+        return (row["command"], *numbers, said, hover, spent, "" if known else row["detail"])
 
     return Table(
         "Guarantees for the vehicle",
