@@ -19,8 +19,6 @@ def sample(claims):
     return lot.sample(list(neighbours(proved)), SHARES * OF_EACH)
 
 
-# A time limit that ends a step while Python runs a callback of its own is said by Python to be ignored there.
-@pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
 @pytest.mark.parametrize("share", range(SHARES))
 def test_nothing_false_is_proved(sample, share):
     outcomes = []
