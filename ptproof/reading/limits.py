@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import ctypes
+import sys
 import threading
+import time
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from typing import Any, Generic, TypeVar
@@ -19,6 +21,7 @@ from ptproof.reading.system import MEMORY, memory_here
 Answer = TypeVar("Answer")
 Key = TypeVar("Key")
 _STACK = 64 * 2**20
+_PAUSE = 0.005  # until a thread has left the callback in which it was told to stop [s]
 
 
 class OutOfTime(Exception):
@@ -68,6 +71,7 @@ class _Working(Generic[Answer]):
         self._guard = threading.Lock()
         self._told = self._begun = self._over = False
         self._inside = 0
+        _listen()
         self.thread = threading.Thread(target=self._run, daemon=True, name="ptproof time limit")
         usual = threading.stack_size(_STACK)  # expressions are deep, and some systems give a thread very little
         try:
@@ -90,6 +94,15 @@ class _Working(Generic[Answer]):
             if self._begun and not self._inside:
                 _raise_in(self.thread, Stop)
             return False
+
+    def tell_again(self) -> None:
+        """Tell the thread once more, from another one, after what had swallowed the first time."""
+
+        def tell() -> None:
+            time.sleep(_PAUSE)
+            self.over_or_told()
+
+        threading.Thread(target=tell, daemon=True, name="ptproof tells again").start()
 
     @contextmanager
     def unbroken(self) -> Iterator[None]:
@@ -121,6 +134,24 @@ class _Working(Generic[Answer]):
             with self._guard:
                 self._over = True
                 _raise_in(self.thread, None)  # not in the steps by which a thread ends
+
+
+def _listen() -> None:
+    """Hear of what Python swallows: nothing can be raised out of a callback of its garbage collector or of a weak
+    reference, or out of ``__del__``. Whoever is told to stop there is told again, and that is nothing to report."""
+    usual = sys.unraisablehook
+    if getattr(usual, "hears_limits", False):
+        return
+
+    def hook(unraisable: Any, /) -> None:
+        working: _Working[Any] | None = getattr(_here, "working", None)
+        if unraisable.exc_type is Stop and working is not None:
+            working.tell_again()
+        else:
+            usual(unraisable)
+
+    hook.hears_limits = True  # type: ignore[attr-defined]
+    sys.unraisablehook = hook
 
 
 def _raise_in(thread: threading.Thread, error: type[BaseException] | None) -> None:

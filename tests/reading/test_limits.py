@@ -1,9 +1,12 @@
 """A time limit within this process."""
 
+import gc
 import mmap
 import os
+import sys
 import threading
 import time
+import weakref
 from contextlib import suppress
 
 import pytest
@@ -37,6 +40,65 @@ def _wait_until_all_have_ended():
             return
         time.sleep(0.01)
     pytest.fail("the thread still runs")
+
+
+class _Swallows:
+    """What is raised here is never heard of: Python only reports it."""
+
+    def __del__(self):
+        until = time.monotonic() + 0.2
+        while time.monotonic() < until:
+            pass
+
+
+def _by_a_weak_reference():
+    class Thing:
+        pass
+
+    thing = Thing()
+    return thing, weakref.ref(thing, lambda reference: _Swallows.__del__(None))
+
+
+def _by_the_collector():
+    def spin(phase, info):
+        if phase == "start":
+            _Swallows.__del__(None)
+
+    gc.callbacks.append(spin)
+    try:
+        gc.collect()
+    finally:
+        gc.callbacks.remove(spin)
+
+
+@pytest.mark.parametrize("swallow", [_Swallows, _by_a_weak_reference, _by_the_collector])
+def test_who_is_told_where_nothing_can_be_raised_is_told_again(swallow):
+    entered = []
+
+    def work():
+        entered.append(swallow() is None)  # what comes back dies here
+        while True:
+            pass
+
+    with pytest.raises(OutOfTime):
+        within(0.05, work)
+    _wait_until_all_have_ended()
+    assert len(entered) <= 1
+
+
+def test_what_else_is_swallowed_is_reported():
+    heard, usual = [], sys.unraisablehook
+    sys.unraisablehook = heard.append
+    try:
+
+        class Fails:
+            def __del__(self):
+                raise KeyError("lost")
+
+        within(10, lambda: Fails() and None)
+    finally:
+        sys.unraisablehook = usual
+    assert [type(entry.exc_value) for entry in heard] == [KeyError]
 
 
 def test_what_must_not_be_broken_off_runs_to_its_end_and_nothing_after_it():
