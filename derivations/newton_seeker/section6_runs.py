@@ -139,7 +139,7 @@ published = observed(
     "published", place="Section VI, fig:hessian",
 )  # fmt: skip
 threshold = observed(
-    "newton/6-observed-threshold", "By the text alone the h of the figures was more than 0.3875",
+    "newton/6-observed-threshold", "Up to an h near 0.388 the state d passes a hundred times 1/H on its way",
     "Between h = 0.3875 and 0.3878 lies the rate from which on the state d stays below a hundred times 1/H",
     "threshold",
 )  # fmt: skip

@@ -139,11 +139,8 @@ def _answered(
 def _asked(problem: _Problem, told_facts: bool, seconds: float) -> Answer:
     z3, tried = library(), []
     # What the facts say may be enough, whatever the roots in them are roots of.
-    told = bool(problem.generators.relations and told_facts)
-    if (
-        told
-        and problem.solver(z3, "default", int(1000 * min(seconds / 5, _SECONDS_TOLD)), opaque=True).check() == z3.unsat
-    ):
+    told, most = bool(problem.generators.relations and told_facts), int(1000 * min(seconds / 5, _SECONDS_TOLD))
+    if told and problem.solver(z3, "default", most, opaque=True).check() == z3.unsat:
         return Answer(True, "z3 (default)")
     for tactic, share in (("default", 0.5), ("qfnra-nlsat", 0.5)):
         context = problem.solver(z3, tactic, int(1000 * seconds * share))
