@@ -28,7 +28,7 @@ def entry(item: Item) -> str:
     for rule in item.rules:
         lines += ["# By the chain rule; what has no rate of its own is taken for a constant.", _rule(rule)]
     lines += [
-        laid_out(f"{fact.name} = {SIGNS[fact.pair.sign]}", (fact.pair.left, fact.pair.right)) for fact in item.facts
+        laid_out(f"{fact.name} = {SIGNS[fact.said.sign]}", (fact.said.left, fact.said.right)) for fact in item.facts
     ]
     lines.append(_definition(item) if item.kind == "definition" else _claim(item))
     return "\n".join(lines)
@@ -150,7 +150,9 @@ def _engine(item: Item) -> str:
         return "limits"
     if any(side.has(sp.Integral) for side in sides):
         return "integrals"
-    return "exact" if all(pair.sign == "=" for pair in item.pairs) else "reals"
+    # Exact algebra puts in what letters are; a law that is not solved for its rate has to be reasoned with.
+    plain = not any(fact.written for fact in item.givens)
+    return "exact" if plain and all(pair.sign == "=" for pair in item.pairs) else "reals"
 
 
 def _rule(rule: Fact) -> str:

@@ -18,6 +18,8 @@ from ptproof.reading.latex.statements import Pair
 class Fact:
     """An equation about ``head`` that the claims after it may be under: as the paper defines it, or by the chain rule.
 
+    ``written`` is the equation as the paper has it, where that is not solved for its head.
+
     By the chain rule it is the rate of what the fact ``of`` defines: ``chain`` has the letters that move with the names
     of their rates (none for the time itself), and ``inner`` what is put in before, round by round. The paper may have
     it at a ``shift`` of the argument of its head.
@@ -28,9 +30,15 @@ class Fact:
     pair: Pair
     file: str
     shift: sp.Expr | None = None
+    written: Pair | None = None
     of: Fact | None = None
     chain: tuple[tuple[str, str], ...] = ()
     inner: tuple[tuple[Fact, ...], ...] = ()
+
+    @property
+    def said(self) -> Pair:
+        """The equation as the paper has it."""
+        return self.written or self.pair
 
     @property
     def uses(self) -> tuple[Fact, ...]:
@@ -106,3 +114,41 @@ def unwritable(pairs: Sequence[Pair]) -> str:
         except InputError as error:
             return str(error)
     return ""
+
+
+def law_of(pair: Pair, moved: Mapping[str, tuple[sp.Expr, sp.Symbol]], facts: Mapping[sp.Expr, Fact]) -> Pair | None:
+    """An equation that says how one letter moves, solved for its rate: as m dv/dt = u − bv for dv/dt.
+
+    None where it has the rates of several letters, where the rate is not a term of it, or where something is said of
+    the letter or of its rate already.
+    """
+    symbols = pair.left.free_symbols | pair.right.free_symbols
+    rates = [symbol for symbol in symbols if symbol.name in moved]
+    if pair.sign != "=" or len(rates) != 1 or rates[0] in facts or moved[rates[0].name][0] in facts:
+        return None
+    (rate,) = rates
+    gap = sp.expand(pair.left - pair.right)
+    factor = sp.diff(gap, rate)
+    if factor == 0 or factor.has(rate) or pair.left == rate:
+        return None
+    return Pair(rate, "=", sp.expand(gap - factor * rate) / -factor)
+
+
+def puts_in(pairs: Sequence[Pair], general: Mapping[str, Fact]) -> dict[Pair, tuple[Fact, ...]]:
+    """For each relation the definitions of its functions, those first in which others occur."""
+    found = {}
+    for pair in pairs:
+        names: dict[str, None] = {}
+        _functions_in(pair.left, general, names)
+        _functions_in(pair.right, general, names)
+        if names:
+            found[pair] = tuple(general[name] for name in reversed(names))
+    return found
+
+
+def _functions_in(expression: sp.Expr, general: Mapping[str, Fact], names: dict[str, None]) -> None:
+    for part in sorted(expression.atoms(AppliedUndef), key=str):
+        name = part.func.__name__
+        if name in general and name not in names:
+            _functions_in(general[name].pair.right, general, names)
+            names[name] = None

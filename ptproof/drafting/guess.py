@@ -12,6 +12,8 @@
   side is one, or as P in xᵀ P x. A bar, a tilde, a hat, a star and the index 0 do not change that.
   A bold or a transposed letter of unknown size is not read.
 - A *time* is t, and what a derivative d/d· is taken by.
+- e with an exponent is the exponential. Where e stands alone elsewhere it is a letter with a whole number, and has two
+  readings with another exponent.
 - I beside a square matrix is the identity. A word that names what is not smooth (sat, sgn) is not guessed.
 """
 

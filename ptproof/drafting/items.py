@@ -1,8 +1,9 @@
 """What each formula of a paper becomes: a definition, a claim or a gap.
 
-- The first equation whose left side is one letter, its rate, or a function at letters is a *definition* of that. So is
-  one of a function at a shifted time, as ν(t − t₀), and of one at functions that occurs first there. So is what stands
-  in an assumption of the paper, an inequality between bare letters or numbers, and a definition repeated.
+- The first equation whose left side is one letter, its rate, or a function at letters is a *definition* of that, and so
+  is one that can be solved for the rate of a letter of which nothing is said yet. So is one of a function at a shifted
+  time, as ν(t − t₀), and of one at functions that occurs first there. So is what stands in an assumption of the paper,
+  an inequality between bare letters or numbers, and a definition repeated.
 - An equation for a rate that is defined, in which another letter that moves occurs for the first time, is no result of
   what was said before: another *system* begins. The rates of its letter, its solution and its laws are said anew.
 - Every other relation is a *claim*, under the definitions of its letters that come before it in the text.
@@ -18,7 +19,18 @@ from dataclasses import dataclass, field
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ptproof.drafting.facts import Fact, depends, for_all, is_again, is_general, of_atoms, unshifted, unwritable
+from ptproof.drafting.facts import (
+    Fact,
+    depends,
+    for_all,
+    is_again,
+    is_general,
+    law_of,
+    of_atoms,
+    puts_in,
+    unshifted,
+    unwritable,
+)
 from ptproof.drafting.headings import Heading, slug
 from ptproof.drafting.names import unused
 from ptproof.drafting.paper import Paper
@@ -125,6 +137,8 @@ class _Drafting:
                 facts.append(self.new_fact(at_all, pair.left.args[0]))
             elif self.is_definition(pair):
                 facts.append(self.new_fact(pair))
+            elif (law := law_of(pair, self.paper.moved, self.facts)) is not None and self.is_definition(law):
+                facts.append(self.new_fact(law, written=pair))
             elif (fact := self.facts.get(pair.left)) is not None and is_again(fact, pair):
                 known.append(fact)
             elif fact is not None and begins_anew(fact, pair, self.formula.line, self.paper):
@@ -154,7 +168,7 @@ class _Drafting:
             fact for fact in givens if not fact.chain and any(p.sign == "=" and fact.head == p.left for p in claims)
         )
         every = [*claims, *conditions, *(fact.pair for fact in givens)]
-        puts = self.puts(every)
+        puts = puts_in(every, self.general)
         every += [fact.pair for used in puts.values() for fact in used]
         letters = {symbol for pair in every for symbol in pair.left.free_symbols | pair.right.free_symbols}
         return Item(
@@ -192,12 +206,12 @@ class _Drafting:
                 self.twice.add(fact.head.func.__name__)
                 self.general.pop(fact.head.func.__name__, None)
 
-    def new_fact(self, pair: Pair, shift: sp.Expr | None = None) -> Fact:
+    def new_fact(self, pair: Pair, shift: sp.Expr | None = None, written: Pair | None = None) -> Fact:
         head = pair.left
         word = head.name if head.is_Symbol else head.func.__name__
         name = unused(f"{word}_is", {*self.names, *self.paper.declared})
         self.names.add(name)
-        fact = self.facts[head] = Fact(name, head, pair, self.heading.file, shift)
+        fact = self.facts[head] = Fact(name, head, pair, self.heading.file, shift, written)
         if isinstance(head, AppliedUndef) and word not in {*self.paper.states, *self.twice} and is_general(pair):
             self.general.setdefault(word, fact)
         return fact
@@ -259,7 +273,7 @@ class _Drafting:
         if depends(pair.right, rate, self.facts):
             return None
         name = unused(f"{rate.name}_is", {*self.names, *self.paper.declared})
-        return Fact(name, rate, pair, self.heading.file, None, said, chain, tuple(inner))
+        return Fact(name, rate, pair, self.heading.file, of=said, chain=chain, inner=tuple(inner))
 
     # --- What claims are under ---------------------------------------------------------------------------------------
 
@@ -280,21 +294,3 @@ class _Drafting:
             elif part in self.facts:
                 yield from self.behind(self.facts[part].pair.right, seen)
                 yield self.facts[part]
-
-    def puts(self, pairs: Sequence[Pair]) -> dict[Pair, tuple[Fact, ...]]:
-        """For each relation the definitions of its functions, those first in which others occur."""
-        found = {}
-        for pair in pairs:
-            names: dict[str, None] = {}
-            self.functions_in(pair.left, names)
-            self.functions_in(pair.right, names)
-            if names:
-                found[pair] = tuple(self.general[name] for name in reversed(names))
-        return found
-
-    def functions_in(self, expression: sp.Expr, names: dict[str, None]) -> None:
-        for part in sorted(expression.atoms(AppliedUndef), key=str):
-            name = part.func.__name__
-            if name in self.general and name not in names:
-                self.functions_in(self.general[name].pair.right, names)
-                names[name] = None

@@ -172,7 +172,7 @@ def _imports(items: Sequence[Item], file: str, used: str) -> Iterator[str]:
             *item.pairs,
             *item.others,
             *item.conditions,
-            *(fact.pair for fact in item.facts if not fact.chain),
+            *(fact.said for fact in item.facts if not fact.chain),
         ):
             names |= _names(pair.left) | _names(pair.right)
         for fact in item.facts:

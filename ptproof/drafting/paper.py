@@ -212,4 +212,7 @@ def _alone(side: Sequence[Token]) -> str:
 
 
 def _has_power_of_e(tokens: Sequence[Token]) -> bool:
-    return any(pair == ("e", "^") for pair in pairwise(token.text for token in tokens))
+    """Whether e has an exponent other than a whole number, of which whoever has a letter e means the power."""
+    texts = [token.text for token in tokens]
+    behind = (texts[at + 2 : at + 5] for at, pair in enumerate(pairwise(texts)) if pair == ("e", "^"))
+    return any(not "".join(found[:1] if found[:1] != ["{"] else found).strip("{}").isdecimal() for found in behind)

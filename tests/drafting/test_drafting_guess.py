@@ -52,6 +52,8 @@ REFUSED = {
     "V = h (x - y)": "product and a function",
     "V = u(k t) + u + k": "product and a function",
     "V = e + e^{x}": "e stands alone elsewhere",
+    "V = e + e^{-2}": "e stands alone elsewhere",
+    "V = e + e^{2 x}": "e stands alone elsewhere",
     r"V = \mathbf{x} + 1": "of what size",
     r"V = x^\top y": "of what size",
     r"\dot{d} = d (1 - x), \quad d(0) = 1": "product and a function",
@@ -129,3 +131,9 @@ def test_a_value_of_a_letter_does_not_spoil_the_formulas_in_which_it_stands_alon
     first, second = read("V = x + 1", "V(0) = 1").said
     assert str(first.reading) == "V = x + 1"
     assert second.reading is None
+
+
+@pytest.mark.parametrize(("formula", "meaning"), [("V = e + e^2 + e^{3}", "e**3 + e**2 + e"), ("V = e^2", "exp(2)")])
+def test_a_letter_e_has_whole_numbers_for_powers(formula, meaning):
+    (said,) = read(formula).said
+    assert str(said.reading.pairs[0].right) == meaning

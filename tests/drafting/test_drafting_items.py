@@ -40,6 +40,12 @@ KINDS = {
     (r"\nu(t + T) = \nu(t)",): ["claim"],
     (r"\dot{x} = -x", r"V(x(t), \nu(t)) = x + \nu(t)"): ["definition", "definition"],
     ("V(a, b) = a^2", "V(F(0), b) = 3"): ["definition", "claim"],
+    (r"m \dot{v} = u - b v",): ["definition"],
+    (r"u - b v = m \dot{v}", r"m \dot{v} = 2 u"): ["definition", "claim"],
+    (r"m \dot{v} + \dot{x} = u",): ["claim"],
+    (r"\dot{v}^2 = u",): ["claim"],
+    (r"m \dot{v} \le u",): ["claim"],
+    ("V = x^2", r"\dot{x} = -x", r"2 \dot{V} = -x"): ["definition", "definition", "claim"],
 }
 
 
@@ -63,6 +69,13 @@ def test_another_system_begins_where_something_new_moves(formulas):
 def test_a_claim_about_another_system_is_not_under_the_law_of_the_first_one():
     *_, last = items(*FIRST, r"\dot{x} = u(t) + \theta", r"\dot{\theta} = x", "u(t) = 3", r"\dot{x} = 3 + \theta")
     assert [str(fact.pair) for fact in last.givens] == ["u(t) = 3", "x_dot = theta + u(t)"]
+
+
+def test_a_law_is_written_as_the_paper_has_it_and_used_as_solved():
+    law, _, rate = items(r"m \dot{v} = u - b v", "V = m v^2", r"\dot{V} = 2 v u")
+    (fact,) = law.facts
+    assert (str(fact.said), str(fact.pair)) == ("m*v_dot = -b*v + u", "v_dot = -(b*v - u)/m")
+    assert fact in rate.givens
 
 
 @pytest.mark.parametrize("formulas", KINDS, ids=str)

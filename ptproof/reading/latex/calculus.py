@@ -144,13 +144,7 @@ class Calculus(Letters):
         return integral(body, (variable, self.inner(lower), self.inner(upper)), at)
 
     def limits(self, at: Token) -> tuple[list[Token], list[Token]]:
-        lower: list[Token] = []
-        upper: list[Token] = []
-        while self.text in ("_", "^"):
-            if self.take().text == "_":
-                lower = self.argument(at)
-            else:
-                upper = self.argument(at)
+        lower, upper = self.scripts(at)
         if not lower or not upper:
             raise self.refuse("integral", f"{at.text} without its two limits is not read", at)
         return lower, upper

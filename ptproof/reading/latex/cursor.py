@@ -60,6 +60,17 @@ class Cursor:
         found, self.position = argument(self.tokens, self.position, of)
         return found
 
+    def scripts(self, of: Token) -> tuple[list[Token], list[Token]]:
+        """What stands below and above, in either order; a second of one kind is left where it is."""
+        low: list[Token] = []
+        high: list[Token] = []
+        while self.text in ("_", "^") and not (low if self.text == "_" else high):
+            if self.take().text == "_":
+                low = self.argument(of)
+            else:
+                high = self.argument(of)
+        return low, high
+
     def optional(self) -> list[Token]:
         """An argument in brackets, or nothing."""
         if self.text != "[":

@@ -64,13 +64,7 @@ class Letters(Cursor):
         return self.looked_up(self.named(), start)
 
     def looked_up(self, base: list[Token], start: Token) -> Any:
-        low: list[Token] = []
-        high: list[Token] = []
-        while self.text in ("_", "^") and not (low if self.text == "_" else high):
-            if self.take().text == "_":
-                low = self.argument(start)
-            else:
-                high = self.argument(start)
+        low, high = self.scripts(start)
         for index, exponent, rest in ((low, high, []), (low, [], high)):
             key = spelling([*base, *_script("_", index), *_script("^", exponent)])
             if (value := self.at_arguments(key)) is not None:
@@ -128,13 +122,7 @@ class Letters(Cursor):
 
     def dotted(self, tokens: list[Token], at: Token) -> tuple[Any, list[Token]]:
         """What a dot stands over: a letter, with the index and the arguments behind it; and the exponent there."""
-        low: list[Token] = []
-        high: list[Token] = []
-        while self.text in ("_", "^") and not (low if self.text == "_" else high):
-            if self.take().text == "_":
-                low = self.argument(at)
-            else:
-                high = self.argument(at)
+        low, high = self.scripts(at)
         key = spelling([*tokens, *_script("_", low)])
         if key in self.notation.functions and (self.text == "(" or key not in self.notation.letters):
             return self.applied(key, [], at), high

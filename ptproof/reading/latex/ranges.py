@@ -24,13 +24,7 @@ class Ranges(Calculus):
 
     def read_sum(self, at: Token) -> Any:
         """The sum written out, over the numbers that the range says; each index is put in as a number."""
-        lower: list[Token] = []
-        upper: list[Token] = []
-        while self.text in ("_", "^"):
-            if self.take().text == "_":
-                lower = self.argument(at)
-            else:
-                upper = self.argument(at)
+        lower, upper = self.scripts(at)
         start, total = self.position, None
         for values in self.indices(lower, upper, at):
             part = type(self)([*self.tokens[:start], *_put_in(self.tokens[start:], values)], self.notation)
