@@ -73,10 +73,11 @@ def _on_line(
     names: dict[str, str],
 ) -> Found | None:
     """What is wrong at a zero of the argument in the domain, where one variable moves and the others have values."""
-    restricted, line = (entry.subs(values, simultaneous=True) for entry in (argument, expression))
-    for root in _roots(restricted, variable):
+    for root in _roots(argument.subs(values, simultaneous=True), variable):
         place = _Place(variable, root, values, domain, names)
-        found = place.examine(line, order) if place.is_allowed(root) else None
+        if not place.is_allowed(root):
+            continue
+        found = place.examine(expression.subs(values, simultaneous=True), order)
         if found is not None:
             return found
     return None
