@@ -17,6 +17,7 @@ from ptproof.reading.latex.formulas import Formula, Formulas
 from ptproof.reading.latex.rewrite import Rules
 from ptproof.reading.latex.statements import Pair, Reading, read_formula
 from ptproof.reading.latex.tokens import NotUnderstood
+from ptproof.reading.latex.typeset import pieces, typeset
 from ptproof.report.sameness import same
 from ptproof.report.stated import Item, Printed, Stated, stated
 
@@ -25,10 +26,11 @@ Read = Literal["equal", "different", "not read"]
 
 @dataclass(frozen=True)
 class Part:
-    """Which of a claim's own relations, by number, a formula is; how many there are."""
+    """Which of a claim's own relations, by number, a formula is; how many there are; and that as LaTeX."""
 
     parts: frozenset[int]
     of: int
+    latex: str = ""
 
 
 @dataclass(frozen=True)
@@ -96,7 +98,19 @@ def _compared(formula: Formula, formulas: Formulas, source: Printed, items: tupl
         reading = read_formula(formula, formulas.macros, meaning)
     except NotUnderstood as error:
         return Compared(formula, ids, "not read", error.kind, str(error))
-    return _Comparison(formula, items, reading, source).judged()
+    return _Comparison(replace(formula, text=typeset(formula.text, formulas.macros)), items, reading, source).judged()
+
+
+def compare_correction(claim: Item, formula: Formula, source: Printed) -> Compared:
+    """Read what a claim says ought to be printed, and hold it against that claim alone."""
+    try:
+        reading = read_formula(formula, {}, source.letters(formula))
+    except NotUnderstood as error:
+        return Compared(formula, (claim.id,), "not read", error.kind, str(error))
+    found = _Comparison(formula, (claim,), reading, source, corrections=True).judged()
+    if found.read == "equal" and not (claim.id in found.said and found.said[claim.id].parts):
+        found = replace(found, read="not read", detail="the claim does not state it itself")
+    return replace(found, covered=(claim.id,))
 
 
 @dataclass(frozen=True)
@@ -107,6 +121,7 @@ class _Comparison:
     items: tuple[Item, ...]
     reading: Reading
     source: Printed
+    corrections: bool = False
 
     @cached_property
     def _stated(self) -> dict[str, Stated | None]:
@@ -118,7 +133,7 @@ class _Comparison:
 
     def candidates(self) -> Iterator[Stated]:
         for item in self.items:
-            if getattr(item, "corrects", None):
+            if getattr(item, "corrects", None) and not self.corrections:
                 continue  # what ought to be printed is not what is printed
             if item.id not in self._stated:
                 self._stated[item.id] = stated(item, self.formula, self.source)
@@ -174,8 +189,26 @@ class _Comparison:
         for says in self.candidates():
             parts = frozenset[int]().union(*map(says.parts, (*self.reading.pairs, *self.reading.conditions)))
             if parts or says.id in used:
-                found[says.id] = Part(parts, len(says.pairs))
+                found[says.id] = Part(parts, len(says.pairs), self.excerpt(says))
         return found
+
+    def excerpt(self, says: Stated) -> str:
+        """What of the formula this claim states, where that can be told apart from the rest."""
+        mine = [text for text, pairs in self._pieces if any(says.parts(pair) for pair in pairs)]
+        return r" \\ ".join(mine) if mine else self.formula.text
+
+    @cached_property
+    def _pieces(self) -> list[tuple[str, tuple[Pair, ...]]]:
+        """What stands side by side in the formula; nothing where a part of it is not read by itself."""
+        found = pieces(self.formula.text)
+        if len(found) < 2:
+            return []
+        letters = self.source.letters(self.formula)
+        try:
+            each = [read_formula(replace(self.formula, text=text), {}, letters) for text in found]
+        except NotUnderstood:
+            return []
+        return [(text, (*said.pairs, *said.conditions)) for text, said in zip(found, each, strict=True)]
 
     def saying(self, pair: Pair) -> Stated | None:
         """The first that has both sides of this relation, if it has them in this relation.
