@@ -14,6 +14,7 @@ from typing import Any, Literal
 from sympy.core.function import AppliedUndef
 
 from ptproof.reading.latex.formulas import Formula, Formulas
+from ptproof.reading.latex.notation import context
 from ptproof.reading.latex.rewrite import Rules
 from ptproof.reading.latex.statements import Pair, Reading, read_formula
 from ptproof.reading.latex.tokens import NotUnderstood
@@ -57,6 +58,8 @@ class Compared:
         What each claim or definition that says it says of it.
     beside
         Of a formula that is different: what comes nearest.
+    apart
+        The letters that mean something here that they do not mean elsewhere.
     """
 
     formula: Formula
@@ -68,6 +71,7 @@ class Compared:
     covered: tuple[str, ...] = ()
     said: Mapping[str, Part] = field(default_factory=dict)
     beside: str = ""
+    apart: tuple[str, ...] = ()
 
     def to_json(self) -> dict[str, Any]:
         return {
@@ -86,7 +90,9 @@ def compare(formula: Formula, formulas: Formulas, source: Printed) -> Compared:
     """Read one formula and hold it against what covers it."""
     items = source.covering(formula)
     found = _compared(formula, formulas, source, items)
-    return replace(found, covered=tuple(item.id for item in items))
+    here = [source.table.where[number] for number in context(source.table, formula.place)]
+    apart = dict.fromkeys(letter for item in here for letter in (*item.letters, *item.functions))
+    return replace(found, covered=tuple(item.id for item in items), apart=tuple(apart))
 
 
 def _compared(formula: Formula, formulas: Formulas, source: Printed, items: tuple[Item, ...]) -> Compared:
@@ -108,7 +114,7 @@ def compare_correction(claim: Item, formula: Formula, source: Printed) -> Compar
     except NotUnderstood as error:
         return Compared(formula, (claim.id,), "not read", error.kind, str(error))
     found = _Comparison(formula, (claim,), reading, source, corrections=True).judged()
-    if found.read == "equal" and not (claim.id in found.said and found.said[claim.id].parts):
+    if found.read == "equal" and claim.id not in found.said:
         found = replace(found, read="not read", detail="the claim does not state it itself")
     return replace(found, covered=(claim.id,))
 
@@ -183,11 +189,15 @@ class _Comparison:
         unknown = name.has(AppliedUndef) or (name.is_Symbol and not brace.entry)
         return not unknown or any(says.knows(brace.left) for says in self.candidates())
 
+    @property
+    def everything(self) -> tuple[Pair, ...]:
+        return (*self.reading.pairs, *self.reading.conditions, *self.reading.braces)
+
     def said(self, used: Iterable[str]) -> dict[str, Part]:
         """What each that says a relation of this formula says of it; ``used`` may say it among what it assumes."""
         found: dict[str, Part] = {}
         for says in self.candidates():
-            parts = frozenset[int]().union(*map(says.parts, (*self.reading.pairs, *self.reading.conditions)))
+            parts = frozenset[int]().union(*map(says.parts, self.everything))
             if parts or says.id in used:
                 found[says.id] = Part(parts, len(says.pairs), self.excerpt(says))
         return found

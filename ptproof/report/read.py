@@ -30,7 +30,9 @@ class ReadSide:
     latex
         Where it is equal: the formulas, or the parts of them that it states, as the paper prints them.
     whole
-        Whether they say all that the claim says.
+        Whether they say all that the claim says, and not only what it assumes.
+    apart
+        The letters of the paper that mean something in these formulas that they do not mean elsewhere.
     """
 
     read: Read
@@ -38,9 +40,17 @@ class ReadSide:
     detail: str = ""
     latex: tuple[str, ...] = ()
     whole: bool = True
+    apart: tuple[str, ...] = ()
 
     def to_json(self) -> dict[str, Any]:
-        return {"read": self.read, "places": list(self.places), "detail": self.detail, "printed": list(self.latex)}
+        return {"read": self.read, "places": list(self.places), "detail": self.detail, "printed": list(self.latex),
+                "whole": self.whole, "apart": list(self.apart)}  # fmt: skip
+
+    @staticmethod
+    def from_json(data: Mapping[str, Any]) -> ReadSide:
+        """The side that was written."""
+        latex, apart = tuple(data["printed"]), tuple(data["apart"])
+        return ReadSide(data["read"], tuple(data["places"]), data["detail"], latex, data["whole"], apart)
 
 
 def read_sides(source: str, derivation: Derivation) -> Mapping[str, ReadSide]:
@@ -88,8 +98,9 @@ def side_of(id: str, formulas: list[Compared]) -> ReadSide:
     met = frozenset().union(*(item.said[id].parts for item in said))
     of = said[0].said[id].of
     detail = f"{len(met)} of its {of} relations" if 0 < len(met) < of else ""
-    latex = dict.fromkeys(item.said[id].latex for item in said if item.said[id].parts)
-    return ReadSide("equal", _places(said), detail, tuple(latex), len(met) == of)
+    latex = dict.fromkeys(item.said[id].latex for item in said)
+    apart = dict.fromkeys(letter for item in said for letter in item.apart)
+    return ReadSide("equal", _places(said), detail, tuple(latex), len(met) == of, tuple(apart))
 
 
 def _places(formulas: Iterable[Compared]) -> tuple[str, ...]:
