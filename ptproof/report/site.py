@@ -208,9 +208,9 @@ def _listed(report: Report) -> str:
 def _short(report: Report) -> dict[str, str]:
     """The statements that can be shown beside a name, since they are short, by their anchors."""
     return {
-        claim.ref.anchor: str(_parts().formula(claim.lines, claim.words))
+        claim.ref.anchor: str(_parts().formula(claim.shown, claim.words))
         for claim in report.claims
-        if len(claim.lines) <= SHOWN_LINES and sum(width(line.latex) for line in claim.lines) < SHOWN_WIDTH
+        if len(claim.shown) <= SHOWN_LINES and sum(width(line.latex) for line in claim.shown) < SHOWN_WIDTH
     }
 
 
