@@ -106,7 +106,7 @@ def _gain() -> Instrument:
 
 
 def _critical() -> Instrument:
-    sliders = (order, gain, drift_gain, horizon, Slider(V0, "0.001", 20, "0.2", logarithmic=True), *steep)
+    sliders = (order, gain, drift_gain, horizon, Slider(V0, "0.001", 20, "0.005", logarithmic=True), *steep)
     take = partial(taken, sliders=sliders)
     at = {C1: c(1, kappa), C2: c(2, kappa), n: kappa - 1, t0: sp.S.Zero}
     turn = (T * (drift_root / feed_root - 1)).subs({C1: at[C1], C2: at[C2]})
@@ -158,7 +158,7 @@ def _clipped() -> Instrument:
         (
             Quantity("At the prescribed time the average is within", final, "right", "m", "clip.residual_bound_printed"),
             Quantity("The dilated time that passes", take(total_time, at={t0: sp.S.Zero}), "right", "s", "clip.tau_end"),
-            Quantity("The gain 1/ν² at the end", take(gain_after, at={t0: sp.S.Zero}), "right", "1"),
+            Quantity("The gain 1/ν² at the end", take(gain_after, at={t0: sp.S.Zero, t: T}), "right", "1"),
             Condition("After the clip V still falls", take(closer_after_corrected, assumed=True, part=3)),
             Plot("At the prescribed time the average is within", lowest, clip.lowest, clip.highest,
                  (Curve("bound for every ν_min", final),), r"\nu_{\min}", DISTANCE, logarithmic=True),

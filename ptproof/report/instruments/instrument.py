@@ -102,7 +102,7 @@ class Vehicle:
     Attributes
     ----------
     system, beside
-        In one and the same time; their parameters are sliders. The first two states are the position.
+        In one and the same time; their parameters are sliders.
     starts
         The first value of each state, in sliders.
     edges
@@ -117,6 +117,10 @@ class Vehicle:
         What says that this is the system of the paper, and this its average.
     keys
         Where the JSON of the command has the last position, and that of the system beside.
+    names
+        Of the two, for the reader.
+    places
+        The position of each in the plane, in the time and the states; left out, the first two states.
     """
 
     title: str
@@ -129,6 +133,17 @@ class Vehicle:
     field: sp.Expr
     claims: tuple[Claim, ...] = ()
     keys: tuple[str, str] = ("", "")
+    names: tuple[str, str] = ("vehicle", "its average")
+    places: tuple[tuple[sp.Expr, sp.Expr], ...] = ()
+
+    def __post_init__(self) -> None:
+        both = (self.system, self.beside)
+        if self.system.time != self.beside.time or any(set(one.state) - set(self.starts) for one in both):
+            raise InputError(f"{self.title}: the two systems need one time, and a start of each state")
+        object.__setattr__(self, "starts", {state: sp.sympify(value) for state, value in self.starts.items()})
+        object.__setattr__(self, "edges", tuple(map(sp.sympify, self.edges)))
+        if not self.places:
+            object.__setattr__(self, "places", tuple((one.state[0], one.state[1]) for one in both))
 
 
 Part = Quantity | Condition | Plot | Region | Vehicle
@@ -194,9 +209,9 @@ class Instrument:
         """The sliders' first positions."""
         return {slider.symbol: slider.start for slider in self.sliders}
 
-    def of(self, kind: type[Any]) -> tuple[Any, ...]:
-        """The parts of a kind."""
-        return tuple(part for part in self.parts if isinstance(part, kind))
+    def of(self, *kinds: type[Any]) -> tuple[Any, ...]:
+        """The parts of some kinds."""
+        return tuple(part for part in self.parts if isinstance(part, kinds))
 
     @property
     def sources(self) -> tuple[Claim | Definition, ...]:
@@ -219,6 +234,16 @@ def sources_of(part: Part) -> tuple[Claim | Definition, ...]:
     return (part.taken.source,)
 
 
+def expressions_of(part: Part) -> tuple[str, ...]:
+    """What is drawn, as text: curves, the condition of a region, the rates of a vehicle and of what is beside it."""
+    match part:
+        case Plot(curves=curves):
+            return tuple(str(curve.value) for curve in curves)
+        case Vehicle(system=system, beside=beside):
+            return tuple(str(rate) for rate in (*system.rhs, *beside.rhs))
+    return (str(part.value),)
+
+
 def _expressions(part: Part, symbols: tuple[sp.Symbol, ...]) -> Iterator[tuple[sp.Basic, tuple[sp.Symbol, ...]]]:
     """Every expression of a part that is printed, with the variables that it has beside the sliders."""
     match part:
@@ -231,9 +256,9 @@ def _expressions(part: Part, symbols: tuple[sp.Symbol, ...]) -> Iterator[tuple[s
         case Region():
             yield part.value, ()
         case Vehicle(system=system, beside=beside):
-            for moving in (system, beside):
-                yield from ((rate, (moving.time, *moving.state)) for rate in moving.rhs)
+            for moving, place in zip((system, beside), part.places, strict=True):
+                yield from ((rate, (moving.time, *moving.state)) for rate in (*moving.rhs, *place))
                 yield from ((part.starts[state], ()) for state in moving.state)
             yield from ((end, ()) for end in part.edges)
             yield part.clock, (system.time,)
-            yield part.field, system.state[:2]
+            yield part.field, system.state

@@ -74,8 +74,9 @@ def _picture(part: Part, of: Instrument) -> str:
                 name: _object(
                     rate=function(one.rhs, {"t": one.time, "x": one.state, "s": symbols}),
                     start=function([starts[state] for state in one.state], {"s": symbols}),
+                    place=function(place, {"t": one.time, "x": one.state, "s": symbols}),
                 )
-                for name, one in (("system", system), ("beside", beside))
+                for name, one, place in zip(("system", "beside"), (system, beside), part.places, strict=True)
             }
             return _object(
                 kind='"vehicle"', **moving, edges=function(part.edges, {"s": symbols}),

@@ -13,7 +13,7 @@ from sympy.core.function import AppliedUndef
 from ptproof.errors import InputError
 from ptproof.proof.claim import Claim, Definition
 from ptproof.proof.declarations import is_kind
-from ptproof.proof.statement import All, Relation, plain, relations_of
+from ptproof.proof.statement import All, Relation, eq, plain, relations_of
 from ptproof.proof.substitution import Substitution
 
 _SIGNS = {
@@ -71,10 +71,11 @@ class Slider:
 class Taken:
     """A relation of a claim or definition at some values, with those of its assumptions that speak of numbers.
 
-    Made by :func:`taken` alone. ``at`` is what was put in, and what letters are short for.
+    Made by :func:`taken` alone. ``own`` is the relation in the claim's own letters, ``at`` what was put in.
     """
 
     source: Claim | Definition
+    own: Relation
     relation: Relation
     given: tuple[Relation, ...]
     at: tuple[tuple[Any, sp.Expr], ...]
@@ -123,7 +124,9 @@ def taken(
     if not 0 <= part < len(parts):
         raise InputError(f"{source.id}: there is no part {part} of {len(parts)}")
     put = Substitution(dict(at or {}), lambda value, sign: _on_range(value, sign, sliders))
-    main, given = _spelled_out(parts[part], given, {item.symbol for item in sliders} | {*put.values, *(short or {})})
+    kept = {item.symbol for item in sliders} | {*put.values, *(short or {})}
+    spelled_out: dict[sp.Symbol, sp.Expr] = {}
+    main, given = _spelled_out(parts[part], given, kept, spelled_out)
     letters = {put.into(meant): letter for letter, meant in (short or {}).items()}
 
     def said(relation: Relation) -> Relation:
@@ -133,22 +136,27 @@ def taken(
     for meant, letter in letters.items():
         if not shown.left.has(meant) and not shown.right.has(meant):
             raise InputError(f"{source.id}: {letter} would be short for {meant}, which does not stand there")
-    kept = (said(item) for item in given if not assumed or item != main)
-    of_numbers = tuple(item for item in kept if not _functions(item) and compared(item) is not sp.true)
-    return Taken(source, said(main), of_numbers, (*put.values.items(), *((y, x) for x, y in letters.items())))
+    others = (said(item) for item in given if not assumed or item != main)
+    of_numbers = tuple(item for item in others if not _functions(item) and compared(item) is not sp.true)
+    own = parts[part].map(lambda side: side.xreplace({meant: letter for letter, meant in (short or {}).items()}))
+    at_once = {letter: value for letter, value in put.values.items() if letter in own.free_symbols}
+    spelled = {letter: said(eq(letter, meaning)).right for letter, meaning in spelled_out.items()}
+    return Taken(source, own, said(main), of_numbers, tuple({**at_once, **spelled}.items()))
 
 
 def _spelled_out(
-    main: Relation, given: tuple[Relation, ...], kept: Collection[Any]
+    main: Relation, given: tuple[Relation, ...], kept: Collection[Any], found: dict[sp.Symbol, sp.Expr]
 ) -> tuple[Relation, tuple[Relation, ...]]:
-    """A relation and the assumptions, with what letters are assumed to be equal to in their place."""
+    """A relation and the assumptions, with what letters are assumed to be equal to in their place; these are added to
+    ``found``, where the relation has them."""
     for item in given:
         letter, meaning = item.left, item.right
         if item.sign == "=" and isinstance(letter, sp.Symbol) and letter not in kept and not meaning.has(letter):
             others = tuple(other for other in given if other is not item)
             put = {letter: meaning}
+            found |= put if letter in main.free_symbols else {}
             spelled = [other.map(lambda side: side.xreplace(put)) for other in (main, *others)]  # noqa: B023
-            return _spelled_out(spelled[0], tuple(spelled[1:]), kept)
+            return _spelled_out(spelled[0], tuple(spelled[1:]), kept, found)
     return main, given
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -80,7 +81,8 @@ class Picture:
     title: str
     across: str
     up: str
-    lines: tuple[tuple[str, tuple[Line, ...]], ...]
+    lines: tuple[tuple[str, tuple[Line, ...], tuple[str, ...]], ...]
+    names: tuple[str, ...]
     refs: tuple[Ref, ...]
 
 
@@ -123,6 +125,12 @@ def shown(value: float) -> str:
     if math.isnan(value):
         return "not defined"
     return f"{'−' if value < 0 else ''}∞" if math.isinf(value) else f"{value:.6g}".replace("-", "−")
+
+
+def superscript(unit: str) -> str:
+    """A unit without LaTeX: m^{2κ} as m²ᵏ."""
+    raised = str.maketrans("0123456789-/κ", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻ᐟᵏ")
+    return re.sub(r"\^\{?([0-9κ/-]+)\}?", lambda found: found[1].translate(raised), unit)
 
 
 def evaluated(source: sp.Basic, values: Mapping[sp.Symbol, Any]) -> float:
@@ -169,7 +177,7 @@ class _Writer:
     def control(self, slider: Slider) -> Control:
         entry = self.letters.get(slider.symbol)
         return Control(
-            slider.symbol.name, latex(slider.symbol, self.glyphs), slider.unit or getattr(entry, "unit", ""),
+            slider.symbol.name, latex(slider.symbol, self.glyphs), superscript(slider.unit or getattr(entry, "unit", "")),
             slider.meaning or getattr(entry, "meaning", ""), float(slider.lowest), float(slider.highest),
             float(slider.start), slider.logarithmic, bool(slider.symbol.is_integer),
         )  # fmt: skip
@@ -192,21 +200,22 @@ class _Writer:
     def picture(self, part: Plot | Region | Vehicle) -> Picture:
         refs = {source.id: self.refs[source.id] for source in sources_of(part)}
         across = up = ""
-        lines: list[tuple[str, tuple[Line, ...]]] = []
+        lines: list[tuple[str, tuple[Line, ...], tuple[str, ...]]] = []
         match part:
             case Plot(across=across, up=up):
-                lines = [(curve.title, self.lines(curve)) for curve in part.curves]
+                lines = [(curve.title, self.lines(curve), self.put(curve.taken)) for curve in part.curves]
             case Region(x=x, y=y):
                 across, up = (f"{latex(axis, self.glyphs)}{self.unit(axis)}" for axis in (x, y))
                 lines = [
-                    (way.source.title, tuple(Line(self.relation(item)) for item in way.given)) for way in part.ways
+                    (way.source.title, tuple(Line(self.relation(item)) for item in way.given), ()) for way in part.ways
                 ]
-        return Picture(type(part).__name__.lower(), part.title, across, up, tuple(lines), tuple(refs.values()))
+        names = part.names if isinstance(part, Vehicle) else ()
+        return Picture(type(part).__name__.lower(), part.title, across, up, tuple(lines), names, tuple(refs.values()))
 
     def lines(self, part: Quantity | Condition | Curve) -> tuple[Line, ...]:
         if isinstance(part, Condition):
-            return statement_lines(part.taken.relation, self.glyphs)
-        return (Line(latex(part.value, self.glyphs)),)
+            return statement_lines(part.taken.own, self.glyphs)
+        return (Line(latex(getattr(part.taken.own, part.side), self.glyphs)),)
 
     def relation(self, item: Relation) -> str:
         return " ".join(line.latex for line in statement_lines(item, self.glyphs))
@@ -216,4 +225,4 @@ class _Writer:
 
     def unit(self, symbol: sp.Symbol) -> str:
         unit = getattr(self.letters.get(symbol), "unit", "")
-        return rf"\ [\text{{{unit}}}]" if unit and unit != "1" else ""
+        return rf"\ \text{{in {superscript(unit)}}}" if unit and unit != "1" else ""

@@ -1,4 +1,4 @@
-const TOLERANCE = 1e-11, STEPS_A_FRAME = 3000, MOST_STEPS = 600000;
+const TOLERANCE = 1e-11, STEPS_AT_ONCE = 3000, MOST_STEPS = 600000;
 const NS = "http://www.w3.org/2000/svg";
 
 // --- Integration: Dormand and Prince's pair of orders 5 and 4, with the error per step under control. ---
@@ -232,7 +232,7 @@ const levels = (picture, s, frame) => {
   element("path", { class: "level", d }, frame.inside);
 };
 
-// The vehicle and what runs beside it: both are integrated over frames, and drawn when they are there.
+// The vehicle and what runs beside it: both are integrated a slice at a time, and drawn when they are there.
 const vehicleOf = (picture, box, changed) => {
   const plane = box.querySelector(".plane svg"), far = box.querySelector(".far svg"), said = box.querySelector(".said");
   const play = box.querySelector(".play"), time = box.querySelector(".time"), now = box.querySelector(".now-at");
@@ -272,7 +272,7 @@ const vehicleOf = (picture, box, changed) => {
     said.replaceChildren(...runs.map((one, n) => {
       const row = document.createElement("p"), last = one.path[one.path.length - 1];
       row.className = `end n${n}`;
-      row.textContent = `${n ? "Beside it" : "Vehicle"}: ${one.failed || `at t = ${digits(shownTime(last))} s`}, at (${digits(last[1])}, ${digits(last[2])}), ${digits(distance(last))} m from the source`;
+      row.textContent = `${box.dataset.names.split("|")[n]}: ${one.failed || `at t = ${digits(shownTime(last))} s`}, at (${digits(last[1])}, ${digits(last[2])}), ${digits(distance(last))} m from the source`;
       return row;
     }));
   };
@@ -284,9 +284,9 @@ const vehicleOf = (picture, box, changed) => {
     box.setAttribute("aria-busy", "true");
     const go = () => {
       if (mine !== turn) return;
-      for (let n = 0, more = true; n < STEPS_A_FRAME && more; n++) more = both.map((one) => one.step()).some(Boolean);
-      if (both.some((one) => one.t < edges[edges.length - 1] && !one.failed)) return void requestAnimationFrame(go);
-      runs = both;
+      for (let n = 0, more = true; n < STEPS_AT_ONCE && more; n++) more = both.map((one) => one.step()).some(Boolean);
+      if (both.some((one) => one.t < edges[edges.length - 1] && !one.failed)) return void setTimeout(go);
+      runs = both.map(({ path, failed }, n) => ({ failed, path: path.map(([t, ...x]) => [t, ...picture[n ? "beside" : "system"].place(t, x, s)]) }));
       from = picture.clock(edges[0], s)[0];
       end = picture.clock(edges[edges.length - 1], s)[0];
       draw();
@@ -359,8 +359,8 @@ const set = (tool, section) => {
     });
     tell();
     if (keep) history.replaceState(null, "", stateOf());
-    cancelAnimationFrame(asked);
-    asked = requestAnimationFrame(() => {
+    clearTimeout(asked); // not in a frame: a page that is printed, or not looked at, has none
+    asked = setTimeout(() => {
       draw();
       vehicles.forEach((vehicle) => vehicle?.start(s));
     });
