@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -52,7 +53,7 @@ def report(
     Writes index.html and the pages that it leads to, report.md, graph.svg and figures/ into FOLDER; of several papers
     each into a folder of its own name in it, and a page above them. With --paper each card says whether what the paper
     prints was read from its source and is what is claimed. Exit status 1 if a claim did not come out as its author
-    recorded, a figure could not be drawn, or the paper prints something else; the report is written all the same.
+    recorded, a figure could not be drawn, or what is printed is something else; the report is written all the same.
     """
     from ptproof.proof.run import Interrupted
     from ptproof.reading.latex.source import read_paper
@@ -108,10 +109,14 @@ def _derivation(paper: Opened) -> Derivation:
 
 
 def _read(papers: Sequence[Opened], tex: Mapping[str, str]) -> dict[str, Mapping[str, ReadSide]]:
-    """What became of the printed sides of each paper whose source is given, by the paper's name."""
+    """What became of the printed sides of each paper, by its name: of its source, or of what is kept of it."""
     from ptproof.commands.coverage import own
+    from ptproof.report.kept import kept_sides
     from ptproof.report.labels import all_labels
-    from ptproof.report.read import read_sides
+    from ptproof.report.read import ReadSide, read_sides
+
+    def plain(derivation: Derivation) -> dict[str, Any]:
+        return {id: side.to_json() for id, side in kept_sides(derivation).items()}
 
     found: dict[str, Mapping[str, ReadSide]] = {}
     for file, source in tex.items():
@@ -119,6 +124,10 @@ def _read(papers: Sequence[Opened], tex: Mapping[str, str]) -> dict[str, Mapping
         if name in found:
             raise InputError(f"--paper: {file} is about {name}, and so is another that is given")
         found[name] = read_sides(source, derivation)
+    for paper in papers:
+        known = paper.memory.value("kept sides", partial(plain, _derivation(paper)))
+        kept = {id: ReadSide.from_json(side) for id, side in known.items()}
+        found[paper.name] = {**kept, **found.get(paper.name, {})}
     return found
 
 
@@ -143,7 +152,7 @@ def _made(
         of = f"{name}: " if several else ""
         for claim in found.unexpected:
             notes.append(f"{of}{claim.ref.id}: expected {claim.expected}, came out {claim.status.word}")
-        notes += [f"{of}{ref.id}: the paper prints something else" for ref in found.read.get("different", ())]
+        notes += [f"{of}{ref.id}: what is printed is something else" for ref in found.read.get("different", ())]
         notes += [f"{of}{note}" for note in failures]
     drawn = not any(failures for _, failures in composed.values())
     same = not any("different" in found.read for found, _ in composed.values())
@@ -168,6 +177,7 @@ def _composed(
 ) -> tuple[Report, tuple[str, ...]]:
     """The content of the report, and what could not be drawn."""
     from ptproof.report.compose import compose
+    from ptproof.report.instruments import instruments_of
     from ptproof.report.letters import notation_of, title_of
     from ptproof.report.versions import versions
 
@@ -176,6 +186,7 @@ def _composed(
     content = compose(
         verification, derivation, title=title_of(derivation), notation=notation_of(derivation),
         versions=versions(), figures=figures, appendix=tables, notes=failures, read=read,
+        instruments=tuple(instruments_of(derivation)),
     )  # fmt: skip
     return content, failures
 
