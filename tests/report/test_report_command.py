@@ -93,7 +93,7 @@ def test_the_printed_side_is_read_from_the_papers_source(folder, tmp_path, capsy
     (folder / "notation.toml").write_text('letters = { x = "x", y = "y" }')
     (tmp_path / "paper.tex").write_text(PAPER % printed)
     assert status(folder, "--out", tmp_path / "out", "--paper", tmp_path / "paper.tex") == ends
-    assert ("the paper prints something else" in capsys.readouterr().err) is (word == "different")
+    assert ("what is printed is something else" in capsys.readouterr().err) is (word == "different")
     for name in ("section-claims.html", "report.md"):
         assert f"printed side read from the source: {word}" in (tmp_path / "out" / name).read_text()
     for name in ("index.html", "report.md"):
