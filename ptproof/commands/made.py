@@ -25,8 +25,8 @@ class Made:
         """What was kept as ``data``; None if it is not in it."""
         try:
             files = {str(name): zlib.decompress(base64.b64decode(text)) for name, text in data["files"].items()}
-            words = (tuple(map(str, data[name])) for name in ("folders", "sums", "notes"))
-            return cls(files, *words, status=int(data["status"]))
+            folders, sums, notes = (tuple(map(str, data[name])) for name in ("folders", "sums", "notes"))
+            return cls(files, folders, sums, notes, int(data["status"]))
         except (KeyError, TypeError, ValueError, AttributeError, zlib.error):
             return None
 
