@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import itertools
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -172,9 +173,11 @@ def _lines(
             yield variable, values
 
 
-def _roots(argument: sp.Expr, variable: sp.Symbol) -> list[sp.Expr]:
+@functools.lru_cache(maxsize=1024)
+def _roots(argument: sp.Expr, variable: sp.Symbol) -> tuple[sp.Expr, ...]:
+    """A few exact real zeros; kept, since the fields of a system share what may be singular in them."""
     if variable not in argument.free_symbols:
-        return []
+        return ()
     while isinstance(argument, sp.Abs) or (argument.is_Pow and argument.exp.is_positive):
         argument = argument.args[0]
     try:
@@ -186,8 +189,8 @@ def _roots(argument: sp.Expr, variable: sp.Symbol) -> list[sp.Expr]:
         else:
             found = sp.solve(numerator, variable)
     except (NotImplementedError, sp.PolynomialError, ValueError, TypeError):
-        return []
-    return [root for root in found if root.is_real and not root.free_symbols][:4]
+        return ()
+    return tuple(root for root in found if root.is_real and not root.free_symbols)[:4]
 
 
 @dataclass(frozen=True)
