@@ -1,4 +1,5 @@
-"""CasADi with CVODES: the default engine.
+"""CasADi: the default engine. Runs that an explicit method suits (:mod:`ptproof.simulation.runge_kutta`) take that, all
+others CVODES.
 
 Time is normalised, dx/ds = L·rhs(a + L·s, x) with s in [0, 1], so that start, length and parameters are arguments of
 one integrator and a run with other values builds nothing. A call that fails is repeated in pieces, which are halved
@@ -13,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from ptproof.simulation import runge_kutta
 from ptproof.simulation.plan import Array, Batch, Engine, Finals, Plan, Run, Samples
 from ptproof.simulation.settings import Budget, Outcome, Stop
 from ptproof.simulation.translate import casadi_expressions
@@ -70,9 +72,19 @@ class _Solver:
         return result if np.isfinite(result).all() else None
 
 
-class _CVODES(Engine):
+class _CasADi(Engine):
     def trajectory(self, plan: Plan, member: Batch) -> Run:
-        """One run with samples: as many as possible in one call, since each call starts the method afresh."""
+        """One run with samples."""
+        grids = list(member.grids(plan.settings.samples))
+        x, good = runge_kutta.through(plan, member, [len(grid) - 1 for grid in grids])
+        if not good.all():
+            return self._by_cvodes(plan, member)
+        samples = Samples(member)
+        samples.add(np.concatenate([grid[1:] for grid in grids]), x[:, 0])
+        return samples.run()
+
+    def _by_cvodes(self, plan: Plan, member: Batch) -> Run:
+        """As many samples as possible in one call, since each call starts the method afresh."""
         solve, samples = _Solver(plan, member.parameters[:, 0].tolist(), Budget(plan.settings)), Samples(member)
         for grid in member.grids(plan.settings.samples):
             reached, size = 0, len(grid) - 1
@@ -154,4 +166,4 @@ def _advance(solve: _Solver, samples: Samples, target: float) -> Stop | None:
     return stop
 
 
-ENGINE = _CVODES()
+ENGINE = _CasADi()
