@@ -31,78 +31,77 @@ _LOCAL = 3.0
 _DAMPING = 0.08
 # Pieces that take more trials are left to CVODES, which makes two to twenty steps a radian, of half a trial's cost.
 # A plan's tightening is a hundred over its radians, rounded down to a power of ten.
-_MOST, _SAMPLED = 200, 2
+_MOST, _SAMPLED = 100, 1
 
 
-def through(plan: Plan, batch: Batch, counts: Sequence[int], workers: int = 1) -> tuple[Array, Array]:
-    """The states of all members on their way (n × N × m), after the start, and who got through (N).
+def through(plan: Plan, member: Batch, counts: Sequence[int], budget: Budget) -> list[Array]:
+    """The states (n × count) at the samples of a single member's pieces, from the first one on.
 
     Parameters
     ----------
     counts
-        The number of samples, evenly spaced, in each piece that is not empty; m is their sum. The last one of a
-        piece is at its end.
+        The number of samples, evenly spaced, in each piece that is not empty; the last one is at the piece's end.
+    budget
+        The trials of what is found are taken from it.
 
-    Who did not get through is for another method: the rates have kinks at unknown instants, the run leaves the ball
-    or does not come to its end, or it is so stiff that the steps of an explicit method are too short.
+    A piece that is left out, with all after it, is for another method: the rates have kinks at unknown instants, the
+    run leaves the ball or does not come to the end, or it is so stiff that the steps of an explicit method are too
+    short.
     """
-    good, x, found, left = np.full(batch.size, True), batch.initial, [], plan.settings.max_steps
+    found: list[Array] = []
     try:
-        parts = pieces(plan, batch)
+        parts = pieces(plan, member)
     except InputError:
-        return np.empty((*x.shape, 0)), ~good
+        return found
+    x = member.initial[:, 0]
     for (row, system), count in zip(parts, counts, strict=True):
-        states, steps = _piece(plan, system, batch, x, row, count, workers)
-        left -= steps
-        good &= (left >= 0) & np.all(plan.distance(states) <= plan.radius, axis=1)
+        given = [*member.parameters[:, 0], member.edges[row, 0], member.edges[row + 1, 0] - member.edges[row, 0]]
+        carries = _piece(plan, system, x, np.array(given), count, budget)
+        if carries is None:
+            break
+        steps = int(np.count_nonzero(carries[:, 1] < count)) + 1
+        states = carries[np.diff(carries[:, 1], prepend=0.0) > 0, 4:].T
+        if steps > budget.steps or not plan.within(states):
+            break
+        budget.steps -= steps
         found.append(states)
-        x = states[:, :, -1]
-    return np.concatenate(found, axis=2), good
+        x = states[:, -1]
+    return found
 
 
-def _piece(
-    plan: Plan, system: System, batch: Batch, x: Array, row: int, count: int, workers: int
-) -> tuple[Array, Array]:
-    """The states at the samples of one piece (n × N × count), NaN where they are not reached, and the trials (N)."""
-    settings, size, (start, end) = plan.settings, batch.size, batch.edges[row : row + 2]
+def _piece(plan: Plan, system: System, x: Array, given: Array, count: int, budget: Budget) -> Array | None:
+    """What is carried on after each trial of one piece, to its end; None where it does not come to that."""
+    settings = plan.settings
     tolerances = max(_LOCAL * settings.rtol * plan.tightening, 3e-14), max(_LOCAL * settings.absolute, 1e-18)
-    more = np.vstack([start, end - start, *(np.full(size, value) for value in (count, *tolerances))])
-    given = np.ascontiguousarray(np.vstack([batch.parameters, more]).T)
-    carry = np.column_stack([np.tile([0.0, 0.0, _FIRST / count, 1e-4], (size, 1)), x.T])
-    made, found = np.empty((size, _TRIALS, carry.shape[1])), []
-    buffer, evaluate = trials(system, size, workers).buffer()
+    carry, given = np.array([0.0, 0.0, _FIRST / count, 1e-4, *x]), np.array([*given, count, *tolerances])
+    made, found = np.empty((_TRIALS, len(carry))), []
+    buffer, evaluate = trials(system).buffer()
     for i, array in enumerate((carry, given)):
-        buffer.set_arg(i, memoryview(array))
-    buffer.set_res(0, memoryview(made))
-    budget, going = Budget(settings), True
+        buffer.set_arg(i, array.data)
+    buffer.set_res(0, made.data)
     most = _MOST / plan.tightening + _SAMPLED * count
-    while going and not budget.spent:
+    while carry[1] < count:
         evaluate()
         found.append(made.copy())
-        carry[:] = made[:, -1]
-        number, (place, arrived, step) = len(found) * _TRIALS, carry[:, :3].T
-        expected = number / np.maximum(place, 1e-9) if number > 4 * _TRIALS else number
-        going = bool(np.any((arrived < count) & (step * count > _SMALLEST) & (expected <= most)))
-    carries = np.concatenate(found, axis=1)
-    states = np.full((len(x), size, count), np.nan)
-    for i, arrives in enumerate(np.diff(carries[:, :, 1], axis=1, prepend=0.0) > 0):
-        states[:, i, : np.count_nonzero(arrives)] = carries[i, arrives, 4:].T
-    return states, np.count_nonzero(carries[:, :, 1] < count, axis=1) + 1
+        carry[:] = made[-1]
+        number = len(found) * _TRIALS
+        too_long = number > 4 * _TRIALS and number > most * carry[0]  # as far as can be foreseen, once steps have grown
+        if too_long or carry[2] * count < _SMALLEST or budget.spent:
+            return None
+    return np.concatenate(found)
 
 
 @lru_cache(maxsize=64)
-def trials(system: System, size: int = 1, workers: int = 1) -> Any:
-    """Some trial steps of ``size`` members, from carries and what is given to the carries after each of them."""
+def trials(system: System) -> Any:
+    """Some trial steps, from what is carried on and what is given to what is carried on after each of them."""
     import casadi as ca
 
     step = trial(system)
-    carry, given, found = ca.MX.sym("carry", step.size1_in(0)), ca.MX.sym("given", step.size1_in(1)), []
+    carry, given = ca.MX.sym("carry", step.size1_in(0)), ca.MX.sym("given", step.size1_in(1))
+    found: list[Any] = []
     for _ in range(_TRIALS):
         found.append(step(found[-1] if found else carry, given))
-    made = ca.Function("trials", [carry, given], [ca.horzcat(*found)])
-    if size == 1:
-        return made
-    return made.map(size) if workers == 1 else made.map(size, "thread", min(workers, size))
+    return ca.Function("trials", [carry, given], [ca.horzcat(*found)])
 
 
 @lru_cache(maxsize=64)
@@ -125,7 +124,8 @@ def trial(system: System) -> Any:
     left = target - place
     last = wanted >= left * (1 - 1e-9)
     step = ca.if_else(last, left, ca.fmin(wanted, left / 2))
-    now, ahead, slopes = start + length * place, length * step, []
+    now, ahead = start + length * place, length * step
+    slopes: list[Any] = []
 
     def combined(weights: Weights) -> Any:
         return sum((weight * slopes[stage] for stage, weight in weights.items()), ca.SX.zeros(x.numel()))
