@@ -17,6 +17,7 @@ from markupsafe import Markup
 from ptproof.report.formula import width
 from ptproof.report.graph import graph_svg
 from ptproof.report.headline import headline
+from ptproof.report.instruments.script import script_of
 from ptproof.report.model import Report, Section
 from ptproof.report.picture import FORMS, picture
 from ptproof.report.rendering import html, script, style
@@ -71,6 +72,8 @@ def site_files(of: Site, above: str = "") -> dict[str, bytes]:
     files["graph.svg"] = linked(graph, of.places, "graph.svg").encode()
     files["style.css"], files["page.js"] = style().encode(), script().encode()
     files["formulas.js"] = formulas(_short(of.report)).encode()
+    if of.report.instruments:
+        files["instruments.js"] = _moving(of.report).encode()
     files["search.js"] = search_index(of.report, of.places).encode()
     return files
 
@@ -82,9 +85,11 @@ def single_page(report: Report) -> str:
     body = [
         _front(report), f'<section id="errata">\n<h2>Errata</h2>\n{errata}</section>', _graph(report),
         *(_section(section, [*_cards(section)]) for section in report.sections),
+        *((_instruments(report),) if report.instruments else ()),
         *((parts.drawn(report, True),) if report.figures else ()), *_reference(report),
         *((parts.appended(report),) if report.appendix else ()),
         f'<section id="claims">\n<h2>Statements by verdict</h2>\n{_listed(report)}</section>',
+        *((f"<script>\n{_moving(report)}</script>",) if report.instruments else ()),
     ]  # fmt: skip
     page = Page("", report.title, "\n".join(map(str, body)))
     return _skeleton(report, page, alone=True)
@@ -145,6 +150,9 @@ def _pages(report: Report) -> Iterator[Page]:
         body = [parts.drawn(report, False)] if report.figures else []
         body += [parts.appended(report)] if report.appendix else []
         yield Page("figures.html", "Figures", _topped("\n".join(body)))
+    if report.instruments:
+        tools = _topped(_instruments(report)) + '<script src="instruments.js"></script>'
+        yield Page("instruments.html", "Instruments", tools)
     yield Page("reference.html", "Notation and sources", _topped("\n".join(_reference(report))))
 
 
@@ -201,6 +209,15 @@ def _section(section: Section, cards: Sequence[str], number: int = 1, parts: int
     return str(_parts().sectioned(section, inside, number, parts, _of(number, parts)))
 
 
+def _instruments(report: Report) -> str:
+    parts: Any = html().get_template("instruments.html.j2").module
+    return str(parts.page(report.instruments))
+
+
+def _moving(report: Report) -> str:
+    return script_of([view.instrument for view in report.instruments]).replace("</", r"<\/")
+
+
 def _listed(report: Report) -> str:
     return str(_parts().listed(report, ALL))
 
@@ -208,9 +225,9 @@ def _listed(report: Report) -> str:
 def _short(report: Report) -> dict[str, str]:
     """The statements that can be shown beside a name, since they are short, by their anchors."""
     return {
-        claim.ref.anchor: str(_parts().formula(claim.lines, claim.words))
+        claim.ref.anchor: str(_parts().formula(claim.shown, claim.words))
         for claim in report.claims
-        if len(claim.lines) <= SHOWN_LINES and sum(width(line.latex) for line in claim.lines) < SHOWN_WIDTH
+        if len(claim.shown) <= SHOWN_LINES and sum(width(line.latex) for line in claim.shown) < SHOWN_WIDTH
     }
 
 
@@ -242,6 +259,7 @@ def _skeleton(
     turn: tuple[Page | None, Page | None] = (None, None),
 ) -> str:
     parts = [("errata", "Errata"), ("claims", "Statements"), ("graph", "Graph")]
+    parts += [("instruments", "Instruments")] if report.instruments else []
     parts += [("figures", "Figures")] if report.figures else []
     parts += [("appendix", "Appendix")] if report.appendix else []
     parts += [("notation" if report.letters else "cited", "Notation" if report.letters else "Sources")]
