@@ -109,6 +109,7 @@ def look_at(browser, file):
             seen["paper"].append(page.evaluate("getComputedStyle(document.body).backgroundColor"))
     seen["links"], seen["ids"] = look["links"], look["ids"]
     page.set_viewport_size({"width": PAPER, "height": 900})
+    page.evaluate("dispatchEvent(new Event('beforeprint'))")
     page.emulate_media(media="print")
     look = page.evaluate(LOOK)
     seen["print"] = [*look["cut"], *look["overlap"]]
@@ -230,10 +231,10 @@ def test_a_step_is_opened_by_the_keyboard_and_its_claims_show_their_formulas(pag
 def test_what_uses_what_is_shown_by_arrows_and_on_a_phone_in_words(page, folder):
     page.goto((folder / "one/index.html").as_uri())
     assert page.locator("svg.arrows path").count() > 0
-    assert page.locator(".from").first.is_hidden()
+    assert page.locator(".uses").first.is_hidden()
     page.set_viewport_size({"width": PHONE, "height": 900})
     assert page.locator("svg.arrows").is_hidden()
-    assert re.fullmatch(r"uses \S.*", page.locator(".from").first.inner_text())
+    assert re.fullmatch(r"uses \S.*", page.locator(".uses").first.inner_text())
 
 
 def test_a_count_leads_to_as_many_claims(page, folder):

@@ -176,6 +176,12 @@
     }
   }
 
+  // On paper a wide formula is set smaller, since nothing scrolls there.
+  addEventListener("beforeprint", () => {
+    const wide = [...document.querySelectorAll("math")].map((math) => [math, math.getBoundingClientRect().width]);
+    for (const [math, width] of wide) math.style.setProperty("--em", Math.max(1, width / parseFloat(getComputedStyle(math).fontSize)));
+  });
+
   // What is wider than its place can be reached, and moved, by the keyboard.
   const scrolls = new ResizeObserver((seen) => {
     for (const { target } of seen) {
