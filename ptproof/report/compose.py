@@ -29,7 +29,7 @@ from ptproof.proof.verdict import Evidence
 from ptproof.report import status
 from ptproof.report.content import Figure, Table
 from ptproof.report.formula import Line, domain_of, latex, statement_lines
-from ptproof.report.letters import Notation
+from ptproof.report.letters import Notation, spelled
 from ptproof.report.model import ClaimView, DefinitionView, Erratum, Ref, Report, Section
 from ptproof.report.read import ReadSide
 from ptproof.report.spoken import Letters, spoken
@@ -126,6 +126,7 @@ class _Composer:
     ) -> None:
         self.results, self.refs, self.glyphs, self.read = results, refs, glyphs, read
         self.letters = Letters(glyphs)
+        self.spellings = {spelled(glyph) for glyph in glyphs.values()}
         self.set: dict[Statement | Assumption, tuple[Line, ...]] = {}
         self.users: dict[str, list[str]] = {}
         self.corrections: dict[str, list[str]] = {}
@@ -196,7 +197,8 @@ class _Composer:
         functions = {sp.Symbol(applied.func.__name__) for applied in undefined_functions(statements)}
         others = {item for item in named | functions if item not in self.glyphs or item not in free}
         read = self.read.get(id)
-        return tuple(sorted({*(latex(item, self.glyphs) for item in others), *(read.apart if read else ())}))
+        glyphs = {*(latex(item, self.glyphs) for item in others), *(read.apart if read else ())}
+        return tuple(sorted({spelled(glyph) for glyph in glyphs} & self.spellings))
 
 
 def _hits(verification: Verification) -> tuple[str, ...]:

@@ -46,7 +46,7 @@ def style() -> str:
 
 def script() -> str:
     """The script of every page."""
-    return text("page.js")
+    return "\n".join(text(name) for name in ("letters.js", "page.js"))
 
 
 def pieces(said: Sequence[Piece]) -> Markup:

@@ -20,7 +20,7 @@ from ptproof.report.headline import headline
 from ptproof.report.model import Report, Section
 from ptproof.report.picture import FORMS, picture
 from ptproof.report.rendering import html, script, style
-from ptproof.report.search import formulas, search_index
+from ptproof.report.search import formulas, meanings, search_index
 from ptproof.report.status import ALL
 
 MOST = 400_000  # bytes of a page beside what stands on every page
@@ -71,6 +71,7 @@ def site_files(of: Site, above: str = "") -> dict[str, bytes]:
     files["graph.svg"] = linked(graph, of.places, "graph.svg").encode()
     files["style.css"], files["page.js"] = style().encode(), script().encode()
     files["formulas.js"] = formulas(_short(of.report)).encode()
+    files["letters.js"] = meanings(of.report).encode()
     files["search.js"] = search_index(of.report, of.places).encode()
     return files
 
@@ -242,5 +243,5 @@ def _skeleton(
     return html().get_template("page.html.j2").render(
         title=title, brand=report.title, parts=parts, sections=report.sections, current=page.section,
         side=alone or bool(page.section), turn=turn, body=Markup(page.body), alone=alone, above=above,
-        style=Markup(style()), script=Markup(script()),
+        style=Markup(style()), script=Markup((meanings(report) if alone else "") + script()),
     )  # fmt: skip

@@ -135,11 +135,6 @@
     draw();
 
     // The formula of a claim, beside its name: from its entry on this page, or from a script beside the page.
-    const note = document.createElement("div");
-    note.className = "note";
-    note.setAttribute("role", "tooltip");
-    note.hidden = true;
-    document.body.append(note);
     let loaded;
     const formulas = () => (loaded ??= new Promise((done) => {
       const script = document.createElement("script");
@@ -153,14 +148,9 @@
       over = link;
       const anchor = decodeURIComponent(link.hash.slice(1)), here = document.getElementById(anchor);
       const found = here ? here.querySelector(".formula, .words")?.outerHTML : (await formulas())[anchor];
-      if (over !== link || !found) return;
-      note.innerHTML = found;
-      note.hidden = false;
-      const box = link.getBoundingClientRect(), width = note.offsetWidth;
-      note.style.left = `${Math.max(8, Math.min(box.left, innerWidth - width - 8))}px`;
-      note.style.top = `${box.bottom + 6 + note.offsetHeight > innerHeight ? box.top - note.offsetHeight - 6 : box.bottom + 6}px`;
+      if (over === link && found) tip.show(found, link.getBoundingClientRect());
     };
-    const hush = () => { over = null; note.hidden = true; };
+    const hush = () => { over = null; tip.hide(); };
     for (const link of picture.querySelectorAll(".inside li a")) {
       link.addEventListener("mouseenter", () => tell(link));
       link.addEventListener("focus", () => tell(link));
