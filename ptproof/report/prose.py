@@ -7,6 +7,7 @@ import re
 from functools import cache
 from textwrap import indent
 
+from markupsafe import Markup
 from markdown_it import MarkdownIt
 from markdown_it.tree import SyntaxTreeNode
 from mdit_py_plugins.dollarmath import dollarmath_plugin
@@ -52,7 +53,15 @@ def _html(node: SyntaxTreeNode) -> str:
             return f"<code>{html.escape(node.content)}</code>"
         case "softbreak" | "hardbreak":
             return " "
-    return "".join(inside) or html.escape(node.content)
+    return "".join(inside) or worded(node.content)
+
+
+_INDEX = re.compile(r"(?<![\w:./-])([^\W\d_][\u0300-\u036f]?)_([^\W_]{1,5})(?!\w)")
+
+
+def worded(text: str) -> Markup:
+    """Text, escaped, with the index of a letter set low: ν_min, T_f."""
+    return Markup(_INDEX.sub(r"\1<sub>\2</sub>", html.escape(text)))
 
 
 def to_markdown(text: str) -> str:

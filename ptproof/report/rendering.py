@@ -13,7 +13,7 @@ from ptproof.report.content import Figure
 from ptproof.report.formula import mathml
 from ptproof.report.headline import Piece
 from ptproof.report.model import Said
-from ptproof.report.prose import to_html
+from ptproof.report.prose import to_html, worded
 from ptproof.report.templating import environment, text
 
 
@@ -27,6 +27,7 @@ def html() -> Environment:
         "prose": lambda source: Markup(to_html(source)),
         "data_uri": data_uri,
         "pieces": pieces,
+        "worded": worded,
         "tex": tex,
     }
     jinja.filters = {**jinja.filters, **filters}

@@ -39,7 +39,7 @@ class WitnessView:
 def witness_view(witness: Witness, claim: Claim, names: Names) -> WitnessView:
     """Set the witness in the letters of the claim."""
     statements = [claim.statement, *claim.assumptions]
-    symbols = {symbol.name: symbol for symbol in free_symbols(statements)}
+    symbols = {symbol.name: symbol for symbol in (*names, *free_symbols(statements)) if isinstance(symbol, sp.Symbol)}
     functions = {applied.func.__name__: applied for applied in undefined_functions(statements)}
     values = {name: _value(name, text, symbols, functions, names) for name, text in witness.values.items()}
     left, right = (_side(side, symbols, names) for side in (witness.left, witness.right))
