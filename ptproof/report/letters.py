@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 from xml.etree.ElementTree import Element
 
@@ -38,6 +39,7 @@ class Notation:
         object.__setattr__(self, "glyphs", dict(self.glyphs))
 
 
+@lru_cache(maxsize=4096)
 def spelled(glyph: str) -> str:
     """A formula in one spelling, by which the pages look letters up: ``msub(a,1)``; empty where it is not set."""
     found = element(glyph)

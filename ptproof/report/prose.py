@@ -56,12 +56,18 @@ def _html(node: SyntaxTreeNode) -> str:
     return "".join(inside) or worded(node.content)
 
 
-_INDEX = re.compile(r"(?<![\w:./-])([^\W\d_][\u0300-\u036f]?)_([^\W_]{1,5})(?!\w)")
+_INDEX = re.compile(r"(?<![\w:.])(\w*?[^\W\d_][\u0300-\u036f]?)_([A-Za-zα-ωϵ]{1,5}[₀-₉]*)(?![A-Za-z0-9_])")
 
 
 def worded(text: str) -> Markup:
-    """Text, escaped, with the index of a letter set low: ν_min, T_f."""
-    return Markup(_INDEX.sub(r"\1<sub>\2</sub>", html.escape(text)))
+    """Text, escaped, with the index of a letter set low: ν_min, μT_f; names such as file_name stay as they are."""
+
+    def low(found: re.Match[str]) -> str:
+        letters, index = found.groups()
+        name = "_" in letters or (len(letters) > 3 and letters.isascii())
+        return found[0] if name else f"{letters}<sub>{index}</sub>"
+
+    return Markup(_INDEX.sub(low, html.escape(text)))
 
 
 def to_markdown(text: str) -> str:

@@ -56,6 +56,8 @@ def spoken(text: str, letters: Mapping[str, str], kept: Iterable[str] = ()) -> s
         name = found[0]
         if name in known:
             return name
+        if name[1:] in letters and name[0] == "_":  # the letter of another claim, for which something is put in
+            return f"{letters[name[1:]]}′"
         if name not in letters:  # of another claim, or bound in this one
             return plain(latex(sp.Symbol(name), {})) if _GREEK_LETTER.fullmatch(name) else name
         before, after = text[: found.start()].rstrip(" ")[-1:], text[found.end() :].lstrip(" ")[:1]

@@ -72,6 +72,8 @@ def _value(
     plain = f"{name} = {text}"
     called = re.fullmatch(r"(\w+)\((.*)\)", name)
     try:
+        if name.isidentifier() and name not in symbols and name not in functions:
+            symbols = {**symbols, name: sp.Symbol(name, real=True)}
         if name in symbols and text == "any":
             return Value(plain, rf"\text{{any }}{latex(symbols[name], names)}")
         if name in symbols:
