@@ -158,6 +158,7 @@ def _composed(
 ) -> tuple[Report, tuple[str, ...]]:
     """The content of the report, and what could not be drawn."""
     from ptproof.report.compose import compose
+    from ptproof.report.instruments import instruments_of
     from ptproof.report.letters import notation_of, title_of
     from ptproof.report.versions import versions
 
@@ -166,6 +167,7 @@ def _composed(
     content = compose(
         verification, derivation, title=title_of(derivation), notation=notation_of(derivation),
         versions=versions(), figures=figures, appendix=tables, notes=failures, read=read,
+        instruments=tuple(instruments_of(derivation)),
     )  # fmt: skip
     return content, failures
 

@@ -29,6 +29,8 @@ from ptproof.proof.verdict import Evidence
 from ptproof.report import status
 from ptproof.report.content import Figure, Table
 from ptproof.report.formula import Line, domain_of, latex, statement_lines
+from ptproof.report.instruments.instrument import Instrument
+from ptproof.report.instruments.view import viewed
 from ptproof.report.letters import Notation, spelled
 from ptproof.report.model import ClaimView, DefinitionView, Erratum, Ref, Report, Section
 from ptproof.report.read import ReadSide
@@ -48,6 +50,7 @@ def compose(
     appendix: Sequence[Table] = (),
     notes: Sequence[str] = (),
     read: Mapping[str, ReadSide] = MappingProxyType({}),
+    instruments: Sequence[Instrument] = (),
 ) -> Report:
     """Put the content of the report together.
 
@@ -59,9 +62,9 @@ def compose(
         Of the derivation: its title, and its letters and glyphs.
     versions
         Of the libraries.
-    figures, appendix, notes, read
-        Pictures and tables from elsewhere, what the reader has to know, such as a figure that could not be drawn, and
-        what became of printed sides in the paper's own source, by id.
+    figures, appendix, notes, read, instruments
+        Pictures and tables from elsewhere, what the reader has to know, such as a figure that could not be drawn,
+        what became of printed sides in the paper's own source, by id, and what a reader may move.
     """
     letters = notation or Notation()
     results = {result.claim.id: result for result in verification.results}
@@ -92,6 +95,7 @@ def compose(
         figures=tuple(figures),
         appendix=tuple(appendix),
         notes=(*_hits(verification), *notes),
+        instruments=tuple(viewed(item, letters, refs) for item in instruments),
     )
 
 

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
+from math import isfinite
 from typing import Any
 
 from ptproof.report.formula import Line
 from ptproof.report.headline import headline, plain
+from ptproof.report.instruments.instrument import Condition, Plot, Quantity, Region, Vehicle, expressions_of
+from ptproof.report.instruments.view import View
 from ptproof.report.model import ClaimView, DefinitionView, Erratum, Ref, Section
 from ptproof.report.read import ReadSide
 from ptproof.report.site import Site
@@ -34,6 +37,7 @@ def exported(site: Site) -> dict[str, Any]:
         "errata": [_erratum(item) for item in (*report.errata, *report.besides)],
         "labels": {label: _ids(refs) for label, refs in report.labels},
         "notation": [{"latex": item.glyph, "unit": item.unit, "meaning": item.meaning} for item in report.letters],
+        "instruments": [_instrument(view, site) for view in report.instruments],
         "figures": [{"file": f"figures/{item.file}", "caption": item.caption} for item in report.figures],
         "tables": [
             {"title": item.title, "caption": item.caption, "head": [*item.head], "rows": [[*row] for row in item.rows]}
@@ -96,6 +100,29 @@ def _claim(item: ClaimView, site: Site) -> dict[str, Any]:
         "erratum": item.erratum.to_json() if item.erratum else None,
         "read": _read(item.read),
     }
+
+
+def _instrument(view: View, site: Site) -> dict[str, Any]:
+    return {
+        "name": view.instrument.name,
+        "title": view.instrument.title,
+        "page": site.address(f"i-{view.instrument.name}"),
+        "command": view.command,
+        "sliders": [
+            {"symbol": item.name, "latex": item.glyph, "unit": item.unit, "meaning": item.meaning,
+             "lowest": item.lowest, "highest": item.highest, "start": item.start, "logarithmic": item.logarithmic}
+            for item in view.controls
+        ],
+        "values": [
+            {"title": row.title, "claim": row.ref.id, "expression": str(part.value), "key": row.key,
+             "value": row.value if isinstance(row.value, bool | None) or isfinite(row.value) else None}
+            for row, part in zip(view.rows, view.instrument.of(Quantity, Condition), strict=True)
+        ],
+        "pictures": [
+            {"kind": item.kind, "title": item.title, "claims": _ids(item.refs), "expressions": [*expressions_of(part)]}
+            for item, part in zip(view.pictures, view.instrument.of(Plot, Region, Vehicle), strict=True)
+        ],
+    }  # fmt: skip
 
 
 def _erratum(item: Erratum) -> dict[str, Any]:

@@ -30,13 +30,15 @@ class Letter:
 
 @dataclass(frozen=True)
 class Notation:
-    """The letters of a derivation in their order, and the glyph of each symbol."""
+    """The letters of a derivation in their order, the glyph of each symbol, and the letter of each that has one."""
 
     letters: tuple[Letter, ...] = ()
     glyphs: Mapping[Any, str] = ()  # type: ignore[assignment]
+    by_symbol: Mapping[Any, Letter] = ()  # type: ignore[assignment]
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "glyphs", dict(self.glyphs))
+        for name in ("glyphs", "by_symbol"):
+            object.__setattr__(self, name, dict(getattr(self, name)))
 
 
 @lru_cache(maxsize=4096)
@@ -61,6 +63,7 @@ def notation_of(derivation: Derivation) -> Notation:
     """
     letters: dict[Letter, None] = {}
     glyphs: dict[Any, str] = {}
+    by_symbol: dict[Any, Letter] = {}
     for package in derivation.packages:
         module = sys.modules.get(f"{package.__name__}.notation")
         entries = list(getattr(module, "NOTATION", ()))
@@ -75,8 +78,10 @@ def notation_of(derivation: Derivation) -> Notation:
             glyphs.setdefault(symbol, str(glyph))
         for entry in entries:
             glyph = str(entry.glyph) or latex(entry.symbol, glyphs)
-            letters.setdefault(Letter(glyph, str(entry.unit), str(entry.meaning)))
-    return Notation(tuple(letters), glyphs)
+            letter = Letter(glyph, str(entry.unit), str(entry.meaning))
+            letters.setdefault(letter)
+            by_symbol.setdefault(entry.symbol, letter)
+    return Notation(tuple(letters), glyphs, by_symbol)
 
 
 def title_of(derivation: Derivation) -> str:

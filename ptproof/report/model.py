@@ -12,8 +12,10 @@ from ptproof.report.content import Figure, Table
 from ptproof.report.difference import marked
 from ptproof.report.formula import Line, width
 from ptproof.report.graph import Node
+from ptproof.report.instruments.view import View
 from ptproof.report.letters import Letter
 from ptproof.report.read import ReadSide
+from ptproof.report.ref import Ref as Ref
 from ptproof.report.status import Status
 from ptproof.report.witness import WitnessView
 
@@ -48,16 +50,6 @@ class Said:
     def shown(self) -> tuple[Line, ...]:
         """The formula as a reader meets it."""
         return self.printed or self.lines
-
-
-@dataclass(frozen=True)
-class Ref:
-    """A link to a claim or definition."""
-
-    id: str
-    anchor: str
-    title: str
-    status: Status | None
 
 
 @dataclass(frozen=True)
@@ -159,6 +151,7 @@ class Report:
     figures: tuple[Figure, ...]
     appendix: tuple[Table, ...]
     notes: tuple[str, ...]
+    instruments: tuple[View, ...] = ()
 
     @property
     def claims(self) -> tuple[ClaimView, ...]:

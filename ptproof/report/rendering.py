@@ -12,6 +12,7 @@ from markupsafe import Markup, escape
 from ptproof.report.content import Figure
 from ptproof.report.formula import mathml
 from ptproof.report.headline import Piece
+from ptproof.report.instruments.view import shown
 from ptproof.report.model import Said
 from ptproof.report.prose import to_html, worded
 from ptproof.report.templating import environment, text
@@ -26,6 +27,7 @@ def html() -> Environment:
         "display": lambda source: _formula(source, True),
         "prose": lambda source: Markup(to_html(source)),
         "data_uri": data_uri,
+        "digits": shown,
         "pieces": pieces,
         "worded": worded,
         "tex": tex,
@@ -42,7 +44,7 @@ def _formula(source: str, display: bool) -> Markup:
 
 def style() -> str:
     """The style of every page."""
-    return "\n".join(text(name) for name in ("page.css", "front.css", "colours.css", "graph.css"))
+    return "\n".join(text(name) for name in ("page.css", "front.css", "colours.css", "graph.css", "instruments.css"))
 
 
 def script() -> str:

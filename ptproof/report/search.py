@@ -33,7 +33,11 @@ def meanings(report: Report) -> str:
     found: dict[str, list[str]] = {}
     for item in report.letters:
         glyph, *said = found.get(item.key, [mathml(item.glyph)])  # two letters may share a glyph
-        found[item.key] = [glyph, *said, f"{item.meaning} [{item.unit}]" if item.unit not in ("", "1") else item.meaning]
+        found[item.key] = [
+            glyph,
+            *said,
+            f"{item.meaning} [{item.unit}]" if item.unit not in ("", "1") else item.meaning,
+        ]
     found.pop("", None)
     return _script("PTPROOF_LETTERS", found)
 

@@ -17,6 +17,7 @@ from markupsafe import Markup
 from ptproof.report.formula import width
 from ptproof.report.graph import graph_svg
 from ptproof.report.headline import headline
+from ptproof.report.instruments.script import script_of
 from ptproof.report.model import Report, Section
 from ptproof.report.picture import FORMS, picture
 from ptproof.report.rendering import html, script, style
@@ -72,6 +73,8 @@ def site_files(of: Site, above: str = "") -> dict[str, bytes]:
     files["style.css"], files["page.js"] = style().encode(), script().encode()
     files["formulas.js"] = formulas(_short(of.report)).encode()
     files["letters.js"] = meanings(of.report).encode()
+    if of.report.instruments:
+        files["instruments.js"] = _moving(of.report).encode()
     files["search.js"] = search_index(of.report, of.places).encode()
     return files
 
@@ -83,9 +86,11 @@ def single_page(report: Report) -> str:
     body = [
         _front(report), f'<section id="errata">\n<h2>Errata</h2>\n{errata}</section>', _graph(report),
         *(_section(section, [*_cards(section)]) for section in report.sections),
+        *((_instruments(report),) if report.instruments else ()),
         *((parts.drawn(report, True),) if report.figures else ()), *_reference(report),
         *((parts.appended(report),) if report.appendix else ()),
         f'<section id="claims">\n<h2>Statements by verdict</h2>\n{_listed(report)}</section>',
+        *((f"<script>\n{_moving(report)}</script>",) if report.instruments else ()),
     ]  # fmt: skip
     page = Page("", report.title, "\n".join(map(str, body)))
     return _skeleton(report, page, alone=True)
@@ -136,30 +141,40 @@ def _pages(report: Report) -> Iterator[Page]:
         name = slug(section.title)
         taken[name] = taken.get(name, 0) + 1
         name = f"section-{name}" + (f"--{taken[name]}" if taken[name] > 1 else "")
-        for number, cards in enumerate(packed([*_cards(section)]), 1):
+        cut = packed([*_cards(section)])
+        for number, cards in enumerate(cut, 1):
             file = f"{name}.html" if number == 1 else f"{name}-{number}.html"
-            yield Page(file, section.title, _topped(str(_section(section, cards, number))), section.anchor)
+            body = _topped(_section(section, cards, number, len(cut)))
+            yield Page(file, section.title + _of(number, len(cut)), body, section.anchor)
     yield from _split("statements", "Statements by verdict", [_listed(report)], "claims")
     if report.figures or report.appendix:
         body = [parts.drawn(report, False)] if report.figures else []
         body += [parts.appended(report)] if report.appendix else []
         yield Page("figures.html", "Figures", _topped("\n".join(body)))
+    if report.instruments:
+        tools = _topped(_instruments(report)) + '<script src="instruments.js"></script>'
+        yield Page("instruments.html", "Instruments", tools)
     yield Page("reference.html", "Notation and sources", _topped("\n".join(_reference(report))))
 
 
 def _topped(body: str) -> str:
-    """The content with its first heading as that of the page."""
-    return re.sub(r"<h2>(.*?)</h2>", r"<h1>\1</h1>", body, count=1)
+    """The content with its first heading as that of the page; where it is the only one, those of entries come next."""
+    topped = re.sub(r"<h2>(.*?)</h2>", r"<h1>\1</h1>", body, count=1)
+    return topped if "<h2" in topped else re.sub(r"(</?)h3\b", r"\1h2", topped)
+
+
+def _of(number: int, parts: int) -> str:
+    """What a heading says of the part where there are several."""
+    return f" ({number} of {parts})" if parts > 1 else ""
 
 
 def _split(name: str, title: str, items: Sequence[str], anchor: str) -> Iterator[Page]:
     """The items on as many pages as they need; the anchor is on the first."""
     inside = packed(items)
     for number, part in enumerate(inside, 1):
-        more = f'<p class="more"><a href="#{anchor}-{number + 1}">More {title.lower()}</a></p>'
-        head = f'<section id="{anchor}{f"-{number}" if number > 1 else ""}">\n<h1>{title}</h1>\n'
-        body = head + "\n".join(map(str, part)) + (more if number < len(inside) else "") + "</section>"
-        yield Page(f"{name}{f'-{number}' if number > 1 else ''}.html", title, body)
+        whole, mark = title + _of(number, len(inside)), f"-{number}" if number > 1 else ""
+        body = f'<section id="{anchor}{mark}">\n<h2>{whole}</h2>\n' + "\n".join(map(str, part)) + "</section>"
+        yield Page(f"{name}{mark}.html", whole, _topped(body))
 
 
 def _front(report: Report) -> str:
@@ -190,8 +205,18 @@ def _cards(section: Section) -> Iterator[str]:
         yield parts.card(claim)
 
 
-def _section(section: Section, cards: Sequence[str], number: int = 1) -> str:
-    return str(_parts().sectioned(section, Markup("\n").join(map(Markup, cards)), number))
+def _section(section: Section, cards: Sequence[str], number: int = 1, parts: int = 1) -> str:
+    inside = Markup("\n").join(map(Markup, cards))
+    return str(_parts().sectioned(section, inside, number, parts, _of(number, parts)))
+
+
+def _instruments(report: Report) -> str:
+    parts: Any = html().get_template("instruments.html.j2").module
+    return str(parts.page(report.instruments))
+
+
+def _moving(report: Report) -> str:
+    return script_of([view.instrument for view in report.instruments]).replace("</", r"<\/")
 
 
 def _listed(report: Report) -> str:
@@ -219,10 +244,9 @@ def _reference(report: Report) -> Iterator[str]:
 
 
 def _neighbours(pages: Sequence[Page], page: Page) -> tuple[Page | None, Page | None]:
-    """The pages of sections before and after a page of a section."""
-    inside = [item for item in pages if item.section]
-    if page not in inside:
-        return None, None
+    """The pages before and after among those of its kind: sections, parts of the errata, parts of a list."""
+    kind = re.compile(re.split(r"[-.]", page.file)[0] + r"\b")
+    inside = [item for item in pages if kind.match(item.file)]
     place = inside.index(page)
     return inside[place - 1] if place else None, inside[place + 1] if place + 1 < len(inside) else None
 
@@ -236,6 +260,7 @@ def _skeleton(
     turn: tuple[Page | None, Page | None] = (None, None),
 ) -> str:
     parts = [("errata", "Errata"), ("claims", "Statements"), ("graph", "Graph")]
+    parts += [("instruments", "Instruments")] if report.instruments else []
     parts += [("figures", "Figures")] if report.figures else []
     parts += [("appendix", "Appendix")] if report.appendix else []
     parts += [("notation" if report.letters else "cited", "Notation" if report.letters else "Sources")]

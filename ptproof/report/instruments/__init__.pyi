@@ -1,0 +1,14 @@
+from .brought import instruments_of as instruments_of
+from .instrument import Condition as Condition
+from .instrument import Curve as Curve
+from .instrument import Instrument as Instrument
+from .instrument import Plot as Plot
+from .instrument import Quantity as Quantity
+from .instrument import Region as Region
+from .instrument import Vehicle as Vehicle
+from .problem import command as command
+from .problem import vehicle as vehicle
+from .script import script_of as script_of
+from .taken import Slider as Slider
+from .taken import taken as taken
+from .view import View as View
