@@ -195,7 +195,7 @@ class _Composer:
         )  # fmt: skip
 
     def unlike(self, id: str, statements: Sequence[Statement | Assumption]) -> tuple[str, ...]:
-        """The glyphs that do not stand here for what the notation says: of other letters, of bound ones, of functions."""
+        """The glyphs that do not stand here for what the notation says: other letters, bound ones, functions."""
         free = free_symbols(statements)
         named = {symbol for said in expressions_of(statements) for symbol in said.atoms(sp.Symbol)}
         functions = {sp.Symbol(applied.func.__name__) for applied in undefined_functions(statements)}

@@ -7,9 +7,9 @@ import re
 from functools import cache
 from textwrap import indent
 
-from markupsafe import Markup
 from markdown_it import MarkdownIt
 from markdown_it.tree import SyntaxTreeNode
+from markupsafe import Markup
 from mdit_py_plugins.dollarmath import dollarmath_plugin
 
 from ptproof.report.formula import mathml

@@ -29,7 +29,7 @@ def formulas(found: Mapping[str, str]) -> str:
 
 
 def meanings(report: Report) -> str:
-    """A script that sets ``PTPROOF_LETTERS`` to letters by their spelling: as set, and what they stand for, with units."""
+    """A script that sets ``PTPROOF_LETTERS`` to letters by their spelling: as set, and what they stand for."""
     found: dict[str, list[str]] = {}
     for item in report.letters:
         glyph, *said = found.get(item.key, [mathml(item.glyph)])  # two letters may share a glyph

@@ -148,9 +148,9 @@ def _pages(report: Report) -> Iterator[Page]:
             yield Page(file, section.title + _of(number, len(cut)), body, section.anchor)
     yield from _split("statements", "Statements by verdict", [_listed(report)], "claims")
     if report.figures or report.appendix:
-        body = [parts.drawn(report, False)] if report.figures else []
-        body += [parts.appended(report)] if report.appendix else []
-        yield Page("figures.html", "Figures", _topped("\n".join(body)))
+        drawn = [parts.drawn(report, False)] if report.figures else []
+        drawn += [parts.appended(report)] if report.appendix else []
+        yield Page("figures.html", "Figures", _topped("\n".join(drawn)))
     if report.instruments:
         tools = _topped(_instruments(report)) + '<script src="instruments.js"></script>'
         yield Page("instruments.html", "Instruments", tools)

@@ -16,7 +16,8 @@ import pytest
 from ptproof.proof.load import Derivation, load
 from ptproof.proof.shipped import shipped
 from ptproof.reading.latex.formulas import Formulas
-from ptproof.report.kept import Kept, corrected_sides, kept
+from ptproof.reading.latex.kept import Kept
+from ptproof.report.kept import corrected_sides, kept
 from ptproof.report.printed import compare
 from ptproof.report.stated import Printed, printed
 
