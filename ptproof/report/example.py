@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeAlias
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -13,7 +13,8 @@ from ptproof.proof.statement import All, Relation, Statement, relations_of
 from ptproof.report.formula import SIGNS, Names, latex, width
 from ptproof.report.printer import numbers
 
-_ROOM, _SHORT, _DIGITS = 70.0, 12.0, 6
+_ROOM, _SHORT, _DIGITS = 60.0, 12.0, 6
+Ball: TypeAlias = tuple[sp.Expr, float]  # a number, and how far the true one may be from it
 _OPAQUE = (AppliedUndef, sp.Derivative, sp.Subs)
 
 
@@ -56,8 +57,8 @@ class Example:
     compared: str
 
 
-def example_of(statement: Statement, point: Point, left: Any, right: Any, names: Names) -> Example | None:
-    """The relation whose sides at the point are ``left`` and ``right``; None where there is none that is checked so."""
+def example_of(statement: Statement, point: Point, left: Ball, right: Ball, names: Names) -> Example | None:
+    """The relation whose sides at the point lie in ``left`` and ``right``, if one has such sides and they are numbers."""
     if not isinstance(statement, Relation | All):
         return None
     for part in (one for relation in relations_of(statement) for one in relation.components()):
@@ -67,17 +68,17 @@ def example_of(statement: Statement, point: Point, left: Any, right: Any, names:
             sides = [point(side) for side in (part.left, part.right)]
         except (TypeError, ValueError, NotImplementedError):
             continue
-        if all(_same(mine, said) for mine, said in zip(sides, (left, right), strict=True)):
+        if _same(sides[0], *left) and _same(sides[1], *right):
             return _shown(part, point, sides, names)
     return None
 
 
-def _same(mine: Any, said: Any) -> bool:
-    """Whether both are one number, as far as a reader sees."""
+def _same(mine: Any, said: sp.Expr, radius: float) -> bool:
+    """Whether a side is the number that the witness says, as far as that says it."""
     if mine.free_symbols or not mine.is_number or mine.has(sp.nan, sp.zoo, sp.oo, *_OPAQUE):
         return False
     difference = sp.N(mine - said, 20)
-    return bool(difference.is_real) and abs(difference) < 1e-9
+    return bool(difference.is_real) and abs(difference) <= max(radius, 1e-9)
 
 
 def _shown(part: Relation, point: Point, values: list[Any], names: Names) -> Example | None:

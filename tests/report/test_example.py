@@ -11,9 +11,9 @@ F = sp.Function("F", real=True)
 SQUARE = {"F": ((x,), x**2 + 1)}
 
 
-def example(statement, left, right, functions=None, **values):
+def example(statement, left, right, functions=None, radius=0.0, **values):
     symbols = {symbol: sp.Rational(values[symbol.name]) for symbol in (x, y, k) if symbol.name in values}
-    return example_of(statement, Point(symbols, functions or {}), sp.S(left), sp.S(right), {})
+    return example_of(statement, Point(symbols, functions or {}), (sp.S(left), 0.0), (sp.S(right), radius), {})
 
 
 @pytest.mark.parametrize(
@@ -36,6 +36,12 @@ def test_values_stand_in_the_formula_and_nothing_is_multiplied_out(statement, si
 @pytest.mark.parametrize("sides", [(3, 15), (2, 16)])
 def test_what_the_witness_does_not_say_is_not_shown(sides):
     assert example(gt(k, 2 * x * y**2), *sides, k=3, x=2, y=2) is None
+
+
+@pytest.mark.parametrize(("radius", "shown"), [(1e-3, True), (1e-5, False)])
+def test_a_side_may_be_said_by_a_ball(radius, shown):
+    found = example(gt(k, sp.sqrt(x)), 1, "1.4141", radius=radius, k=1, x=2)
+    assert (found is not None) is shown
 
 
 def test_what_has_no_value_is_not_shown():
