@@ -58,7 +58,7 @@ class Example:
 
 
 def example_of(statement: Statement, point: Point, left: Ball, right: Ball, names: Names) -> Example | None:
-    """The relation whose sides at the point lie in ``left`` and ``right``, if one has such sides and they are numbers."""
+    """The relation whose sides at the point lie in ``left`` and ``right``, if there is one of numbers."""
     if not isinstance(statement, Relation | All):
         return None
     for part in (one for relation in relations_of(statement) for one in relation.components()):
