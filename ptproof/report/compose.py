@@ -17,6 +17,7 @@ from ptproof.proof.statement import (
     All,
     Assumption,
     Exists,
+    ForAll,
     Prose,
     Relation,
     Statement,
@@ -196,7 +197,11 @@ class _Composer:
 
     def unlike(self, id: str, statements: Sequence[Statement | Assumption]) -> tuple[str, ...]:
         """The glyphs that do not stand here for what the notation says: other letters, bound ones, functions."""
-        free = free_symbols(statements)
+        quantified = [said for said in statements if isinstance(said, Exists | ForAll)]
+        bound = {symbol for said in quantified for symbol in (*said.variables, *getattr(said, "over", ()))}
+        free = free_symbols(statements) - (
+            bound - free_symbols([said for said in statements if said not in quantified])
+        )
         named = {symbol for said in expressions_of(statements) for symbol in said.atoms(sp.Symbol)}
         functions = {sp.Symbol(applied.func.__name__) for applied in undefined_functions(statements)}
         others = {item for item in named | functions if item not in self.glyphs or item not in free}
