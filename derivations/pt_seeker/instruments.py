@@ -23,23 +23,22 @@ from ptproof.report.instruments import (
 )
 
 from . import chain
-from .notation import R0, T, V0, E_norm, a1, a2, b1, b2, c, d, k, mu, omega, t, t0, tau
+from .notation import R0, V0, E_norm, T, a1, a2, b1, b2, c, d, k, mu, omega, t, t0, tau
 from .section5a_2_averaging import averaged_system
 from .section5b_1_lyapunov import n
 from .section5b_2_gradient_drift import distance_at, lag
-from .section5d_1_interval import beta, gamma, input_gain, middle_bound, second
-from .section5d_2_estimates import duration_in_t, kappa_1
+from .section5d_1_interval import input_gain, second
+from .section5d_2_estimates import kappa_1
 from .section5d_3_trajectory import distance_at as distance_of_x
 from .section5d_3_trajectory import named, solution_1
 from .section6a_asymptotic import distance_bound_in_t, drift_slows, gain_condition, gain_threshold
 from .section6b_1_comparison import C1, C2, W, remark_inequality
 from .section6b_2_critical import critical_value, tau_star
 from .section6b_2_finite import drift_root, feed_root, finite_small_start, finite_under_condition
-from .section6c_2_bounded_drift import at as along
 from .section6c_feasibility import asymptotic_iss, lowest
+from .section6d_2_clipped_bounded import distance_then
 from .section6d_clipped import gain_after, total_time
 from .section6d_clipped_trajectory import distance_final
-from .section6d_2_clipped_bounded import distance_then
 from .section6e_after_the_clip import closer_after_corrected
 from .section7d_examples import nonvanishing, nonvanishing_as_simulated, vanishing, vanishing_as_simulated
 

@@ -136,11 +136,6 @@
     draw();
 
     // The name and the formula of a claim, beside its mark: from its entry on this page, or from a script beside it.
-    const note = document.createElement("div");
-    note.className = "note";
-    note.setAttribute("role", "tooltip");
-    note.hidden = true;
-    document.body.append(note);
     let loaded;
     const formulas = () => (loaded ??= new Promise((done) => {
       const script = document.createElement("script");
@@ -155,14 +150,10 @@
       const anchor = decodeURIComponent(link.hash.slice(1)), here = document.getElementById(anchor);
       const found = here ? here.querySelector(".formula, .words")?.outerHTML : (await formulas())[anchor];
       if (over !== mark || (!found && mark === link)) return;
-      note.innerHTML = found ?? "";
-      if (mark !== link) note.prepend(Object.assign(document.createElement("p"), { textContent: link.textContent }));
-      note.hidden = false;
-      const box = mark.getBoundingClientRect(), width = note.offsetWidth;
-      note.style.left = `${Math.max(8, Math.min(box.left, innerWidth - width - 8))}px`;
-      note.style.top = `${box.bottom + 6 + note.offsetHeight > innerHeight ? box.top - note.offsetHeight - 6 : box.bottom + 6}px`;
+      const name = Object.assign(document.createElement("p"), { textContent: link.textContent });
+      tip.show((mark === link ? "" : name.outerHTML) + (found ?? ""), mark.getBoundingClientRect());
     };
-    const hush = () => { over = null; note.hidden = true; };
+    const hush = () => { over = null; tip.hide(); };
     addEventListener("keydown", (event) => { if (event.key === "Escape") hush(); });
     for (const group of groups.values()) {
       const links = [...group.querySelectorAll(".inside li a")];
