@@ -101,7 +101,7 @@ def _gain() -> Instrument:
                 r"t\ [\text{s}]", DISTANCE,
             ),
         ),
-        f"ptproof gains --kappa 1 {GIVEN} --drift-norm {{E_norm}} --k {{k}} --T {{T}} --json",
+        f"ptproof gains --kappa 1 {GIVEN} --drift-norm {{E_norm}} --k {{k}} --T {{T}}",
     )  # fmt: skip
 
 
@@ -142,7 +142,7 @@ def _critical() -> Instrument:
                 r"t\ [\text{s}]", r"V\ [F]",
             ),
         ),
-        f"ptproof gains --kappa {{kappa}} {GIVEN} --drift-norm {{E_norm}} --k {{k}} --T {{T}} --V0 {{V0}} --json",
+        f"ptproof gains --kappa {{kappa}} {GIVEN} --drift-norm {{E_norm}} --k {{k}} --T {{T}} --V0 {{V0}}",
     )  # fmt: skip
 
 
@@ -164,7 +164,7 @@ def _clipped() -> Instrument:
                  (Curve("bound for every ν_min", final),), r"\nu_{\min}", DISTANCE, logarithmic=True),
         ),
         f"ptproof gains --kappa 1 {GIVEN} --drift-norm {{E_norm}} --k {{k}} --T {{T}} --nu-min {{nu_min}} "
-        "--x0-norm {R0} --json",
+        "--x0-norm {R0}",
     )  # fmt: skip
 
 
@@ -190,7 +190,7 @@ def _bounded() -> Instrument:
             Quantity("γ(h₂‖d‖): what a lasting drift leaves", take(named(kappa_1, "gamma-class-k"),
                      at={second: input_gain(one) * d}, part=2), "right", "m", "nonvanishing.gamma"),
         ),
-        f"ptproof gains --kappa 1 {GIVEN} --drift-bound {{d}} --k {{k}} --T {{T}} --x0-norm {{R0}} --json",
+        f"ptproof gains --kappa 1 {GIVEN} --drift-bound {{d}} --k {{k}} --T {{T}} --x0-norm {{R0}}",
     )  # fmt: skip
 
 

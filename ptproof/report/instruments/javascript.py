@@ -47,7 +47,7 @@ class _Printer(JavascriptCodePrinter):
 
     def _print(self, expr: Any, **settings: Any) -> str:
         # By SymPy's own classes: somebody else's function of the same name is another one.
-        for kind in (base.__name__ for base in type(expr).__mro__ if base.__module__.startswith("sympy.")):
+        for kind in (base.__name__ for base in type(expr).__mro__ if (base.__module__ or "").startswith("sympy.")):
             if (own := getattr(self, f"own_{kind}", None)) is not None:
                 return str(own(expr))
             if kind in _SAME:
