@@ -135,7 +135,10 @@ def superscript(unit: str) -> str:
 
 def evaluated(source: sp.Basic, values: Mapping[sp.Symbol, Any]) -> float:
     """The value of an expression at exact values; NaN where it has no real one."""
-    found = sp.N(source.xreplace(dict(values)), 30)
+    try:
+        found = sp.N(source.xreplace(dict(values)), 30)
+    except (TypeError, ZeroDivisionError):  # SymPy's words for a comparison of what is not real, and for Mod(x, 0)
+        return math.nan
     if found in (sp.oo, -sp.oo):
         return math.inf if found == sp.oo else -math.inf
     return float(found) if found.is_real else math.nan

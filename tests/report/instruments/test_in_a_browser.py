@@ -106,7 +106,7 @@ def asked(tmp_path_factory):
     """The instruments of both papers, and a spoilt one; where they were looked at, and what was found there."""
     tools = papers()
     tools.append(spoilt(tools[0]))
-    places = [list(positions(tool, 60, seed)) for seed, tool in enumerate(tools)]
+    places = [list(positions(tool, 25, seed)) for seed, tool in enumerate(tools)]
     folder = tmp_path_factory.mktemp("papers")
     (folder / "script.js").write_text(script_of(tools), encoding="utf-8")
     data = [
@@ -139,8 +139,10 @@ def differences(tool, places, found):
                 low, high = (sp.sympify(end).xreplace(values) for end in (part.lowest, part.highest))
                 there = {**values, part.variable: low + share * (high - low)}
                 for n, curve in enumerate(part.curves):
-                    exact = evaluated(curve.value, there)
-                    if not same(number(drawn[2 * n]), exact):
+                    within, exact = curve.domain({*tool.symbols, part.variable}), evaluated(curve.value, there)
+                    if number(drawn[2 * n + 1]) != float(bool(decided(within, there))):
+                        yield part.title, there, drawn[2 * n + 1], "domain"
+                    elif drawn[2 * n + 1] == "1" and not same(number(drawn[2 * n]), exact):
                         yield part.title, there, drawn[2 * n], exact
 
 
@@ -153,11 +155,11 @@ def test_every_number_of_the_papers_is_pythons(asked):
 
 def test_a_number_that_is_off_is_noticed(asked):
     tools, places, found = asked
-    assert len(list(differences(tools[0], places[-1], found[-1]))) > 50
+    assert len(list(differences(tools[0], places[-1], found[-1]))) > 20
 
 
 def test_every_vehicle_ends_where_pythons_does(asked):
-    from scipy.integrate import solve_ivp
+    from ptproof.simulation import simulate
 
     tools, places, found = asked
     ran = 0
@@ -169,12 +171,11 @@ def test_every_vehicle_ends_where_pythons_does(asked):
                 values = dict(zip(tool.symbols, s, strict=True))
                 edges = [float(edge.xreplace(values)) for edge in part.edges]
                 for system, place, at in zip((part.system, part.beside), part.places, drawn["pictures"][n], strict=True):
-                    rates = [rate.xreplace(values) for rate in system.rhs]
-                    rate = sp.lambdify([system.time, system.state], rates, "math", cse=True)
                     now = [float(part.starts[state].xreplace(values)) for state in system.state]
-                    for first, last in zip(edges, edges[1:], strict=False):
-                        done = solve_ivp(rate, (first, last), now, method="DOP853", rtol=1e-13, atol=1e-13)
-                        now = done.y[:, -1]
+                    for span in zip(edges, edges[1:], strict=False):
+                        own_values = {symbol: value for symbol, value in values.items() if symbol in system.parameters}
+                        run = simulate(system, initial=now, span=span, parameters=own_values, rtol=1e-12)
+                        now = [float(value) for value in run.x[:, -1]]
                     where = sp.lambdify([system.time, system.state], [e.xreplace(values) for e in place], "math")
                     np.testing.assert_allclose([float(one) for one in at], where(edges[-1], now), rtol=1e-9, atol=1e-9)
                     ran += 1
@@ -250,9 +251,9 @@ SAID = {
     "moved": ["1.87083", "1.64872", "4", "0.666667", "does not hold"],
     "region": "The sliders stand outside: nothing is proved here.",
     "command": "echo 3.5 2 1 3", "range": 200, "needs": 1, "hash": "#i-bounds:E=2", "end": "10", "words": "10 1/s",
-    "whole": "3", "clamped": "10", "infinite": "∞", "empty": "#i-bounds:", "focusable": True, "later": "0.5",
+    "whole": "3", "clamped": "10", "infinite": "not defined", "empty": "#i-bounds:", "focusable": True, "later": "0.5",
     "restored": ["2.64575", "0.00247875", "1", "0.153846", "holds"], "playing": "❚❚ Pause", "paused": "▶ Run",
-    "redrawn": [True, True, True], "wide 390": 0, "wide 1280": 0, "wide 1920": 0,
+    "redrawn": [False, True, True], "wide 390": 0, "wide 1280": 0, "wide 1920": 0,
 }  # fmt: skip
 
 
