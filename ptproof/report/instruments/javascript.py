@@ -98,6 +98,11 @@ class _Printer(JavascriptCodePrinter):
         above = sp.Mul(*(item for item in expr.args if item not in below))
         return f"div({self._print(above)}, {self._print(sp.Mul(*(1 / item for item in below)))})"
 
+    def own_log(self, expr: sp.Expr) -> str:
+        if len(expr.args) != 1:
+            raise InputError(f"{expr} has no exact counterpart in JavaScript (a logarithm to another base)")
+        return f"log({self._print(expr.args[0])})"
+
     def own_Mod(self, expr: sp.Expr) -> str:
         return f"mod({self._all(expr.args)})"
 
