@@ -178,11 +178,11 @@ class _Writer:
     letters: Mapping[Any, Letter]
 
     def control(self, slider: Slider) -> Control:
-        entry = self.letters.get(slider.symbol)
+        letter = self.letters.get(slider.symbol, Letter("", "", ""))
+        unit, meaning = superscript(slider.unit or letter.unit), slider.meaning or letter.meaning
         return Control(
-            slider.symbol.name, latex(slider.symbol, self.glyphs), superscript(slider.unit or getattr(entry, "unit", "")),
-            slider.meaning or getattr(entry, "meaning", ""), float(slider.lowest), float(slider.highest),
-            float(slider.start), slider.logarithmic, bool(slider.symbol.is_integer),
+            slider.symbol.name, latex(slider.symbol, self.glyphs), unit, meaning, float(slider.lowest),
+            float(slider.highest), float(slider.start), slider.logarithmic, bool(slider.symbol.is_integer),
         )  # fmt: skip
 
     def row(self, part: Quantity | Condition) -> Row:
@@ -227,5 +227,5 @@ class _Writer:
         return tuple(rf"{latex(letter, self.glyphs)} = {latex(value, self.glyphs)}" for letter, value in taken.at)
 
     def unit(self, symbol: sp.Symbol) -> str:
-        unit = getattr(self.letters.get(symbol), "unit", "")
+        unit = self.letters.get(symbol, Letter("", "", "")).unit
         return rf"\ \text{{in {superscript(unit)}}}" if unit and unit != "1" else ""

@@ -7,7 +7,6 @@ import pytest
 from ptproof.proof.load import load
 from ptproof.proof.result import Verification
 from ptproof.proof.run import conclude
-from ptproof.proof.verdict import Evidence
 from ptproof.report.compose import compose
 from ptproof.report.instruments import instruments_of
 from ptproof.report.letters import notation_of
@@ -23,7 +22,7 @@ k = letter("k", "k", "1/s", "gain", positive=True)
 E = letter("E", r"\\\\|E\\\\|", "m^{2κ}", "drift <gain> & more", nonnegative=True)
 V0 = letter("V0", "V_0", "m²", "V at the start", positive=True)
 """
-CLAIMS = '''
+CLAIMS = """
 import sympy as sp
 from ptproof.proof import Evidence, claim, definition, eq, every, ge, gt, le, lt, ForAll
 from ptproof.proof.verdict import Verdict
@@ -48,8 +47,8 @@ def undecided(goal):
     return Evidence("search", Verdict.UNDECIDED, "tried")
 
 gain = definition("gain", "The least gain", eq(sp.Symbol("k_min", real=True), 2 * E), labels=["eq:gain"])
-'''
-INSTRUMENTS = '''
+"""
+INSTRUMENTS = """
 import sympy as sp
 from ptproof.report.instruments import Condition, Curve, Instrument, Plot, Quantity, Region, Slider, Vehicle, taken
 from ptproof.system import System
@@ -57,7 +56,9 @@ from .claims import V, bound, gain, n, power, undecided
 from .notation import E, V0, k, t
 
 order = sp.Symbol("kappa", integer=True, positive=True)
-SLIDERS = (Slider(k, "0.1", 10, "3.5", logarithmic=True), Slider(E, 0, 4, 1), Slider(V0, "0.5", 2, 1), Slider(order, 2, 5, 3))
+SLIDERS = (
+    Slider(k, "0.1", 10, "3.5", logarithmic=True), Slider(E, 0, 4, 1), Slider(V0, "0.5", 2, 1), Slider(order, 2, 5, 3),
+)
 
 def instruments():
     take = lambda *a, **b: taken(a[0], SLIDERS, *a[1:], **b)
@@ -77,7 +78,7 @@ def instruments():
         "Spiral", loop, System(t, (z, w), (-k * z, -k * w)), {x: 1, y: 0, z: 1, w: 0}, (0, sp.Rational(1, 2), 2), t,
         (0, 0), -(x**2 + y**2), (bound,),
     ),))
-'''
+"""
 
 
 @pytest.fixture(scope="session")

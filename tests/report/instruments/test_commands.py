@@ -5,6 +5,7 @@ import re
 import shlex
 import subprocess
 import sys
+from itertools import pairwise
 
 import pytest
 import sympy as sp
@@ -16,10 +17,11 @@ from ptproof.report.instruments.taken import compared
 from ptproof.report.instruments.view import decided, decimal, evaluated, filled
 
 MOVED = [
-    {}, {"k": "2.3", "T": "0.7", "E_norm": "0.6", "a1": "0.71", "V0": "0.002", "kappa": "3", "d": "0.3", "nu_min": "0.4"},
+    {},
+    {"k": "2.3", "T": "0.7", "E_norm": "0.6", "a1": "0.71", "V0": "0.002", "kappa": "3", "d": "0.3", "nu_min": "0.4"},
     {"k": "4.1", "T": "1.9", "E_norm": "2.2", "b2": "1.7", "R0": "1.1", "nu_min": "0.25", "kappa": "4", "V0": "0.001"},
 ]  # fmt: skip
-NAMES = ("gain", "critical", "clip", "bounded-drift", "vanishing", "nonvanishing")
+NAMES = ("gain", "critical", "clip", "bounded-drift", "vanishing", "nonvanishing", "unsaturated")
 
 
 @pytest.fixture(scope="module")
@@ -81,7 +83,7 @@ def test_the_vehicle_is_that_of_the_command_line(papers, name, moved, tmp_path):
         now = [float(part.starts[state].xreplace(values)) for state in system.state]
         own = {symbol: value for symbol, value in values.items() if symbol in system.parameters}
         edges = [float(edge.xreplace(values)) for edge in part.edges]
-        for span in zip(edges, edges[1:], strict=False):
+        for span in pairwise(edges):
             now = [float(v) for v in simulate(system, initial=now, span=span, parameters=own, rtol=1e-11).x[:, -1]]
         assert leaf(content, key) == pytest.approx(now[:2], abs=1e-8)
 

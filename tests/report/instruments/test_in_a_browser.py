@@ -1,8 +1,10 @@
-"""The instruments in a real browser, where there is one: what is printed is what Python computes, and the page moves."""
+"""The instruments in a real browser, where there is one: it has the numbers that Python has, and the page moves."""
 
 import json
 import math
 from dataclasses import replace
+from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -19,11 +21,13 @@ x, y = sp.symbols("x y", real=True)
 POINTS = [(a, b) for a in (-2.5, -1, -0.25, 0, 0.5, 1, 3) for b in (-3, -0.5, 0, 1, 2.25)]
 PRINTED = [
     x**2, x**-3, sp.sqrt(x), x ** sp.Rational(2, 3), sp.real_root(x, 3), x**y, (x**2 + 1) ** -y, -(x**2), x / y / 3,
-    2 * x * (x - y) / (3 * y), sp.exp(-(x**2)), sp.log(x), sp.Abs(x - y), sp.sign(x), sp.floor(x / 2), sp.ceiling(x * y),
+    2 * x * (x - y) / (3 * y), sp.exp(-(x**2)), sp.log(x), sp.Abs(x - y), sp.sign(x), sp.floor(x / 2),
+    sp.ceiling(x * y),
     sp.Mod(x, 2), sp.Mod(x, -2), -2 * sp.Mod(x, y), sp.Mod(-x, 3) ** 2, sp.Max(x, y, 0), sp.Min(x, y) ** 2,
     sp.Heaviside(x), sp.Heaviside(x - 1, 1), sp.atan2(x, y), sp.cosh(x) - sp.sinh(y), sp.tanh(x * y), sp.asin(x),
     sp.acosh(y), sp.cbrt(x**2), sp.pi * x + sp.E, sp.Piecewise((x, x < 0), (y, x < 1), (x * y, True)),
-    sp.Piecewise((x, sp.And(x > 0, y > 0)), (y, sp.Or(x < -1, sp.Not(y < 2)))), sp.Piecewise((1, sp.log(x) < 0), (2, True)),
+    sp.Piecewise((x, sp.And(x > 0, y > 0)), (y, sp.Or(x < -1, sp.Not(y < 2)))),
+    sp.Piecewise((1, sp.log(x) < 0), (2, True)),
     sp.Piecewise((x, sp.Ne(x, 1)), (7, True)), sp.sqrt(sp.Max(x, y)) / (sp.Abs(x) + 1), 1 / (x - 1), x / (x - y),
     sp.Rational(1, 3) - x, sp.Pow(0, x, evaluate=False), sp.exp(1000 * x), sp.Rational(7, 2) ** x, -x * -y - -x,
 ]  # fmt: skip
@@ -35,7 +39,8 @@ def printed(tmp_path_factory):
     """Each expression at each point, as the browser has it."""
     look = f"""<!doctype html><meta charset="utf-8"><pre id="said"></pre><script>{HELPERS}
     const f = {function(PRINTED, NAMES)};
-    document.getElementById("said").textContent = JSON.stringify({json.dumps(POINTS)}.map(([a, b]) => f(a, b).map(String)));
+    const found = {json.dumps(POINTS)}.map(([a, b]) => f(a, b).map(String));
+    document.getElementById("said").textContent = JSON.stringify(found);
     </script>"""
     return looked(tmp_path_factory.mktemp("printed"), look)
 
@@ -57,16 +62,7 @@ def same(found, exact):
 
 # --- What the papers bring ---
 
-LOOK = """<!doctype html><meta charset="utf-8"><pre id="said"></pre><script src="script.js"></script><script>
-const { tools, run } = window.PTPROOF_INSTRUMENTS, asked = ASKED;
-const text = (values) => values.map(String);
-document.getElementById("said").textContent = JSON.stringify(tools.map((tool, n) => asked[n].map(({ s, v, whole }) => ({
-  values: text(tool.values(s)),
-  pictures: tool.pictures.map((picture) => picture.kind === "plot" ? text(picture.at(s, picture.range(s)[0] + v * (picture.range(s)[1] - picture.range(s)[0])))
-    : picture.kind === "region" ? text(picture.at(s))
-    : whole ? [picture.system, picture.beside].map((one) => { const found = run(one, s, picture.edges(s)); return text(one.place(found.t, found.x, s)); }) : []),
-}))));
-</script>"""
+LOOK = Path(__file__).with_name("papers.html").read_text("utf-8")
 
 
 def papers():
@@ -170,9 +166,11 @@ def test_every_vehicle_ends_where_pythons_does(asked):
             for (s, _), drawn in list(zip(own, said, strict=True))[:2]:
                 values = dict(zip(tool.symbols, s, strict=True))
                 edges = [float(edge.xreplace(values)) for edge in part.edges]
-                for system, place, at in zip((part.system, part.beside), part.places, drawn["pictures"][n], strict=True):
+                for system, place, at in zip(
+                    (part.system, part.beside), part.places, drawn["pictures"][n], strict=True
+                ):
                     now = [float(part.starts[state].xreplace(values)) for state in system.state]
-                    for span in zip(edges, edges[1:], strict=False):
+                    for span in pairwise(edges):
                         own_values = {symbol: value for symbol, value in values.items() if symbol in system.parameters}
                         run = simulate(system, initial=now, span=span, parameters=own_values, rtol=1e-12)
                         now = [float(value) for value in run.x[:, -1]]
@@ -184,57 +182,8 @@ def test_every_vehicle_ends_where_pythons_does(asked):
 
 # --- The page ---
 
-PAGE = """<!doctype html><meta charset="utf-8"><pre id="said"></pre><script>
-const pause = (time) => new Promise((done) => setTimeout(done, time)), said = {};
-const open = async (address) => {
-  const frame = document.createElement("iframe");
-  frame.width = 1280; frame.height = 900; frame.src = address;
-  await new Promise((done) => { frame.onload = done; document.body.append(frame); });
-  await pause(400);
-  return frame;
-};
-(async () => {
-  const frame = await open("instruments.html"), view = frame.contentDocument, tool = view.getElementById("i-bounds");
-  const outputs = (where = tool) => [...where.querySelectorAll("output")].map((one) => one.textContent);
-  const input = (name, type, where = tool) => where.querySelector(`input[type=${type}][name="${name}"]`);
-  const put = async (name, type, value, event) => { const one = input(name, type); one.value = value; one.dispatchEvent(new Event(event, { bubbles: true })); await pause(100); };
-  const d = (where = tool) => [...where.querySelectorAll("svg")].map((svg) => svg.querySelector(".curve")?.getAttribute("d") ?? "");
-  said.errors = frame.contentWindow.errors;
-  said.first = outputs();
-  const before = d();
-  await put("E", "number", "2", "change");
-  said.moved = outputs(); said.redrawn = d().map((path, n) => path !== before[n]);
-  said.region = tool.querySelector(".region .said").textContent;
-  said.command = tool.querySelector(".command code").textContent;
-  said.range = Number(input("E", "range").value);
-  said.needs = tool.querySelectorAll(".row.outside").length;
-  said.hash = frame.contentWindow.location.hash;
-  await put("k", "range", "400", "input");
-  said.end = input("k", "number").value; said.words = input("k", "range").getAttribute("aria-valuetext");
-  await put("kappa", "number", "3.4", "change"); said.whole = input("kappa", "number").value;
-  await put("k", "number", "1e9", "change"); said.clamped = input("k", "number").value;
-  await put("k", "number", "3", "change"); await put("E", "number", "3", "change"); said.infinite = outputs()[3];
-  tool.querySelector("button[type=reset]").click(); await pause(100);
-  said.reset = outputs(); said.empty = frame.contentWindow.location.hash;
-  said.focusable = [...tool.querySelectorAll("input, button, a[href]")].every((one) => { one.focus(); return view.activeElement === one; });
-  const circle = view.getElementById("i-circle");
-  said.run = [...circle.querySelectorAll(".said p")].map((one) => one.textContent);
-  said.path = d(circle)[0].length;
-  const play = circle.querySelector(".play"), time = circle.querySelector(".time");
-  play.click(); said.playing = play.textContent; await pause(300); play.click(); said.paused = play.textContent;
-  said.passed = Number(time.value) < 1000;
-  frame.contentWindow.dispatchEvent(new Event("beforeprint"));
-  const other = await open("instruments.html#i-bounds:E=0.5,k=7,nonsense=3,V0=99");
-  said.restored = outputs(other.contentDocument.getElementById("i-bounds")); said.later = other.contentDocument.querySelector("input[type=number][name=E]").value;
-  const single = await open("report.html");
-  said.single = outputs(single.contentDocument.getElementById("i-bounds")); said.flaws = single.contentWindow.errors;
-  for (const width of [390, 1280, 1920]) { frame.width = width; await pause(100); said[`wide ${width}`] = view.documentElement.scrollWidth - frame.clientWidth; }
-  document.getElementById("said").textContent = JSON.stringify(said);
-})();
-</script>"""
-HEARD = (
-    b"<head><script>var errors = []; addEventListener('error', (e) => errors.push(e.message || e.target.src), true);</script>"
-)
+PAGE = Path(__file__).with_name("page.html").read_text("utf-8")
+HEARD = b"<head><script>var errors = []; addEventListener('error', (e) => errors.push(e.message || e.target.src), true);</script>"
 
 
 @pytest.fixture(scope="module")

@@ -91,7 +91,8 @@ def quantity(statement, *given, **how):
 @pytest.mark.parametrize(
     ("parts", "command", "words"),
     [
-        ((quantity(le(t, c)),), "", "no slider moves c"), ((quantity(le(t, sp.LambertW(k))),), "", "no exact counterpart"),
+        ((quantity(le(t, c)),), "", "no slider moves c"),
+        ((quantity(le(t, sp.LambertW(k))),), "", "no exact counterpart"),
         ((quantity(le(t, X(k))),), "", "no exact counterpart"), ((quantity(le(t, k)),), "echo {q}", "asks for q"),
         ((Region("R", k, c, (taken(claimed(le(t, k), gt(k, E)), SLIDERS),)),), "", "both axes"),
         ((Region("R", k, E, (taken(claimed(le(t, k), gt(k, c)), SLIDERS),)),), "", "no slider moves c"),
