@@ -17,7 +17,7 @@ def figures() -> Iterator[Figure]:
     """Each of them, one after the other."""
     import sympy as sp
 
-    from ptproof.simulation.drawing import BLUE, GREEN, RED, new_figure, png
+    from ptproof.simulation.drawing import BLUE, GREEN, RED, new_figure, svg
 
     from .experiments import observations as seen
     from .notation import F_star, H
@@ -40,4 +40,4 @@ def figures() -> Iterator[Figure]:
     made = {name: figure for name, (figure, _) in drawn.items()}
     made["gap"] = seen.order("newton", sp.Rational(3, 4)).plot().figure
     for name, figure in made.items():
-        yield Figure(f"newton-{name}", f"Section VI: {CAPTIONS[name]}. Repeat: `ptproof report`.", png(figure))
+        yield Figure(f"newton-{name}", f"Section VI: {CAPTIONS[name]}. Repeat: `ptproof report`.", svg(figure))

@@ -171,8 +171,9 @@ def eigenvalues_printed(goal: Goal) -> Evidence:
 
 @claim(
     "newton/5-eigenvalues", "λ₁, λ₂ = −α/4 ± √((α/2)² − (2ω₀)²)/2, where they are real",
-    every(*(eq(characteristic(J_n, -decay / 2 + sign * sp.sqrt(discriminant) / 2), 0) for sign in (1, -1))),
-    given=[ge(discriminant, 0)], labels=["eq:ev_zbar_newton"], uses=[linearisation], corrects=eigenvalues_printed,
+    every(*(eq(characteristic(J_n, value), 0) for value in (lambda_1, lambda_2))),
+    given=[ge(discriminant, 0), *both(-decay / 2, discriminant)], labels=["eq:ev_zbar_newton"], uses=[linearisation],
+    corrects=eigenvalues_printed,
 )  # fmt: skip
 def eigenvalues(goal: Goal) -> Evidence:
     """The roots of λ² + (α/2) λ + ω₀²."""

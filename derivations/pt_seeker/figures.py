@@ -37,7 +37,7 @@ EXAMPLES = {
 def figures() -> Iterator[Figure]:
     """Every figure of the paper's examples, one after the other."""
     from ptproof.problem import example
-    from ptproof.simulation.drawing import png
+    from ptproof.simulation.drawing import svg
 
     from .experiments import gallery
 
@@ -50,7 +50,7 @@ def figures() -> Iterator[Figure]:
                 if kind in ("phase-portrait", "order")
                 else (f"See also: `ptproof simulate {name} --plot run.png`")
             )
-            yield Figure(f"{name}-{kind.removeprefix(f'{name}-')}", f"{title}: {CAPTIONS[kind]}. {how}.", png(figure))
+            yield Figure(f"{name}-{kind.removeprefix(f'{name}-')}", f"{title}: {CAPTIONS[kind]}. {how}.", svg(figure))
 
 
 def _certified(problem: Problem) -> dict[str, tuple[np.ndarray, np.ndarray]]:

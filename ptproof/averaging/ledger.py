@@ -18,11 +18,13 @@ from ptproof.averaging.fast import quasi_steady_state
 from ptproof.averaging.form import check_form, parts
 from ptproof.averaging.problem import DitherProblem, FastStates
 from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided
+from ptproof.averaging.signal import read_signal
 from ptproof.errors import InputError
 from ptproof.proof.engines.smoothness import smoothness
 from ptproof.proof.signs import vanishes
 from ptproof.proof.verdict import Evidence, Verdict, Witness
 from ptproof.reading.expressions import parse
+from ptproof.system import DitherSystem
 
 _TIMES = {2: "twice", 3: "three times"}
 _ORDER = {Verdict.REFUTED: 0, Verdict.UNDECIDED: 1, Verdict.PROVED: 2}
@@ -204,8 +206,20 @@ def bounded_fields(problem: DitherProblem) -> Evidence:
     return evidence
 
 
+def unread(system: DitherSystem) -> Evidence | None:
+    """That a dither is none of the signals that are read piece by piece, all of which are bounded; None if all are."""
+    for i, dither in enumerate(system.dithers, start=1):
+        try:
+            read_signal(dither, system.phase, system.period, f"dither {i}")
+        except (AveragingRefused, AveragingUndecided) as error:
+            return Evidence("dithers", Verdict.UNDECIDED, str(error))
+    return None
+
+
 def _dithers(problem: DitherProblem) -> Evidence:
     system = problem.system
+    if open_question := unread(system):
+        return open_question
     found = []
     for i, dither in enumerate(system.dithers, start=1):
         if system.time in dither.free_symbols:

@@ -15,11 +15,10 @@ import sympy as sp
 
 from ptproof.averaging.brackets import SparseField, Vector, sparse_bracket
 from ptproof.averaging.exponents import told
-from ptproof.averaging.ledger import Ledger, bounded_fields, judged, period_and_mean, smooth_fields
+from ptproof.averaging.ledger import Ledger, bounded_fields, judged, period_and_mean, smooth_fields, unread
 from ptproof.averaging.powers import PoweredProblem
 from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided
 from ptproof.averaging.second import PoweredAverage, check_powered_form, derive_powered
-from ptproof.averaging.signal import read_signal
 from ptproof.proof.claim import Goal
 from ptproof.proof.engines.exact import exact
 from ptproof.proof.kinks import KINKS
@@ -111,14 +110,8 @@ def _form(problem: PoweredProblem) -> Evidence:
 
 
 def _bounded_dithers(problem: PoweredProblem) -> Evidence:
-    plain = problem.system.plain
-    for i, dither in enumerate(plain.dithers, start=1):
-        try:
-            read_signal(dither, plain.phase, plain.period, f"dither {i}")
-        except (AveragingRefused, AveragingUndecided) as error:
-            return Evidence("dithers", Verdict.UNDECIDED, str(error))
     detail = "piecewise smooth and periodic, so bounded; a bound beyond 1 counts as part of the field"
-    return Evidence("dithers", Verdict.PROVED, detail)
+    return unread(problem.system.plain) or Evidence("dithers", Verdict.PROVED, detail)
 
 
 def _pairs(problem: PoweredProblem, found: PoweredAverage) -> Evidence:

@@ -23,7 +23,8 @@ if TYPE_CHECKING:
 @click.argument("paper", metavar="PAPER.tex")
 @options.derivations
 @options.as_json
-def coverage(paper: str, paths: tuple[str, ...], as_json: bool) -> int:
+@click.option("--keep", is_flag=True, help="Write its formulas beside the derivation (printed.toml), for the report.")
+def coverage(paper: str, paths: tuple[str, ...], as_json: bool, keep: bool) -> int:
     """Show which equations of PAPER.tex the claims below each PATH cover (the shipped derivations where left out).
 
     Where there are several derivations, the one that names most labels of the paper is taken for its own.
@@ -32,6 +33,9 @@ def coverage(paper: str, paths: tuple[str, ...], as_json: bool) -> int:
     what the claims that cover it say: equal, different, or not read and why. A relation in running text is looked up
     among all that the derivation states or assumes.
 
+    With --keep the formulas that something covers, and nothing else of the paper, are written into printed.toml beside
+    the derivation: the report reads them there, and shows what a claim says as the paper prints it.
+
     Exit status 1 if a label of an equation is not covered, a claim or the table names a label or a place that the paper
     does not have, or a formula that was read is different from what is claimed.
     """
@@ -39,6 +43,7 @@ def coverage(paper: str, paths: tuple[str, ...], as_json: bool) -> int:
     from ptproof.reading.latex.formulas import find_formulas
     from ptproof.reading.latex.source import read_paper
     from ptproof.report.coverage import coverage as match
+    from ptproof.report.kept import keep as write
     from ptproof.report.labels import all_labels, equation_labels
     from ptproof.report.printed import compare_all
     from ptproof.report.running import hold_running
@@ -57,6 +62,8 @@ def coverage(paper: str, paths: tuple[str, ...], as_json: bool) -> int:
         missing = places_missing(notation, formulas)
         for place in missing:
             click.echo(f"ptproof: {paper} has no formula {place}, which {notation.where} names", err=True)
+        if keep:
+            click.echo(f"{write(derivation, formulas, notation)} holds the formulas of {paper}", err=True)
         compared = compare_all(formulas, notation)
         running = hold_running(formulas, notation, derivation)
         if as_json:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -96,10 +97,14 @@ def _derivation(paper: Opened) -> Derivation:
 
 
 def _read(papers: Sequence[Opened], tex: Mapping[str, str]) -> dict[str, Mapping[str, ReadSide]]:
-    """What became of the printed sides of each paper whose source is given, by the paper's name."""
+    """What became of the printed sides of each paper, by its name: of its source, or of what is kept of it."""
     from ptproof.commands.coverage import own
+    from ptproof.report.kept import kept_sides
     from ptproof.report.labels import all_labels
-    from ptproof.report.read import read_sides
+    from ptproof.report.read import ReadSide, read_sides
+
+    def plain(derivation: Derivation) -> dict[str, Any]:
+        return {id: side.to_json() for id, side in kept_sides(derivation).items()}
 
     found: dict[str, Mapping[str, ReadSide]] = {}
     for file, source in tex.items():
@@ -107,6 +112,10 @@ def _read(papers: Sequence[Opened], tex: Mapping[str, str]) -> dict[str, Mapping
         if name in found:
             raise InputError(f"--paper: {file} is about {name}, and so is another that is given")
         found[name] = read_sides(source, derivation)
+    for paper in papers:
+        known = paper.memory.value("kept sides", partial(plain, _derivation(paper)))
+        kept = {id: ReadSide.from_json(side) for id, side in known.items()}
+        found[paper.name] = {**kept, **found.get(paper.name, {})}
     return found
 
 
@@ -136,7 +145,7 @@ def _write(
             words = f"{claim.ref.id}: expected {claim.expected}, came out {claim.status.word}"
             click.echo(f"ptproof: {of}{words}", err=True)
         for ref in found.read.get("different", ()):
-            click.echo(f"ptproof: {of}{ref.id}: the paper prints something else", err=True)
+            click.echo(f"ptproof: {of}{ref.id}: what is printed is something else", err=True)
         for note in failures:
             click.echo(f"ptproof: {of}{note}", err=True)
     _name_places(place, tuple(composed) if several else (), single, bool(printer))

@@ -123,6 +123,16 @@ class Memory:
         if _lasting(claim, evidence) and set(read) <= set(self._files) and self._unchanged():
             self._cache.write(self._key(claim), written_evidence(evidence))
 
+    def value(self, name: str, make: Callable[[], Any]) -> Any:
+        """What ``make`` says of this state of every file, as plain data: from an earlier run where that is known."""
+        key = hashes.of_texts([name, self._environment, *(f"{file} {self._files[file]}" for file in sorted(self._files))])
+        known = None if self._fresh or not self._open else self._cache.read(key)
+        if known is None:
+            known = make()
+            if self._unchanged():
+                self._cache.write(key, known)
+        return known
+
     def _unchanged(self) -> bool:
         """Whether the files are as they were when they were loaded; looked at from time to time."""
         if self._open and time.monotonic() > self._looked + _LOOK:

@@ -8,14 +8,27 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from types import MappingProxyType
 
+import sympy as sp
+
 from ptproof.proof.claim import Claim, Definition
 from ptproof.proof.load import Derivation
 from ptproof.proof.result import Result, Verification
-from ptproof.proof.statement import All, Assumption, Exists, Prose, Relation, Statement, relations_of
+from ptproof.proof.statement import (
+    All,
+    Assumption,
+    Exists,
+    Prose,
+    Relation,
+    Statement,
+    expressions_of,
+    free_symbols,
+    relations_of,
+    undefined_functions,
+)
 from ptproof.proof.verdict import Evidence
 from ptproof.report import status
 from ptproof.report.content import Figure, Table
-from ptproof.report.formula import Line, domain_of, statement_lines
+from ptproof.report.formula import Line, domain_of, latex, statement_lines
 from ptproof.report.instruments.instrument import Instrument
 from ptproof.report.instruments.view import viewed
 from ptproof.report.letters import Notation
@@ -160,6 +173,7 @@ class _Composer:
             corrected_by=self.links(self.corrections.get(claim.id, [])),
             prose=claim.prose,
             erratum=claim.erratum,
+            unlike=self.unlike(claim.id, [claim.statement, *claim.assumptions]),
             read=self.read.get(claim.id),
         )
 
@@ -175,9 +189,18 @@ class _Composer:
     def definition(self, item: Definition) -> DefinitionView:
         words = item.statement.text if isinstance(item.statement, Prose) else ""
         return DefinitionView(
-            self.refs[item.id], item.labels, self.lines(item.statement), words, item.prose,
-            self.read.get(item.id),
+            self.lines(item.statement), words, self.refs[item.id], item.labels, item.prose,
+            self.unlike(item.id, [item.statement]), read=self.read.get(item.id),
         )  # fmt: skip
+
+    def unlike(self, id: str, statements: Sequence[Statement | Assumption]) -> tuple[str, ...]:
+        """The glyphs that do not stand here for what the notation says: of other letters, of bound ones, of functions."""
+        free = free_symbols(statements)
+        named = {symbol for said in expressions_of(statements) for symbol in said.atoms(sp.Symbol)}
+        functions = {sp.Symbol(applied.func.__name__) for applied in undefined_functions(statements)}
+        others = {item for item in named | functions if item not in self.glyphs or item not in free}
+        read = self.read.get(id)
+        return tuple(sorted({*(latex(item, self.glyphs) for item in others), *(read.apart if read else ())}))
 
 
 def _hits(verification: Verification) -> tuple[str, ...]:

@@ -29,7 +29,7 @@ from ptproof.report.printer import Names as Names
 from ptproof.report.printer import latex as latex
 from ptproof.report.printer import ordered
 
-_SIGN = {"=": "=", "<=": r"\le", "<": "<", ">=": r"\ge", ">": ">", "!=": r"\ne"}
+SIGNS = {"=": "=", "<=": r"\le", "<": "<", ">=": r"\ge", ">": ">", "!=": r"\ne"}
 _ROOM = 84.0  # characters in a line of the page
 _FUNCTIONS = frozenset(
     ["sin", "cos", "tan", "log", "ln", "exp", "sinh", "cosh", "tanh", "atan", "asin", "acos", "arctan", "lim", "sign"]
@@ -133,7 +133,7 @@ def _list(symbols: Iterable[sp.Symbol], names: Names) -> str:
 
 def _relation_lines(relation: Relation, names: Names) -> tuple[Line, ...]:
     left, right = latex(relation.left, names), latex(relation.right, names)
-    sign = _SIGN[relation.sign]
+    sign = SIGNS[relation.sign]
     if width(left) + width(right) < _ROOM:
         return (Line(f"{left} {sign} {right}"),)
     if isinstance(relation.left, sp.MatrixBase):

@@ -9,7 +9,9 @@ from dataclasses import dataclass
 from ptproof.report import status
 from ptproof.report.model import ClaimView, Report
 
-_RESULT = re.compile(r"(?:Theorem|Proposition|Lemma|Corollary)(?: [0-9A-Z][\w.]*)?(?=[\s:,]|$)")
+_RESULT = re.compile(r"(?:Theorem|Proposition|Lemma|Corollary)(?: [0-9A-Z][\w.]*)?(?=([:,]|$)|\s)")
+_LABEL = re.compile(r"(thm|theorem|prop|proposition|lem|lemma|cor|corollary)([:_-].*)?")
+_KINDS = {"t": "the Theorem", "p": "the Proposition", "l": "the Lemma", "c": "the Corollary"}
 _MOST = 3  # cited statements that are named
 
 
@@ -24,8 +26,9 @@ class Piece:
 def headline(report: Report) -> tuple[Piece, ...]:
     """How much is proved, what is false, and which results stand on what.
 
-    A result of the paper, such as Theorem 2, is a claim whose title begins with its name and that is not printed
-    falsely; it stands if all its claims are proved, given what is cited, and may be cited itself.
+    A result of the paper, such as Theorem 2, is what those claims say that are not printed falsely and have its label,
+    such as ``thm:main``, or its name as their title up to a colon; it stands if all of them are proved, given what is
+    cited, and may be cited itself.
     """
     parts = [*_proved(report), *_false(report)]
     for mark in (status.UNDECIDED, status.OBSERVED):
@@ -83,12 +86,25 @@ def _false(report: Report) -> Iterator[Piece]:
         yield Piece(f", and for {len(mended)} of them what holds instead is proved")
 
 
-def _results(claims: Sequence[ClaimView]) -> Iterator[Piece]:
+def _named(claims: Sequence[ClaimView]) -> dict[str, list[ClaimView]]:
+    """The results by name; where no title and no place of the claims of a label begins with one, by their kind."""
+    stated = [claim for claim in claims if claim.status != status.REFUTED]
+    kinds = {label: _KINDS[label[0]] for claim in stated for label in claim.labels if _LABEL.fullmatch(label)}
+    names = dict(kinds)
+    for claim in reversed(stated):
+        found = _RESULT.match(claim.ref.title) or _RESULT.fullmatch(claim.place)
+        names.update({label: found[0] for label in claim.labels if label in kinds and found is not None})
     named: dict[str, list[ClaimView]] = {}
-    for claim in claims:
-        if (found := _RESULT.match(claim.ref.title)) and claim.status != status.REFUTED:
-            named.setdefault(found.group(), []).append(claim)
-    for name, inside in named.items():
+    for claim in stated:
+        found = _RESULT.match(claim.ref.title)
+        titled = found[0] if found and found[1] is not None else ""
+        if name := next((names[label] for label in claim.labels if label in names), titled):
+            named.setdefault(name, []).append(claim)
+    return named
+
+
+def _results(claims: Sequence[ClaimView]) -> Iterator[Piece]:
+    for name, inside in _named(claims).items():
         yield Piece("; ")
         yield Piece(name, inside[0].ref.anchor)
         if not all(claim.status.proved for claim in inside):

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import cached_property
 
 from ptproof.proof import erratum
 from ptproof.proof.verdict import Evidence
+from ptproof.reading.latex.typeset import rows
 from ptproof.report.content import Figure, Table
 from ptproof.report.difference import marked
 from ptproof.report.formula import Line, width
@@ -20,8 +22,38 @@ from ptproof.report.witness import WitnessView
 _HALF_PAGE = 36.0  # characters
 
 
+def _printed(read: ReadSide | None) -> tuple[Line, ...]:
+    """What was read, line by line as the paper prints it; a row that goes on with the one before is indented."""
+    found = read.latex if read is not None and read.read == "equal" else ()
+    return tuple(Line(row, 2 * goes_on) for latex in found for row, goes_on in rows(latex))
+
+
 @dataclass(frozen=True)
-class ClaimView:
+class Said:
+    """What is said: the statement line by line, or in words, and what became of its printed side."""
+
+    lines: tuple[Line, ...]
+    words: str
+    read: ReadSide | None = field(default=None, kw_only=True)  # where its printed side was looked for
+
+    @cached_property
+    def printed(self) -> tuple[Line, ...]:
+        """The formula as the paper prints it, where that was read and is what is said."""
+        return _printed(self.read)
+
+    @property
+    def whole(self) -> bool:
+        """Whether the printed formula says all of it."""
+        return self.read is not None and bool(self.printed) and self.read.whole
+
+    @property
+    def shown(self) -> tuple[Line, ...]:
+        """The formula as a reader meets it."""
+        return self.printed or self.lines
+
+
+@dataclass(frozen=True)
+class ClaimView(Said):
     """Everything that the report says of one claim."""
 
     ref: Ref
@@ -30,8 +62,6 @@ class ClaimView:
     labels: tuple[str, ...]
     place: str
     kind: str
-    lines: tuple[Line, ...]
-    words: str
     same: bool
     domain: tuple[str, ...]
     given: tuple[tuple[Line, ...], ...]
@@ -44,19 +74,17 @@ class ClaimView:
     corrected_by: tuple[Ref, ...]
     prose: str
     erratum: erratum.Erratum | None
-    read: ReadSide | None = None  # what became of the printed side in the paper's own source, where that was given
+    unlike: tuple[str, ...]  # glyphs of the notation that stand for something else in it
 
 
 @dataclass(frozen=True)
-class DefinitionView:
+class DefinitionView(Said):
     """A displayed definition."""
 
     ref: Ref
     labels: tuple[str, ...]
-    lines: tuple[Line, ...]
-    words: str
     prose: str
-    read: ReadSide | None = None
+    unlike: tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -91,16 +119,16 @@ class Erratum:
     def formulas(self) -> tuple[tuple[str, ...], ...]:
         """The printed formula and its corrections as MathML by lines; the difference of the first two is marked."""
         if not self.corrections:
-            return (marked(self.printed.lines, ())[0],)
+            return (marked(self.printed.shown, ())[0],)
         return (
-            *marked(self.printed.lines, self.corrections[0].lines),
-            *(marked(item.lines, ())[0] for item in self.corrections[1:]),
+            *marked(self.printed.shown, self.corrections[0].shown),
+            *(marked(item.shown, ())[0] for item in self.corrections[1:]),
         )
 
     @property
     def narrow(self) -> bool:
         """Whether the formulas are short enough to stand side by side."""
-        lines = [line for claim in (self.printed, *self.corrections) for line in claim.lines]
+        lines = [line for claim in (self.printed, *self.corrections) for line in claim.shown]
         return all(width(line.latex) + 3 * line.indent < _HALF_PAGE for line in lines)
 
 

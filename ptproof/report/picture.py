@@ -44,15 +44,15 @@ class Mark:
 class Group:
     """One step of the paper: the sections of one number, or of one heading.
 
-    ``uses`` are the anchors of the groups from which an arrow leads here; those that another arrow implies are left
-    out.
+    ``uses`` are the groups from which an arrow leads here, by anchor and name; those that another arrow implies are
+    left out.
     """
 
     number: str
     title: str
     anchor: str
     sections: tuple[Section, ...]
-    uses: tuple[str, ...]
+    uses: tuple[tuple[str, str], ...]
 
     @property
     def parts(self) -> tuple[tuple[Section, tuple[Mark, ...]], ...]:
@@ -89,7 +89,8 @@ def picture(sections: Sequence[Section]) -> tuple[tuple[Group, ...], ...]:
     for layer in nx.topological_generations(whole):
         row = []
         for component in sorted(layer, key=first.__getitem__):
-            arrows = tuple(f"g-{first[other] + 1}" for other in sorted(reduced.predecessors(component)))
+            before = sorted(first[other] for other in reduced.predecessors(component))
+            arrows = tuple((f"g-{place + 1}", "".join(groups[place][0])) for place in before)
             for place in sorted(whole.nodes[component]["members"]):
                 (number, _), inside = groups[place]
                 row.append(Group(number, _common(inside), f"g-{place + 1}", tuple(inside), arrows))

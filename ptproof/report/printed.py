@@ -14,9 +14,11 @@ from typing import Any, Literal
 from sympy.core.function import AppliedUndef
 
 from ptproof.reading.latex.formulas import Formula, Formulas
+from ptproof.reading.latex.notation import context
 from ptproof.reading.latex.rewrite import Rules
 from ptproof.reading.latex.statements import Pair, Reading, read_formula
 from ptproof.reading.latex.tokens import NotUnderstood
+from ptproof.reading.latex.typeset import pieces, typeset
 from ptproof.report.sameness import same
 from ptproof.report.stated import Item, Printed, Stated, stated
 
@@ -25,10 +27,11 @@ Read = Literal["equal", "different", "not read"]
 
 @dataclass(frozen=True)
 class Part:
-    """Which of a claim's own relations, by number, a formula is; how many there are."""
+    """Which of a claim's own relations, by number, a formula is; how many there are; and that as LaTeX."""
 
     parts: frozenset[int]
     of: int
+    latex: str = ""
 
 
 @dataclass(frozen=True)
@@ -55,6 +58,8 @@ class Compared:
         What each claim or definition that says it says of it.
     beside
         Of a formula that is different: what comes nearest.
+    apart
+        The letters that mean something here that they do not mean elsewhere.
     """
 
     formula: Formula
@@ -66,6 +71,7 @@ class Compared:
     covered: tuple[str, ...] = ()
     said: Mapping[str, Part] = field(default_factory=dict)
     beside: str = ""
+    apart: tuple[str, ...] = ()
 
     def to_json(self) -> dict[str, Any]:
         return {
@@ -84,7 +90,9 @@ def compare(formula: Formula, formulas: Formulas, source: Printed) -> Compared:
     """Read one formula and hold it against what covers it."""
     items = source.covering(formula)
     found = _compared(formula, formulas, source, items)
-    return replace(found, covered=tuple(item.id for item in items))
+    here = [source.table.where[number] for number in context(source.table, formula.place)]
+    apart = dict.fromkeys(letter for item in here for letter in (*item.letters, *item.functions))
+    return replace(found, covered=tuple(item.id for item in items), apart=tuple(apart))
 
 
 def _compared(formula: Formula, formulas: Formulas, source: Printed, items: tuple[Item, ...]) -> Compared:
@@ -96,7 +104,19 @@ def _compared(formula: Formula, formulas: Formulas, source: Printed, items: tupl
         reading = read_formula(formula, formulas.macros, meaning)
     except NotUnderstood as error:
         return Compared(formula, ids, "not read", error.kind, str(error))
-    return _Comparison(formula, items, reading, source).judged()
+    return _Comparison(replace(formula, text=typeset(formula.text, formulas.macros)), items, reading, source).judged()
+
+
+def compare_correction(claim: Item, formula: Formula, source: Printed) -> Compared:
+    """Read what a claim says ought to be printed, and hold it against that claim alone."""
+    try:
+        reading = read_formula(formula, {}, source.letters(formula))
+    except NotUnderstood as error:
+        return Compared(formula, (claim.id,), "not read", error.kind, str(error))
+    found = _Comparison(formula, (claim,), reading, source, corrections=True).judged()
+    if found.read == "equal" and claim.id not in found.said:
+        found = replace(found, read="not read", detail="the claim does not state it itself")
+    return replace(found, covered=(claim.id,))
 
 
 @dataclass(frozen=True)
@@ -107,6 +127,7 @@ class _Comparison:
     items: tuple[Item, ...]
     reading: Reading
     source: Printed
+    corrections: bool = False
 
     @cached_property
     def _stated(self) -> dict[str, Stated | None]:
@@ -118,7 +139,7 @@ class _Comparison:
 
     def candidates(self) -> Iterator[Stated]:
         for item in self.items:
-            if getattr(item, "corrects", None):
+            if getattr(item, "corrects", None) and not self.corrections:
                 continue  # what ought to be printed is not what is printed
             if item.id not in self._stated:
                 self._stated[item.id] = stated(item, self.formula, self.source)
@@ -168,14 +189,36 @@ class _Comparison:
         unknown = name.has(AppliedUndef) or (name.is_Symbol and not brace.entry)
         return not unknown or any(says.knows(brace.left) for says in self.candidates())
 
+    @property
+    def everything(self) -> tuple[Pair, ...]:
+        return (*self.reading.pairs, *self.reading.conditions, *self.reading.braces)
+
     def said(self, used: Iterable[str]) -> dict[str, Part]:
         """What each that says a relation of this formula says of it; ``used`` may say it among what it assumes."""
         found: dict[str, Part] = {}
         for says in self.candidates():
-            parts = frozenset[int]().union(*map(says.parts, (*self.reading.pairs, *self.reading.conditions)))
+            parts = frozenset[int]().union(*map(says.parts, self.everything))
             if parts or says.id in used:
-                found[says.id] = Part(parts, len(says.pairs))
+                found[says.id] = Part(parts, len(says.pairs), self.excerpt(says))
         return found
+
+    def excerpt(self, says: Stated) -> str:
+        """What of the formula this claim states, where that can be told apart from the rest."""
+        mine = [text for text, pairs in self._pieces if any(says.parts(pair) for pair in pairs)]
+        return r" \\ ".join(mine) if mine else self.formula.text
+
+    @cached_property
+    def _pieces(self) -> list[tuple[str, tuple[Pair, ...]]]:
+        """What stands side by side in the formula; nothing where a part of it is not read by itself."""
+        found = pieces(self.formula.text)
+        if len(found) < 2:
+            return []
+        letters = self.source.letters(self.formula)
+        try:
+            each = [read_formula(replace(self.formula, text=text), {}, letters) for text in found]
+        except NotUnderstood:
+            return []
+        return [(text, (*said.pairs, *said.conditions)) for text, said in zip(found, each, strict=True)]
 
     def saying(self, pair: Pair) -> Stated | None:
         """The first that has both sides of this relation, if it has them in this relation.

@@ -65,6 +65,13 @@ def ordered(terms: list[sp.Expr]) -> list[sp.Expr]:
     return [terms[first], *terms[:first], *terms[first + 1 :]]
 
 
-def latex(expression: Any, names: Names) -> str:
-    """SymPy's LaTeX with the glyphs of the notation."""
-    return str(_Printer({"symbol_names": dict(names), "ln_notation": True}).doprint(expression))
+def latex(expression: Any, names: Names, dots: bool = False) -> str:
+    """SymPy's LaTeX with the glyphs of the notation; with ``dots`` between factors."""
+    settings = {"symbol_names": dict(names), "ln_notation": True, **({"mul_symbol": "dot"} if dots else {})}
+    return str(_Printer(settings).doprint(expression))
+
+
+def numbers(value: sp.Expr) -> str:
+    """A number in the place of a letter."""
+    shown = latex(value, {})
+    return shown if value.is_Integer and value >= 0 else rf"\left({shown}\right)"

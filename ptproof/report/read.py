@@ -27,14 +27,30 @@ class ReadSide:
         text has a place such as ``Section 2, text (3)``.
     detail
         Why it is not equal, or which part of a claim of several relations was met in the paper.
+    latex
+        Where it is equal: the formulas, or the parts of them that it states, as the paper prints them.
+    whole
+        Whether they say all that the claim says, and not only what it assumes.
+    apart
+        The letters of the paper that mean something in these formulas that they do not mean elsewhere.
     """
 
     read: Read
     places: tuple[str, ...]
     detail: str = ""
+    latex: tuple[str, ...] = ()
+    whole: bool = True
+    apart: tuple[str, ...] = ()
 
     def to_json(self) -> dict[str, Any]:
-        return {"read": self.read, "places": list(self.places), "detail": self.detail}
+        return {"read": self.read, "places": list(self.places), "detail": self.detail, "printed": list(self.latex),
+                "whole": self.whole, "apart": list(self.apart)}  # fmt: skip
+
+    @staticmethod
+    def from_json(data: Mapping[str, Any]) -> ReadSide:
+        """The side that was written."""
+        latex, apart = tuple(data["printed"]), tuple(data["apart"])
+        return ReadSide(data["read"], tuple(data["places"]), data["detail"], latex, data["whole"], apart)
 
 
 def read_sides(source: str, derivation: Derivation) -> Mapping[str, ReadSide]:
@@ -64,11 +80,12 @@ def sides(compared: Iterable[Compared], running: Iterable[Running], derivation: 
     for relation in running:
         for id in relation.whole if relation.read == "equal" else ():
             in_text.setdefault(id, []).append(relation.formula.place)
-    found = {id: _side(id, formulas) for id, formulas in covering.items() if formulas}
+    found = {id: side_of(id, formulas) for id, formulas in covering.items() if formulas}
     return found | {id: ReadSide("equal", tuple(places)) for id, places in in_text.items() if id not in found}
 
 
-def _side(id: str, formulas: list[Compared]) -> ReadSide:
+def side_of(id: str, formulas: list[Compared]) -> ReadSide:
+    """What became of the formulas that one claim covers."""
     different = [item for item in formulas if item.read == "different" and item.beside == id]
     if different:
         return ReadSide("different", _places(different), different[0].detail)
@@ -81,7 +98,9 @@ def _side(id: str, formulas: list[Compared]) -> ReadSide:
     met = frozenset().union(*(item.said[id].parts for item in said))
     of = said[0].said[id].of
     detail = f"{len(met)} of its {of} relations" if 0 < len(met) < of else ""
-    return ReadSide("equal", _places(said), detail)
+    latex = dict.fromkeys(item.said[id].latex for item in said)
+    apart = dict.fromkeys(letter for item in said for letter in item.apart)
+    return ReadSide("equal", _places(said), detail, tuple(latex), len(met) == of, tuple(apart))
 
 
 def _places(formulas: Iterable[Compared]) -> tuple[str, ...]:

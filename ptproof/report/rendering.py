@@ -10,9 +10,10 @@ from jinja2 import Environment
 from markupsafe import Markup, escape
 
 from ptproof.report.content import Figure
-from ptproof.report.formula import Line, mathml
+from ptproof.report.formula import mathml
 from ptproof.report.headline import Piece
 from ptproof.report.instruments.view import shown
+from ptproof.report.model import Said
 from ptproof.report.prose import to_html
 from ptproof.report.templating import environment, text
 
@@ -59,8 +60,12 @@ def pieces(said: Sequence[Piece]) -> Markup:
     return Markup("").join(parts)
 
 
-def tex(lines: Sequence[Line]) -> str:
-    """A formula as LaTeX to be put into a paper."""
+def tex(said: Said) -> str:
+    """A formula as LaTeX to be put into a paper, in the paper's own letters where it was read in them."""
+    lines = said.lines
+    if said.printed and said.read is not None:
+        inside = " \\\\\n".join(said.read.latex)
+        return inside if len(said.printed) == 1 else f"\\begin{{aligned}}\n{inside}\n\\end{{aligned}}"
     if len(lines) == 1:
         return lines[0].latex
     inside = " \\\\\n".join("& " + r"\quad " * line.indent + line.latex for line in lines)

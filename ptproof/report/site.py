@@ -140,9 +140,11 @@ def _pages(report: Report) -> Iterator[Page]:
         name = slug(section.title)
         taken[name] = taken.get(name, 0) + 1
         name = f"section-{name}" + (f"--{taken[name]}" if taken[name] > 1 else "")
-        for number, cards in enumerate(packed([*_cards(section)]), 1):
+        cut = packed([*_cards(section)])
+        for number, cards in enumerate(cut, 1):
             file = f"{name}.html" if number == 1 else f"{name}-{number}.html"
-            yield Page(file, section.title, _topped(str(_section(section, cards, number))), section.anchor)
+            body = _topped(_section(section, cards, number, len(cut)))
+            yield Page(file, section.title + _of(number, len(cut)), body, section.anchor)
     yield from _split("statements", "Statements by verdict", [_listed(report)], "claims")
     if report.figures or report.appendix:
         body = [parts.drawn(report, False)] if report.figures else []
@@ -155,18 +157,23 @@ def _pages(report: Report) -> Iterator[Page]:
 
 
 def _topped(body: str) -> str:
-    """The content with its first heading as that of the page."""
-    return re.sub(r"<h2>(.*?)</h2>", r"<h1>\1</h1>", body, count=1)
+    """The content with its first heading as that of the page; where it is the only one, those of entries come next."""
+    topped = re.sub(r"<h2>(.*?)</h2>", r"<h1>\1</h1>", body, count=1)
+    return topped if "<h2" in topped else re.sub(r"(</?)h3\b", r"\1h2", topped)
+
+
+def _of(number: int, parts: int) -> str:
+    """What a heading says of the part where there are several."""
+    return f" ({number} of {parts})" if parts > 1 else ""
 
 
 def _split(name: str, title: str, items: Sequence[str], anchor: str) -> Iterator[Page]:
     """The items on as many pages as they need; the anchor is on the first."""
     inside = packed(items)
     for number, part in enumerate(inside, 1):
-        more = f'<p class="more"><a href="#{anchor}-{number + 1}">More {title.lower()}</a></p>'
-        head = f'<section id="{anchor}{f"-{number}" if number > 1 else ""}">\n<h1>{title}</h1>\n'
-        body = head + "\n".join(map(str, part)) + (more if number < len(inside) else "") + "</section>"
-        yield Page(f"{name}{f'-{number}' if number > 1 else ''}.html", title, body)
+        whole, mark = title + _of(number, len(inside)), f"-{number}" if number > 1 else ""
+        body = f'<section id="{anchor}{mark}">\n<h2>{whole}</h2>\n' + "\n".join(map(str, part)) + "</section>"
+        yield Page(f"{name}{mark}.html", whole, _topped(body))
 
 
 def _front(report: Report) -> str:
@@ -197,8 +204,9 @@ def _cards(section: Section) -> Iterator[str]:
         yield parts.card(claim)
 
 
-def _section(section: Section, cards: Sequence[str], number: int = 1) -> str:
-    return str(_parts().sectioned(section, Markup("\n").join(map(Markup, cards)), number))
+def _section(section: Section, cards: Sequence[str], number: int = 1, parts: int = 1) -> str:
+    inside = Markup("\n").join(map(Markup, cards))
+    return str(_parts().sectioned(section, inside, number, parts, _of(number, parts)))
 
 
 def _instruments(report: Report) -> str:
@@ -217,9 +225,9 @@ def _listed(report: Report) -> str:
 def _short(report: Report) -> dict[str, str]:
     """The statements that can be shown beside a name, since they are short, by their anchors."""
     return {
-        claim.ref.anchor: str(_parts().formula(claim.lines, claim.words))
+        claim.ref.anchor: str(_parts().formula(claim.shown, claim.words))
         for claim in report.claims
-        if len(claim.lines) <= SHOWN_LINES and sum(width(line.latex) for line in claim.lines) < SHOWN_WIDTH
+        if len(claim.shown) <= SHOWN_LINES and sum(width(line.latex) for line in claim.shown) < SHOWN_WIDTH
     }
 
 
@@ -235,10 +243,9 @@ def _reference(report: Report) -> Iterator[str]:
 
 
 def _neighbours(pages: Sequence[Page], page: Page) -> tuple[Page | None, Page | None]:
-    """The pages of sections before and after a page of a section."""
-    inside = [item for item in pages if item.section]
-    if page not in inside:
-        return None, None
+    """The pages before and after among those of its kind: sections, parts of the errata, parts of a list."""
+    kind = re.compile(re.split(r"[-.]", page.file)[0] + r"\b")
+    inside = [item for item in pages if kind.match(item.file)]
     place = inside.index(page)
     return inside[place - 1] if place else None, inside[place + 1] if place + 1 < len(inside) else None
 

@@ -201,14 +201,18 @@ def stated(item: Item, formula: Formula, source: Printed) -> Stated | None:
     parts = relations_of(item.statement)
     left, right = (list(_heads(item.id, texts, formula, source, meaning)) for texts in (says.left, says.right))
     pairs = [spoken(part) for part in parts] if says.both or not (left or right) else []
+    named: list[Pair] = []
     for heads, values in ((left, [part.left for part in parts]), (right, [part.right for part in parts])):
         for (before, head), part, value in zip(heads, parts, values, strict=False):
             pairs += before
-            if head is not None:
+            if head is None:
+                continue
+            if part.sign == "=" or heads is right:
                 pairs.append(Pair(head, "=", side(value)))
-                if part.sign != "=" and heads is left:
-                    pairs.append(Pair(head, part.sign, spoken(part).right))  # the left side under its printed name
-    given = [
+            else:  # the left side under its printed name, which says no more than what the name is for
+                named.append(Pair(head, "=", side(value)))
+                pairs.append(Pair(head, part.sign, spoken(part).right))
+    given = named + [
         spoken(part)
         for held in getattr(item, "assumptions", ())
         for part in (held.relation if isinstance(held, ForAll) else held).components()

@@ -13,6 +13,7 @@ from ptproof.proof.claim import Claim
 from ptproof.proof.statement import free_symbols, undefined_functions
 from ptproof.proof.verdict import Witness
 from ptproof.reading.expressions import parse
+from ptproof.report.example import Example, Point, example_of
 from ptproof.report.formula import Names, latex
 
 
@@ -26,11 +27,13 @@ class Value:
 
 @dataclass(frozen=True)
 class WitnessView:
-    """Values of the symbols, and the two sides there."""
+    """Values of the symbols, and the two sides there; and where that is short, these values in the formula."""
 
     values: tuple[Value, ...]
     left: Value
     right: Value
+    example: Example | None = None
+    with_: tuple[Value, ...] = ()  # the values that stand in the example
 
 
 def witness_view(witness: Witness, claim: Claim, names: Names) -> WitnessView:
@@ -38,8 +41,29 @@ def witness_view(witness: Witness, claim: Claim, names: Names) -> WitnessView:
     statements = [claim.statement, *claim.assumptions]
     symbols = {symbol.name: symbol for symbol in free_symbols(statements)}
     functions = {applied.func.__name__: applied for applied in undefined_functions(statements)}
-    values = tuple(_value(name, text, symbols, functions, names) for name, text in witness.values.items())
-    return WitnessView(values, _side(witness.left, symbols, names), _side(witness.right, symbols, names))
+    values = {name: _value(name, text, symbols, functions, names) for name, text in witness.values.items()}
+    left, right = (_side(side, symbols, names) for side in (witness.left, witness.right))
+    example = _example(witness, claim, symbols, names)
+    met = [value for name, value in values.items() if example and name.partition("(")[0] in example.letters]
+    return WitnessView(tuple(values.values()), left, right, example, tuple(met))
+
+
+def _example(witness: Witness, claim: Claim, symbols: dict[str, sp.Symbol], names: Names) -> Example | None:
+    """The values of the witness in the formula."""
+    known: dict[sp.Symbol, sp.Expr] = {}
+    functions: dict[str, tuple[tuple[sp.Symbol, ...], sp.Expr]] = {}
+    try:
+        for name, text in witness.values.items():
+            called = re.fullmatch(r"(\w+)\((.*)\)", name)
+            if called:
+                own = {part.strip(): sp.Symbol(part.strip(), real=True) for part in called.group(2).split(",")}
+                functions[called.group(1)] = (tuple(own.values()), _read(text, {**symbols, **own}))
+            elif name in symbols and text != "any":
+                known[symbols[name]] = _read(text, symbols)
+        left, right = (_read(side.partition(" = ")[0], symbols) for side in (witness.left, witness.right))
+    except InputError:
+        return None
+    return example_of(claim.statement, Point(known, functions), left, right, names)
 
 
 def _value(

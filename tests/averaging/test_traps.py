@@ -156,6 +156,12 @@ def test_a_dither_outside_the_class_is_never_averaged(dither, period, verdict):
         average(system)
 
 
+@pytest.mark.parametrize("dither", [sp.tan(theta), 1 / s(theta), sp.log(s(theta) ** 2), c(theta**2)], ids=str)
+def test_a_dither_that_is_not_read_is_not_called_bounded(dither):
+    assert letter(dithered(dither), "C") is U
+    assert letter(dithered(c(theta)), "C") is P
+
+
 def test_a_mean_that_vanishes_at_the_times_asked_about_is_not_refuted():
     late = DitherProblem(dithered(c(theta) + sp.Max(0, 1 - tau)), start=two)
     assert letter(late, "D") is not R

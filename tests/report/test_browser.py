@@ -1,110 +1,255 @@
-"""The pages in a real browser, where there is one: one run of Chromium looks at all of them at three widths."""
+"""The pages in a real browser, where there is one: Chromium looks at all of them, at three widths, light and dark."""
 
-import json
-import os
 import re
 import shutil
-import subprocess
+from collections import defaultdict
 from dataclasses import replace
+from urllib.parse import unquote, urldefrag
 
 import pytest
+from axe_playwright_python.base import AXE_SCRIPT
+from playwright.sync_api import sync_playwright
 
 from ptproof.report.model import Section
 from ptproof.report.pages import all_files
 from ptproof.report.printing import BROWSERS
 
-WIDTHS = (390, 1280, 1920)
-HEARD = (
-    b"<script>var errors = []; addEventListener('error', (e) => errors.push(e.message || e.target.src), true);</script>"
-)
-LOOK = """<!doctype html><meta charset="utf-8"><pre id="said"></pre><script>
-const pages = PAGES, said = { pages: {}, search: [], landed: "", opened: 0 };
-const pause = (time) => new Promise((done) => setTimeout(done, time));
-const open = async (address, width) => {
-  const frame = document.createElement("iframe");
-  frame.width = width;
-  frame.height = 900;
-  frame.src = address;
-  await new Promise((done) => { frame.onload = done; document.body.append(frame); });
-  await pause(20);
-  return frame;
-};
-const until = async (met) => { for (let n = 0; n < 100 && !met(); n++) await pause(20); };
-(async () => {
-  for (const page of pages) for (const width of WIDTHS) {
-    const frame = await open(page, width), view = frame.contentDocument;
-    const formulas = [...view.querySelectorAll("math")].filter((item) => item.getClientRects().length);
-    said.pages[`${page} ${width}`] = {
-      wide: view.documentElement.scrollWidth - frame.clientWidth,
-      flat: formulas.filter((item) => item.getBoundingClientRect().height < 4).length,
-      errors: frame.contentWindow.errors,
-      arrows: view.querySelectorAll("svg.arrows path").length,
-    };
-    frame.remove();
-  }
-  const frame = await open("one/index.html", 1280), view = frame.contentDocument;
-  const find = view.getElementById("find"), hits = view.getElementById("hits");
-  find.value = "SQUARE of a sum";
-  find.dispatchEvent(new Event("input"));
-  await until(() => !hits.hidden);
-  said.search = [...hits.querySelectorAll("a")].map((link) => link.getAttribute("href"));
-  const other = await open("one/index.html#c-b-smooth", 1280);
-  await until(() => other.contentWindow.location.pathname.includes("section-"));
-  said.landed = other.contentWindow.location.href;
-  document.getElementById("said").textContent = JSON.stringify(said);
-})();
-</script>"""
+PHONE, DESK, WIDE = 390, 1280, 1920
+PAPER = 718  # the width of A4 between Chromium's margins
+LOOK = """() => {
+  const all = (what) => [...document.querySelectorAll(what)].filter((item) => item.getClientRects().length);
+  const box = (item) => item.getBoundingClientRect();
+  const over = (one, two) => one.top < two.bottom - 1 && two.top < one.bottom - 1
+    && one.left < two.right - 1 && two.left < one.right - 1;
+  const root = document.documentElement;
+  return {
+    wide: root.scrollWidth - root.clientWidth,
+    flat: all("math").filter((item) => box(item).height < 4).map((item) => item.textContent),
+    cut: all("math, img, pre").filter((item) => box(item).right > innerWidth).map((item) => item.textContent),
+    overlap: all("article, figure, main h1, main h2").flatMap((one, place, list) => list.slice(place + 1, place + 9)
+      .filter((two) => !one.contains(two) && over(box(one), box(two))).map((two) => `${one.id} ${two.textContent}`)),
+    ids: [...document.querySelectorAll("[id]")].map((item) => item.id),
+    links: [...document.querySelectorAll("a[href]")].map((item) => new URL(item.getAttribute("href"), location).href),
+  };
+}"""
+# A formula's letters by the hundred cost axe most of its time: their contrast is looked at by colour, in FAINT.
+AXE = """() => axe.run({exclude: [["math"]]}, {resultTypes: ["violations"], rules: {"target-size": {enabled: true}}})
+  .then((found) => found.violations.filter((item) => ["serious", "critical"].includes(item.impact))
+    .flatMap((item) => item.nodes.map((node) => `${item.id}: ${node.html.slice(0, 200)}`)))"""
+FAINT = """() => {
+  const numbers = (colour) => colour.match(/[0-9.]+/g).map(Number);
+  const light = (colour) => numbers(colour).slice(0, 3).map((part) => part / 255)
+    .map((part) => part <= 0.04045 ? part / 12.92 : ((part + 0.055) / 1.055) ** 2.4)
+    .reduce((sum, part, place) => sum + part * [0.2126, 0.7152, 0.0722][place], 0.05);
+  const behind = (item) => {
+    const colour = getComputedStyle(item).backgroundColor;
+    return numbers(colour)[3] === 0 && item.parentElement ? behind(item.parentElement) : colour;
+  };
+  const pairs = [...document.querySelectorAll("math, math .differs")]
+    .map((item) => [light(getComputedStyle(item).color), light(behind(item))].sort((one, two) => one - two));
+  return pairs.filter(([low, high]) => high / low < 4.5).length;
+}"""
+FOCUS = """() => {
+  const item = document.activeElement, style = getComputedStyle(item), box = item.getBoundingClientRect();
+  const inside = box.bottom > 0 && box.top < innerHeight && box.right > 0 && box.left < innerWidth;
+  return { name: item.id || item.textContent.trim(), tag: item.tagName, seen: inside && style.outlineStyle !== "none" };
+}"""
 
 
 @pytest.fixture(scope="module")
-def said(report, tmp_path_factory):
+def chromium():
     command = next(filter(None, map(shutil.which, BROWSERS)), None)
     if command is None:
         pytest.skip("no Chromium is installed; on Debian `apt install chromium` brings it")
-    folder = tmp_path_factory.mktemp("pages")
+    with sync_playwright() as play:
+        browser = play.chromium.launch(
+            executable_path=command, args=["--disable-gpu", "--disable-background-networking"], chromium_sandbox=False
+        )
+        yield browser
+        browser.close()
+
+
+@pytest.fixture(scope="module")
+def folder(report, tmp_path_factory):
+    place = tmp_path_factory.mktemp("pages")
     first = report.sections[0]
     parts = replace(first, claims=first.claims[:4]), Section("2 Second", "s-2", (), first.claims[4:], ())
-    files = all_files({"one": replace(report, sections=parts), "two": report}, single=True)
-    for name, content in files.items():
-        (folder / name).parent.mkdir(parents=True, exist_ok=True)
-        (folder / name).write_bytes(content.replace(b"<head>", b"<head>" + HEARD, 1))
-    pages = sorted(name for name in files if name.endswith(".html") and not name.startswith("two/"))
-    look = LOOK.replace("PAGES", json.dumps(pages)).replace("WIDTHS", json.dumps(WIDTHS))
-    (folder / "look.html").write_text(look)
-    arguments = [command, "--headless", "--disable-gpu", "--hide-scrollbars", "--allow-file-access-from-files",
-                 f"--user-data-dir={folder}/profile", "--virtual-time-budget=60000", "--dump-dom"]  # fmt: skip
-    if os.geteuid() == 0:
-        arguments.append("--no-sandbox")
-    done = subprocess.run([*arguments, (folder / "look.html").as_uri()], capture_output=True, text=True, timeout=240,
-                          check=False)  # fmt: skip
-    if done.returncode or "<pre" not in done.stdout:
-        pytest.skip(f"Chromium shows nothing here: {done.stderr.strip()[-200:]}")
-    found = re.search(r'<pre id="said">(\{.*?\})</pre>', done.stdout, re.DOTALL)
-    assert found is not None, "the pages were not looked at to the end"
-    return json.loads(found[1].replace("&amp;", "&").replace("&lt;", "<").replace("&gt;", ">"))
+    for name, content in all_files({"one": replace(report, sections=parts), "two": report}, single=True).items():
+        (place / name).parent.mkdir(parents=True, exist_ok=True)
+        (place / name).write_bytes(content)
+    return place
 
 
-def test_no_page_is_wider_than_the_window(said):
-    assert len(said["pages"]) > 8 * len(WIDTHS)
-    assert {page: found["wide"] for page, found in said["pages"].items() if found["wide"] > 0} == {}
+@pytest.fixture
+def page(chromium):
+    page = chromium.new_page(viewport={"width": DESK, "height": 900}, reduced_motion="reduce")
+    page.set_default_timeout(10_000)
+    yield page
+    page.close()
 
 
-def test_every_formula_has_a_height(said):
-    assert {page: found["flat"] for page, found in said["pages"].items() if found["flat"]} == {}
+def look_at(browser, file):
+    """What is seen of a page: at three widths, on paper, and by axe on a phone and at a desk, light and dark."""
+    page = browser.new_page(reduced_motion="reduce")
+    page.goto(file.as_uri())
+    page.evaluate(AXE_SCRIPT)
+    seen = defaultdict(list)
+    for width in (PHONE, DESK, WIDE):
+        page.set_viewport_size({"width": width, "height": 900})
+        look = page.evaluate(LOOK)
+        seen["wide"] += [width] if look["wide"] > 0 else []
+        seen["flat"] += look["flat"]
+        for scheme in ("light", "dark") if width != WIDE else ():
+            page.emulate_media(color_scheme=scheme)
+            seen["axe"] += [f"{width} {scheme} {said}" for said in page.evaluate(AXE)]
+            seen["faint"] += [scheme] * page.evaluate(FAINT)
+            seen["paper"].append(page.evaluate("getComputedStyle(document.body).backgroundColor"))
+    seen["links"], seen["ids"] = look["links"], look["ids"]
+    page.set_viewport_size({"width": PAPER, "height": 900})
+    page.emulate_media(media="print")
+    look = page.evaluate(LOOK)
+    seen["print"] = [*look["cut"], *look["overlap"]]
+    seen["told"] = [
+        *map(str, page.page_errors()),
+        *(said.text for said in page.console_messages() if said.type == "error"),
+    ]
+    page.close()
+    return seen
 
 
-def test_no_script_fails_and_nothing_is_missing(said):
-    errors = {page: found["errors"] for page, found in said["pages"].items() if found["errors"]}
-    assert errors == {}
+@pytest.fixture(scope="module")
+def seen(chromium, folder):
+    files = sorted(file for file in folder.rglob("*.html") if "two" not in file.parts)
+    return {str(file.relative_to(folder)): look_at(chromium, file) for file in files}
 
 
-def test_the_picture_has_arrows(said):
-    assert said["pages"]["one/index.html 1280"]["arrows"] > 0
+@pytest.mark.parametrize("fault", ["wide", "flat", "axe", "faint", "print", "told"])
+def test_no_page_has_a_fault(seen, fault):
+    """None is wider than the window, has formulas without height or too faint, is cut on paper, has a script that fails.
+
+    And axe finds nothing serious.
+    """
+    assert len(seen) >= 10
+    assert {name: found[fault] for name, found in seen.items() if found[fault]} == {}
 
 
-def test_searching_finds_what_stands_on_another_page(said):
-    assert said["search"][0] == "section-1-first-part.html#c-a-corrected"
+BAD = """<!doctype html><html><body style="margin:0"><div style="width:3000px">wide</div><button></button>
+<p style="color:#999;background:#eee"><math><mi>x</mi></math></p><math style="display:block;height:1px"><mi>y</mi></math>
+<article style="height:2rem"><pre style="width:900px">long</pre></article>
+<article style="margin-top:-1rem">over</article>
+<script src="missing.js"></script></body></html>"""
 
 
-def test_a_claim_is_found_from_the_front_page(said):
-    assert said["landed"].endswith("one/section-2-second.html#c-b-smooth")
+def test_every_fault_would_be_found(chromium, tmp_path):
+    (tmp_path / "bad.html").write_text(BAD)
+    found = look_at(chromium, tmp_path / "bad.html")
+    assert [name for name in ("wide", "flat", "axe", "faint", "print", "told") if not found[name]] == []
+    assert {said.split(" ")[2] for said in found["axe"]} >= {"button-name:", "html-has-lang:"}
+    assert len(found["print"]) == 2
+
+
+def test_every_link_lands(seen, folder):
+    lost = []
+    for name, found in seen.items():
+        for link in found["links"]:
+            target, anchor = urldefrag(unquote(link))
+            file = folder / target.removeprefix(f"{folder.as_uri()}/")
+            known = seen.get(str(file.relative_to(folder)))
+            inside = known["ids"] if known else re.findall(r'id="([^"]+)"', file.read_text()) if file.is_file() else []
+            if not file.is_file() or (anchor and anchor not in inside):
+                lost.append((name, link))
+    assert lost == []
+    assert sum(len(found["links"]) for found in seen.values()) > 200
+
+
+def test_dark_is_dark_and_print_is_light(seen, page, folder):
+    assert {tuple(found["paper"]) for found in seen.values()} == {("rgb(255, 255, 255)", "rgb(14, 17, 22)") * 2}
+    page.emulate_media(color_scheme="dark", media="print")
+    page.goto((folder / "one/figures.html").as_uri())
+    assert page.evaluate("getComputedStyle(document.body).backgroundColor") == "rgb(255, 255, 255)"
+    # A drawing that is asked in the page's own scheme draws itself light too.
+    assert page.evaluate("getComputedStyle(document.querySelector('figure img')).colorScheme") == "light"
+
+
+def test_a_claim_is_searched_and_reached_by_the_keyboard_alone(page, folder):
+    page.goto((folder / "one/index.html").as_uri())
+    keys = page.keyboard
+    keys.press("/")
+    keys.type("SQUARE of a sum")
+    page.wait_for_selector("#hits a")
+    assert page.locator("#hits a").first.get_attribute("href") == "section-1-first-part.html#c-a-corrected"
+    keys.press("ArrowDown")
+    assert page.evaluate(FOCUS)["seen"]
+    keys.press("Escape")
+    assert page.locator("#hits").is_hidden()
+    assert page.evaluate(FOCUS)["name"] == "find"
+    keys.type("eq:sum")
+    page.wait_for_selector("#hits a")
+    keys.press("ArrowDown")
+    keys.press("Enter")
+    page.wait_for_url("**/section-1-first-part.html#c-a-*")
+
+
+@pytest.mark.parametrize(
+    "name", ["one/index.html", "one/section-1-first-part.html", "one/graph.html", "one/errata.html"]
+)
+@pytest.mark.parametrize("width", [PHONE, DESK])
+def test_what_can_be_used_is_reached_by_tab_in_order_and_is_seen_to_be(page, folder, name, width):
+    page.set_viewport_size({"width": width, "height": 900})
+    page.goto((folder / name).as_uri())
+    page.wait_for_timeout(50)
+    usable = "a[href], input, summary, [tabindex='0']"
+    count = page.locator(usable).evaluate_all("list => list.filter((item) => item.checkVisibility()).length")
+    reached = []
+    for _ in range(count):
+        page.keyboard.press("Tab")
+        reached.append(page.evaluate(FOCUS))
+    assert reached[0]["name"] == "To the content"
+    assert [item for item in reached if not item["seen"] or item["tag"] == "BODY"] == []
+
+
+def test_a_step_is_opened_by_the_keyboard_and_its_claims_show_their_formulas(page, folder):
+    page.goto((folder / "one/index.html").as_uri())
+    page.evaluate("document.querySelectorAll('details.group').forEach((group) => { group.open = false; })")
+    page.locator(".group summary").first.focus()
+    page.keyboard.press("Enter")
+    page.locator(".group[open] .inside li a").first.focus()
+    page.wait_for_selector(".note math")
+    page.keyboard.press("Escape")
+    assert page.locator(".note").is_hidden()
+    page.locator(".strip .m").first.hover()
+    page.wait_for_selector(".note p")
+    page.mouse.move(0, 0)
+    assert page.locator(".note").is_hidden()
+
+
+def test_what_uses_what_is_shown_by_arrows_and_on_a_phone_in_words(page, folder):
+    page.goto((folder / "one/index.html").as_uri())
+    assert page.locator("svg.arrows path").count() > 0
+    assert page.locator(".from").first.is_hidden()
+    page.set_viewport_size({"width": PHONE, "height": 900})
+    assert page.locator("svg.arrows").is_hidden()
+    assert re.fullmatch(r"uses \S.*", page.locator(".from").first.inner_text())
+
+
+def test_a_count_leads_to_as_many_claims(page, folder):
+    page.goto((folder / "one/index.html").as_uri())
+    tile = page.locator(".tile").first
+    number = int(tile.locator("b").inner_text())
+    tile.click()
+    anchor = urldefrag(page.url)[1]
+    assert page.locator(f"#{anchor} li").count() == number
+
+
+def test_a_claim_is_found_from_the_front_page(page, folder):
+    page.goto((folder / "one/index.html").as_uri() + "#c-b-smooth")
+    page.wait_for_url("**/one/section-2-second.html#c-b-smooth")
+
+
+def test_nothing_moves_for_those_who_do_not_want_it(page, folder):
+    page.goto((folder / "one/index.html").as_uri())
+    how = "getComputedStyle(document.documentElement).scrollBehavior"
+    assert page.evaluate(how) == "auto"
+    assert page.evaluate("document.getAnimations().length") == 0
+    page.emulate_media(reduced_motion="no-preference")
+    assert page.evaluate(how) == "smooth"

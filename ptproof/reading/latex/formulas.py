@@ -25,6 +25,7 @@ _RELATION = re.compile(r"=|<|>|\\(le|leq|leqslant|ge|geq|geqslant|ne|neq|equiv|l
 _BEFORE = r"^(?:[\s&{}]|\\(?:q?quad(?![a-zA-Z])|[,;:!]|hspace\*?\{[^{}]*\}))*"
 _RELATION_FIRST = re.compile(_BEFORE + r"(?:[=<>]|\\(?:le|leq|ge|geq|ne|neq)(?![a-zA-Z]))")
 _SIGN_FIRST = re.compile(_BEFORE + r"(?:[-+/)\]]|\\(?:times|cdot|pm|right)(?![a-zA-Z]))")
+_GOES_ON = re.compile(f"{_RELATION_FIRST.pattern}|{_SIGN_FIRST.pattern}")
 _UNFINISHED = re.compile(r"(?:[-+=<>(\[]|\\(?:le|leq|ge|geq|times|cdot|implies|pm)(?![a-zA-Z]))[\s&{}]*$")
 _NESTED = re.compile(r"\\(?:begin|end)\s*\{[^{}]*\}|\\\\(?:\*?\[[^\]]*\])?|(?<!\\)[{}]|\\[{}]")
 
@@ -255,14 +256,14 @@ class _Scan:
         if not split:
             yield position, self.text[position:end], True
             return
-        pieces = _split_rows(self.text[position:end])
+        pieces = split_rows(self.text[position:end])
         joined: list[tuple[int, str]] = []
         unfinished = False
         for offset, piece in pieces:
             bare = _LABEL.sub("", piece)
             goes_on = _RELATION_FIRST.match(bare) or (_SIGN_FIRST.match(bare) and not _RELATION.search(bare))
             if joined and (unfinished or goes_on):
-                joined[-1] = (joined[-1][0], joined[-1][1] + piece)
+                joined[-1] = (joined[-1][0], joined[-1][1] + (r"\\" if goes_on else "") + piece)
             else:
                 joined.append((position + offset, piece))
             unfinished = bool(_NO_NUMBER.search(bare) or _UNFINISHED.search(_NO_NUMBER.sub("", bare)))
@@ -270,7 +271,12 @@ class _Scan:
             yield start, text, index == len(joined) - 1
 
 
-def _split_rows(text: str) -> list[tuple[int, str]]:
+def goes_on(before: str, row: str) -> bool:
+    """Whether a row goes on with the one before it, by the sign that it begins with or that one ends with."""
+    return bool(_GOES_ON.match(row) or _UNFINISHED.search(before))
+
+
+def split_rows(text: str) -> list[tuple[int, str]]:
     """The text at its line breaks, those inside of environments and groups excepted."""
     rows: list[tuple[int, str]] = []
     depth = start = 0

@@ -11,7 +11,7 @@
     if (window.PTPROOF) return done(window.PTPROOF);
     const articles = [...document.querySelectorAll("article.claim, article.definition")];
     if (document.querySelector("script[src]") === null) {
-      const entries = articles.map((a) => [0, a.id, a.querySelector(".id").textContent, a.querySelector("h3 .name").textContent,
+      const entries = articles.map((a) => [0, a.id, a.querySelector(".id").textContent, a.querySelector(".name").textContent,
         a.dataset.status === "definition" ? "" : a.dataset.status, a.textContent]);
       return done({ pages: [""], entries, sections: [] });
     }
@@ -69,10 +69,11 @@
     });
     field.addEventListener("keydown", (event) => {
       const links = [...hits.querySelectorAll("a")], place = links.indexOf(document.activeElement);
-      if (event.key === "Escape") { hits.hidden = true; find.focus(); hits.hidden = true; }
+      if (event.key === "Escape") { find.value = ""; hits.hidden = true; find.focus(); }
       if (event.key === "ArrowDown" && place + 1 < links.length) { event.preventDefault(); links[place + 1].focus(); }
       if (event.key === "ArrowUp") { event.preventDefault(); (place > 0 ? links[place - 1] : find).focus(); }
     });
+    field.addEventListener("focusout", (event) => { if (event.relatedTarget && !field.contains(event.relatedTarget)) hits.hidden = true; });
     document.addEventListener("click", (event) => { if (!field.contains(event.target)) hits.hidden = true; });
     document.addEventListener("keydown", (event) => {
       if (event.key === "/" && !/^(INPUT|TEXTAREA|SELECT)$/.test(document.activeElement?.tagName)) {
@@ -134,7 +135,7 @@
     new ResizeObserver(draw).observe(picture);
     draw();
 
-    // The formula of a claim, beside its name: from its entry on this page, or from a script beside the page.
+    // The name and the formula of a claim, beside its mark: from its entry on this page, or from a script beside it.
     const note = document.createElement("div");
     note.className = "note";
     note.setAttribute("role", "tooltip");
@@ -149,25 +150,40 @@
       document.head.append(script);
     }));
     let over = null;
-    const tell = async (link) => {
-      over = link;
+    const tell = async (mark, link) => {
+      over = mark;
       const anchor = decodeURIComponent(link.hash.slice(1)), here = document.getElementById(anchor);
       const found = here ? here.querySelector(".formula, .words")?.outerHTML : (await formulas())[anchor];
-      if (over !== link || !found) return;
-      note.innerHTML = found;
+      if (over !== mark || (!found && mark === link)) return;
+      note.innerHTML = found ?? "";
+      if (mark !== link) note.prepend(Object.assign(document.createElement("p"), { textContent: link.textContent }));
       note.hidden = false;
-      const box = link.getBoundingClientRect(), width = note.offsetWidth;
+      const box = mark.getBoundingClientRect(), width = note.offsetWidth;
       note.style.left = `${Math.max(8, Math.min(box.left, innerWidth - width - 8))}px`;
       note.style.top = `${box.bottom + 6 + note.offsetHeight > innerHeight ? box.top - note.offsetHeight - 6 : box.bottom + 6}px`;
     };
     const hush = () => { over = null; note.hidden = true; };
-    for (const link of picture.querySelectorAll(".inside li a")) {
-      link.addEventListener("mouseenter", () => tell(link));
-      link.addEventListener("focus", () => tell(link));
-      link.addEventListener("mouseleave", hush);
-      link.addEventListener("blur", hush);
+    addEventListener("keydown", (event) => { if (event.key === "Escape") hush(); });
+    for (const group of groups.values()) {
+      const links = [...group.querySelectorAll(".inside li a")];
+      for (const [place, mark] of [...links, ...group.querySelectorAll(".strip .m")].entries()) {
+        const link = links[place % links.length];
+        mark.addEventListener("mouseenter", () => tell(mark, link));
+        mark.addEventListener("focus", () => tell(mark, link));
+        mark.addEventListener("mouseleave", hush);
+        mark.addEventListener("blur", hush);
+      }
     }
   }
+
+  // What is wider than its place can be reached, and moved, by the keyboard.
+  const scrolls = new ResizeObserver((seen) => {
+    for (const { target } of seen) {
+      if (target.scrollWidth > target.clientWidth) target.tabIndex = 0;
+      else target.removeAttribute("tabindex");
+    }
+  });
+  for (const item of document.querySelectorAll(".formula, .value, .prose, .canvas, .witness dd, table, pre")) scrolls.observe(item);
 
   const graph = document.querySelector("svg.graph");
   if (!graph) return;
