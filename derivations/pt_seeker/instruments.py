@@ -153,7 +153,7 @@ def _clipped() -> Instrument:
     final = take(distance_final, at=BEGUN, short={R0: distance_then(t0)})
     return Instrument(
         "clip", "The clipped gain (κ = 1)",
-        "With ν kept above ν_min the inputs stay bounded, and the average ends within a distance of the source instead "
+        r"With $\nu$ kept above $\nu_{\min}$ the inputs stay bounded, and the average ends within a distance of the source instead "
         "of at it.",
         sliders,
         (

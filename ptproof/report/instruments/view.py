@@ -179,7 +179,7 @@ class _Writer:
 
     def control(self, slider: Slider) -> Control:
         letter = self.letters.get(slider.symbol, Letter("", "", ""))
-        unit, meaning = superscript(slider.unit or letter.unit), slider.meaning or letter.meaning
+        unit, meaning = superscript(slider.unit or letter.unit), slider.meaning or letter.meaning or slider.symbol.name
         return Control(
             slider.symbol.name, latex(slider.symbol, self.glyphs), unit, meaning, float(slider.lowest),
             float(slider.highest), float(slider.start), slider.logarithmic, bool(slider.symbol.is_integer),

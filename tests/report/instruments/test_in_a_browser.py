@@ -16,6 +16,8 @@ from ptproof.report.instruments.script import script_of
 from ptproof.report.instruments.view import decided, evaluated
 from ptproof.report.pages import report_files
 from tests.report.instruments.chromium import looked
+from tests.report.test_browser import chromium as chromium
+from tests.report.test_browser import look_at
 
 x, y = sp.symbols("x y", real=True)
 POINTS = [(a, b) for a in (-2.5, -1, -0.25, 0, 0.5, 1, 3) for b in (-3, -0.5, 0, 1, 2.25)]
@@ -194,6 +196,7 @@ def page(tooled_report, tmp_path_factory):
     return looked(folder, PAGE)
 
 
+FAULTS = ("wide", "flat", "axe", "faint", "print")
 FIRST = ["1.87083", "0.22313", "2", "0.4", "holds"]
 SAID = {
     "errors": [], "flaws": [], "first": FIRST, "reset": FIRST, "single": FIRST,
@@ -216,3 +219,11 @@ def test_the_vehicle_of_the_page_runs_to_its_end(page):
     words = ", ".join(f"{value:.6g}".replace("-", "−") for value in end)
     assert page["run"][0].startswith(f"vehicle: at t = 2 s, at ({words})")
     assert page["path"] > 200
+
+
+def test_the_page_has_no_fault(chromium, tooled_report, tmp_path):
+    """At three widths, on paper, light and dark, and by axe, as every page is looked at; its script is asked above."""
+    for name, content in report_files(tooled_report).items():
+        (tmp_path / name).write_bytes(content)
+    seen = look_at(chromium, tmp_path / "instruments.html")
+    assert {fault: seen[fault] for fault in FAULTS if seen[fault]} == {}
