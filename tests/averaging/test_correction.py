@@ -1,6 +1,7 @@
 """The terms of order 1/√ω: with them the error is of order 1/ω, without any one of them it is not."""
 
 from collections.abc import Callable
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -42,13 +43,18 @@ def solve(rate: Callable[[float, Any], np.ndarray], initial: Any, step: float = 
     ).y  # fmt: skip
 
 
+@cache
+def of_system(system: DitherSystem, frequency: int) -> np.ndarray:
+    return solve(numbers(system.to_system().rhs, frequency), INITIAL, 2 * np.pi / frequency / 6)
+
+
 def slope(
     correction: Correction, *, drift: bool = True, shift: bool = True, start: bool = True, scale: int = 1
 ) -> float:
     """The order of the largest error in 1/ω, by a fit over the frequencies."""
     errors = []
     for frequency in (entry // scale for entry in FREQUENCIES):
-        full = solve(numbers(correction.system.to_system().rhs, frequency), INITIAL, 2 * np.pi / frequency / 6)
+        full = of_system(correction.system, frequency)
         initial = numbers(correction.initial_state, frequency)(0.0, INITIAL) if start else INITIAL
         averaged = correction.corrected_average if drift else correction.average
         mean = solve(numbers(averaged.rhs, frequency), initial)

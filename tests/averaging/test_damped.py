@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -10,6 +11,8 @@ import sympy as sp
 
 from ptproof.averaging import average_to_order, derive
 from ptproof.averaging.damped import Damped
+from ptproof.averaging.expansion import Expansion
+from ptproof.averaging.orders import Orders
 from ptproof.averaging.problem import PHASE, DitherProblem, FastStates
 from ptproof.averaging.refusal import AveragingUndecided
 from ptproof.averaging.residual import put_back
@@ -39,9 +42,22 @@ PROBLEMS = {
 }
 
 
+@cache
+def averaged(name: str) -> Orders:
+    return average_to_order(PROBLEMS[name], 1)
+
+
+@cache
+def expanded(name: str) -> Expansion:
+    """Put back and found to cancel: corrupted twins are held against it."""
+    found = averaged(name).expansion
+    assert put_back(found).verdict is Verdict.PROVED
+    return found
+
+
 @pytest.mark.parametrize("name", PROBLEMS)
 def test_what_is_left_along_the_system_itself_has_the_order(name: str) -> None:
-    found = average_to_order(PROBLEMS[name], 1)
+    found = averaged(name)
     assert found.evidence.verdict is Verdict.PROVED
     assert left_over(found) == pytest.approx(-0.5, abs=0.02)
 
@@ -53,9 +69,8 @@ def test_a_second_order_with_jumps_and_a_filter() -> None:
 
 
 def test_a_filter_that_is_fast_enough_leads_to_the_lie_bracket_average() -> None:
-    problem = PROBLEMS["one filter"]
-    (mean,) = average_to_order(problem, 1).averages[0]
-    (limit,) = derive(problem.reduced((F,))).system.rhs
+    (mean,) = averaged("one filter").averages[0]
+    (limit,) = derive(PROBLEMS["one filter"].reduced((F,))).system.rhs
     # e^(−c/m) vanishes faster than every power of m.
     assert sp.simplify(mean.replace(sp.exp, lambda _: sp.S.Zero).subs(m, 0) - limit) == 0
 
@@ -78,12 +93,11 @@ def test_the_average_is_that_of_the_filtered_square_wave_in_numbers() -> None:
 @pytest.mark.parametrize("part", ["means", "correctors"])
 @pytest.mark.parametrize("change", [x, x * sp.exp(-sp.pi / m), sp.exp(z / m)], ids=["x", "constant", "phase"])
 def test_a_corrupted_expansion_does_not_cancel(part: str, change: sp.Expr) -> None:
-    found = average_to_order(PROBLEMS["one filter"], 1).expansion
+    found = expanded("one filter")
     twin = replace(found)
     twin.__dict__.update({name: getattr(found, name) for name in ("means", "correctors", "rest")})
     first, *others = getattr(found, part)
     twin.__dict__[part] = (tuple(entry + change.subs(z, PHASE) / 10**9 for entry in first), *others)
-    assert put_back(found).verdict is Verdict.PROVED
     assert put_back(twin).verdict is Verdict.UNDECIDED
 
 

@@ -3,6 +3,7 @@
 import itertools
 import random
 from dataclasses import replace
+from functools import cache
 from typing import Any
 
 import pytest
@@ -10,7 +11,7 @@ import sympy as sp
 
 from ptproof.averaging import derive, first_correction
 from ptproof.averaging.expansion import Expansion, along, normal_form
-from ptproof.averaging.orders import average_to_order
+from ptproof.averaging.orders import Orders, average_to_order
 from ptproof.averaging.oscillation import DELTA, Oscillation
 from ptproof.averaging.problem import OMEGA, PHASE, TIME, DitherProblem, FastStates
 from ptproof.averaging.residual import put_back
@@ -50,44 +51,62 @@ SYSTEMS = {
 }
 
 
+@cache
+def averaged(name: str, order: int) -> Orders:
+    return average_to_order(SYSTEMS[name], order)
+
+
+@cache
+def sought(order: int) -> Orders:
+    return average_to_order(finite_seeker(m), order)
+
+
+@cache
+def expanded(name: str) -> Expansion:
+    """To order 2, put back and found to cancel: corrupted twins are held against it."""
+    found = averaged(name, 2).expansion
+    assert put_back(found).verdict is Verdict.PROVED
+    return found
+
+
 @pytest.mark.parametrize("name", SYSTEMS)
 def test_everything_cancels_up_to_the_order(name: str) -> None:
-    assert average_to_order(SYSTEMS[name], 2).evidence.verdict is Verdict.PROVED
+    assert averaged(name, 2).evidence.verdict is Verdict.PROVED
 
 
 @pytest.mark.parametrize("name", SYSTEMS)
 def test_the_first_order_is_the_lie_bracket_average(name: str) -> None:
-    ours = average_to_order(SYSTEMS[name], 1).averages[0]
+    ours = averaged(name, 1).averages[0]
     brackets = derive(SYSTEMS[name]).system.rhs
     assert all(is_zero(left - right) for left, right in zip(ours, brackets, strict=True))
 
 
 @pytest.mark.parametrize("name", SYSTEMS)
 def test_the_second_order_is_the_drift_of_the_first_correction(name: str) -> None:
-    found = average_to_order(SYSTEMS[name], 2)
+    found = averaged(name, 2)
     drift = first_correction(SYSTEMS[name]).drift
     assert all(is_zero(left - right) for left, right in zip(found.averages[1], drift, strict=True))
 
 
 def test_a_second_order_that_does_not_vanish() -> None:
     """With cos and sin alone it does, so that the comparison above would not see a sign."""
-    assert average_to_order(SYSTEMS["three harmonics"], 2).averages[1] != (0,)
+    assert averaged("three harmonics", 2).averages[1] != (0,)
 
 
 @pytest.mark.parametrize("name", ["three harmonics", "square waves", "triangle", "slow amplitude", "turning"])
 @pytest.mark.parametrize("order", [1, 3])
 def test_what_is_left_along_the_system_itself_has_the_order(name: str, order: int) -> None:
     """By high precision numbers in the letters of the system, apart from the exact check."""
-    assert left_over(average_to_order(SYSTEMS[name], order)) == pytest.approx(-order / 2, abs=0.02)
+    assert left_over(averaged(name, order)) == pytest.approx(-order / 2, abs=0.02)
 
 
 @pytest.mark.parametrize("order", [1, 2])
 def test_what_is_left_with_a_filter_has_the_order(order: int) -> None:
-    assert left_over(average_to_order(finite_seeker(m), order)) == pytest.approx(-order / 2, abs=0.02)
+    assert left_over(sought(order)) == pytest.approx(-order / 2, abs=0.02)
 
 
 def test_the_finite_filter_turns_the_gradient() -> None:
-    found = average_to_order(finite_seeker(m), 1)
+    found = sought(1)
     slope = [sp.diff(F(x, y), symbol) for symbol in (x, y)]
     wanted = [
         sp.Function("d1", real=True)(TIME, x, y) + k * (slope[0] - m * slope[1]) / (2 * (1 + m**2)),
@@ -313,16 +332,13 @@ def _corrupted(found: Expansion) -> dict[str, Expansion]:
 @pytest.mark.parametrize("part", [f"{a} {b}" for a, b in itertools.product(("means", "correctors"), (1, 2, 3))])
 @pytest.mark.parametrize("name", ["unicycle", "triangle"])
 def test_a_corrupted_expansion_does_not_cancel(name: str, part: str) -> None:
-    found = average_to_order(SYSTEMS[name], 2).expansion
-    twin = _corrupted(found)[part]
-    assert put_back(found).verdict is Verdict.PROVED
-    verdict = put_back(twin).verdict
+    verdict = put_back(_corrupted(expanded(name))[part]).verdict
     # A function of x alone in the last corrector is left over at the next order only.
     assert verdict is (Verdict.PROVED if part == "correctors 3" else Verdict.UNDECIDED)
 
 
 def test_a_jump_in_a_corrector_is_seen() -> None:
-    found = average_to_order(SYSTEMS["square waves"], 1).expansion
+    found = averaged("square waves", 1).expansion
     twin = replace(found)
     jump = sp.Piecewise((0, sp.pi > PHASE), (1, True)).subs(PHASE, PHASE - 2 * sp.pi * sp.floor(PHASE / (2 * sp.pi)))
     twin.__dict__["means"], twin.__dict__["rest"] = found.means, found.rest

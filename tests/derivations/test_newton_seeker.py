@@ -5,11 +5,12 @@ from __future__ import annotations
 import sys
 from collections.abc import Sequence
 from dataclasses import replace
+from importlib import import_module
+from types import ModuleType
 
 import pytest
 import sympy as sp
 
-from derivations.newton_seeker.experiments import observations
 from ptproof.proof import Claim, Prose, Runs, Verdict, load
 from ptproof.proof.shipped import shipped
 from ptproof.proof.statement import Relation
@@ -23,6 +24,12 @@ DEAR = {
 @pytest.fixture(scope="module")
 def newton() -> tuple[Claim, ...]:
     return tuple(load([shipped() / "newton_seeker"]).claims)
+
+
+@pytest.fixture(scope="module")
+def observations() -> ModuleType:
+    """Read when a test first asks for it: seconds of algebra, which collecting tests needs none of."""
+    return import_module("derivations.newton_seeker.experiments.observations")
 
 
 def test_each_claim_is_decided_as_its_author_expects(newton: Sequence[Claim]) -> None:
@@ -63,18 +70,18 @@ def test_nothing_of_the_first_paper_is_used(newton: Sequence[Claim]) -> None:
     assert not any("pt_seeker" in str(getattr(value, "__module__", "")) for value in values)
 
 
-def test_what_is_observed_is_said_with_its_numbers() -> None:
+def test_what_is_observed_is_said_with_its_numbers(observations: ModuleType) -> None:
     estimate = observations.estimates([1])
     assert estimate.supported
     assert estimate.data["spread"] < 1e-5
     assert not observations.too_fast([1]).supported
 
 
-def test_a_filter_that_is_too_fast_does_not_count_as_one_that_fits() -> None:
+def test_a_filter_that_is_too_fast_does_not_count_as_one_that_fits(observations: ModuleType) -> None:
     assert not observations.estimates([20]).supported
 
 
-def test_the_gap_to_a_wrong_average_does_not_fall(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_gap_to_a_wrong_average_does_not_fall(observations: ModuleType, monkeypatch: pytest.MonkeyPatch) -> None:
     power, ladder = sp.Rational(3, 4), (50, 100, 200)
     assert observations.as_steep(observations.order("gradient", power, ladder))
     average = observations.chain.gradient_averaged
@@ -83,6 +90,8 @@ def test_the_gap_to_a_wrong_average_does_not_fall(monkeypatch: pytest.MonkeyPatc
     assert not observations.as_steep(observations.order("gradient", power, ladder))
 
 
-def test_runs_that_differ_between_tolerances_do_not_count(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_runs_that_differ_between_tolerances_do_not_count(
+    observations: ModuleType, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr(observations, "spread", lambda *arguments: 1e-3)
     assert not observations.estimates([1]).supported

@@ -22,7 +22,7 @@ def test_the_bounds_hold_under_every_clock(clock):
 
 def test_the_gain_of_another_clock_gives_a_bound_that_is_violated(monkeypatch):
     monkeypatch.setitem(random_sets.GAINS, "power", random_sets.GAINS["logarithmic"])
-    assert max(random_sets.violations(seed, "power") for seed in range(12)) > 1.01
+    assert any(random_sets.violations(seed, "power") > 1.01 for seed in range(12))
 
 
 def corrupt(case, **factors):
@@ -36,7 +36,7 @@ def test_wrong_constants_give_a_bound_that_is_violated(monkeypatch):
     """The check can fail: with b1 and b2 twice too large some bound is false."""
     make = random_sets.make
     monkeypatch.setattr(random_sets, "make", lambda *asked: corrupt(make(*asked), b1=2, b2=2))
-    assert max(random_sets.violations(seed) for seed in range(12)) > 1.01
+    assert any(random_sets.violations(seed) > 1.01 for seed in range(12))
 
 
 def test_a_gain_that_is_not_applied_gives_a_bound_that_is_violated(monkeypatch):
@@ -55,7 +55,7 @@ def test_a_gain_that_is_not_applied_gives_a_bound_that_is_violated(monkeypatch):
             dataclasses.replace(case, data=dataclasses.replace(case.data, nu_min=case.data.nu_min * 2)), times
         ),
     )
-    assert max(random_sets.violations(seed) for seed in range(12)) > 1.01
+    assert any(random_sets.violations(seed) > 1.01 for seed in range(12))
 
 
 @pytest.mark.parametrize("seed", range(12))

@@ -1,6 +1,5 @@
 """python-control objects: any system, a seeker, its block diagram, the linearization at the source."""
 
-import control
 import numpy as np
 import pytest
 import sympy as sp
@@ -11,7 +10,15 @@ from ptproof.simulation import block_diagram, linearize_at_source, simulate, to_
 from ptproof.system import System
 
 
-def test_a_system_responds_as_in_the_simulation():
+@pytest.fixture
+def control():
+    """Imported where it is used: it takes seconds, which each of pytest's workers would spend to collect."""
+    import control
+
+    return control
+
+
+def test_a_system_responds_as_in_the_simulation(control):
     problem = example("vanishing")
     average = problem.averaged("pt", "t")
     times = np.linspace(0, 0.5, 6)
@@ -32,7 +39,7 @@ def test_parameters_are_the_object_s_parameters():
         to_control(System(t, (x,), (-k * x,)))
 
 
-def test_the_responses_agree_with_the_filter_in_dilated_time():
+def test_the_responses_agree_with_the_filter_in_dilated_time(control):
     problem = example("vanishing")
     loop = block_diagram(problem)
     start = [-2, -2, 0, float(problem.measured)]

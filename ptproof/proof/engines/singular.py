@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import itertools
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -73,10 +74,11 @@ def _on_line(
     names: dict[str, str],
 ) -> Found | None:
     """What is wrong at a zero of the argument in the domain, where one variable moves and the others have values."""
-    restricted, line = (entry.subs(values, simultaneous=True) for entry in (argument, expression))
-    for root in _roots(restricted, variable):
+    for root in _roots(argument.subs(values, simultaneous=True), variable):
         place = _Place(variable, root, values, domain, names)
-        found = place.examine(line, order) if place.is_allowed(root) else None
+        if not place.is_allowed(root):
+            continue
+        found = place.examine(expression.subs(values, simultaneous=True), order)
         if found is not None:
             return found
     return None
@@ -171,9 +173,11 @@ def _lines(
             yield variable, values
 
 
-def _roots(argument: sp.Expr, variable: sp.Symbol) -> list[sp.Expr]:
+@functools.lru_cache(maxsize=1024)
+def _roots(argument: sp.Expr, variable: sp.Symbol) -> tuple[sp.Expr, ...]:
+    """A few exact real zeros; kept, since the fields of a system share what may be singular in them."""
     if variable not in argument.free_symbols:
-        return []
+        return ()
     while isinstance(argument, sp.Abs) or (argument.is_Pow and argument.exp.is_positive):
         argument = argument.args[0]
     try:
@@ -185,8 +189,8 @@ def _roots(argument: sp.Expr, variable: sp.Symbol) -> list[sp.Expr]:
         else:
             found = sp.solve(numerator, variable)
     except (NotImplementedError, sp.PolynomialError, ValueError, TypeError):
-        return []
-    return [root for root in found if root.is_real and not root.free_symbols][:4]
+        return ()
+    return tuple(root for root in found if root.is_real and not root.free_symbols)[:4]
 
 
 @dataclass(frozen=True)

@@ -1,11 +1,12 @@
-"""What Coq says of the claims of a test module, asked once for all of its tests."""
+"""What Coq says of the claims of the test modules here, asked once for all of their tests."""
 
 from __future__ import annotations
 
 import os
 import pickle
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
 from types import SimpleNamespace
@@ -13,6 +14,7 @@ from typing import Any
 
 import pytest
 
+from ptproof.proof.claim import Claim
 from ptproof.proof.kernel import Confirmation, check, coq
 from ptproof.proof.kernel.check import Effort
 
@@ -60,17 +62,32 @@ def answers(
 ) -> dict[str, Confirmation]:
     """Of the module's ``TRUE`` and ``NOT_CONFIRMED`` with its ``EFFORT``; the latter have three seconds each.
 
-    Coq is asked once, however many of pytest's workers share the module's tests.
+    Coq is asked once for all modules of one effort that are to be tested, however many of pytest's workers share them.
     """
-    name = request.module.__name__.rpartition(".")[2]
-    answers: dict[str, Confirmation] = _once(tmp_path_factory, name, lambda folder: _asked(request.module))
-    return answers
+    effort = _effort(request.module)
+    collected = {item.module for item in request.session.items if isinstance(item, pytest.Function)}
+    modules = [module for module in collected if hasattr(module, "NOT_CONFIRMED") and _effort(module) == effort]
+    modules.sort(key=_own)
+    told = _once(tmp_path_factory, effort, lambda folder: _asked(modules, effort))
+    here = f"{_own(request.module)}/"
+    return {id.removeprefix(here): answer for id, answer in told.items() if id.startswith(here)}
 
 
-def _asked(module: Any) -> dict[str, Confirmation]:
-    """One file for what is true and one for what is not: Coq takes two seconds to read the library for each."""
-    efforts: list[Effort] = [getattr(module, "EFFORT", "quick")]
+def _effort(module: Any) -> Effort:
+    return getattr(module, "EFFORT", "quick")
+
+
+def _own(module: Any) -> str:
+    return str(module.__name__).rpartition(".")[2]
+
+
+def _asked(modules: Sequence[Any], effort: Effort) -> dict[str, Confirmation]:
+    """One file for what is true and one for what is not: Coq reads the library for each, and finds axioms once."""
+
+    def named(kind: str) -> list[Claim]:
+        return [replace(item, id=f"{_own(module)}/{item.id}") for module in modules for item in getattr(module, kind)]
+
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(import_module("ptproof.proof.kernel.check"), "_IN_A_FILE", 100)
-        true = check(module.TRUE, timeout=20.0, efforts=efforts)
-        return true | check(module.NOT_CONFIRMED, timeout=3.0, efforts=efforts)
+        true = check(named("TRUE"), timeout=20.0, efforts=[effort])
+        return true | check(named("NOT_CONFIRMED"), timeout=3.0, efforts=[effort])
