@@ -153,8 +153,8 @@ def _clipped() -> Instrument:
     final = take(distance_final, at=BEGUN, short={R0: distance_then(t0)})
     return Instrument(
         "clip", "The clipped gain (κ = 1)",
-        r"With $\nu$ kept above $\nu_{\min}$ the inputs stay bounded, and the average ends within a distance of the source instead "
-        "of at it.",
+        r"With $\nu$ kept above $\nu_{\min}$ the inputs stay bounded, and the average ends within a distance of the "
+        "source instead of at it.",
         sliders,
         (
             Quantity("At T the average is within", final, "right", "m", "clip.residual_bound_printed"),

@@ -125,9 +125,7 @@ class Memory:
 
     def value(self, name: str, make: Callable[[], Any]) -> Any:
         """What ``make`` says of this state of every file, as plain data: from an earlier run where that is known."""
-        key = hashes.of_texts(
-            [name, self._environment, *(f"{file} {self._files[file]}" for file in sorted(self._files))]
-        )
+        key = hashes.of_texts([name, self._environment, *(f"{file} {self._files[file]}" for file in sorted(self._files))])
         known = None if self._fresh or not self._open else self._cache.read(key)
         if known is None:
             known = make()

@@ -68,7 +68,9 @@ def rows(text: str) -> tuple[tuple[str, bool], ...]:
     """The rows of a formula, without what lines them up, and whether each goes on with the one before it."""
     found = [row for _, row in split_rows(text)]
     before = ["", *found]
-    return tuple((_without_marks(row), number > 0 and goes_on(before[number], row)) for number, row in enumerate(found))
+    return tuple(
+        (_without_marks(row), number > 0 and goes_on(before[number], row)) for number, row in enumerate(found)
+    )
 
 
 def pieces(text: str) -> tuple[str, ...]:
