@@ -9,7 +9,28 @@ import sympy as sp
 from ptproof.report.instruments import Instrument, Slider, Vehicle
 
 from . import chain
-from .notation import F_star, F_x, H, Y, alpha, alpha_t, c, d, h, nu, omega, omega_0, omega_d, p, source, t, x1, x2, z1, z2
+from .notation import (
+    F_star,
+    F_x,
+    H,
+    Y,
+    alpha,
+    alpha_t,
+    c,
+    d,
+    h,
+    nu,
+    omega,
+    omega_0,
+    omega_d,
+    p,
+    source,
+    t,
+    x1,
+    x2,
+    z1,
+    z2,
+)
 from .section5a_design import average_newton
 from .section6_simulation import NUMBERS, START
 

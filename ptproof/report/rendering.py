@@ -10,11 +10,11 @@ from jinja2 import Environment
 from markupsafe import Markup, escape
 
 from ptproof.report.content import Figure
-from ptproof.report.formula import mathml
+from ptproof.report.formula import mathml, width
 from ptproof.report.headline import Piece
 from ptproof.report.instruments.view import shown
 from ptproof.report.model import Said
-from ptproof.report.prose import to_html
+from ptproof.report.prose import to_html, worded
 from ptproof.report.templating import environment, text
 
 
@@ -22,13 +22,15 @@ from ptproof.report.templating import environment, text
 def html() -> Environment:
     """The environment of the HTML pages."""
     jinja = environment(escape=True).overlay()
-    filters: dict[str, Callable[..., str]] = {
+    filters: dict[str, Callable[..., str | float]] = {
         "math": lambda source: _formula(source, False),
         "display": lambda source: _formula(source, True),
         "prose": lambda source: Markup(to_html(source)),
         "data_uri": data_uri,
         "digits": shown,
+        "width": width,
         "pieces": pieces,
+        "worded": worded,
         "tex": tex,
     }
     jinja.filters = {**jinja.filters, **filters}
@@ -48,7 +50,7 @@ def style() -> str:
 
 def script() -> str:
     """The script of every page."""
-    return text("page.js")
+    return "\n".join(text(name) for name in ("letters.js", "page.js"))
 
 
 def pieces(said: Sequence[Piece]) -> Markup:
