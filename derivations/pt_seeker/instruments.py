@@ -40,33 +40,36 @@ from .section6d_2_clipped_bounded import distance_then
 from .section6d_clipped import gain_after, total_time
 from .section6d_clipped_trajectory import distance_final
 from .section6e_after_the_clip import closer_after_corrected
-from .section7d_examples import nonvanishing, nonvanishing_as_simulated, vanishing, vanishing_as_simulated
+from .section7d_examples import (
+    nonvanishing,
+    nonvanishing_as_simulated,
+    saturated,
+    vanishing,
+    vanishing_as_simulated,
+)
+from .section7g_vehicle import unsaturated_vehicle
 
 kappa = sp.Symbol("kappa", integer=True, positive=True)
-constants = (
-    Slider(a1, "0.05", 10, "0.6", logarithmic=True), Slider(a2, "0.05", 10, "0.5", logarithmic=True),
-    Slider(b1, "0.05", 10, 1, logarithmic=True), Slider(b2, "0.05", 10, "1.2", logarithmic=True),
-)  # fmt: skip
+
+
+def constants(*starts: str) -> tuple[Slider, ...]:
+    """The field's constants."""
+    return tuple(
+        Slider(letter, "0.05", 10, first, logarithmic=True)
+        for letter, first in zip((a1, a2, b1, b2), starts, strict=True)
+    )
+
+
+quadratic, steep = constants("0.6", "0.5", "1", "1.2"), constants("1.5", "0.5", "1.4", "3.3")
 gain = Slider(k, "0.1", 20, "1.8", logarithmic=True)
 horizon = Slider(T, "0.1", 10, 1, logarithmic=True)
 drift_gain = Slider(E_norm, 0, 5, 1)
-clip = Slider(
-    lowest,
-    "0.02",
-    "0.98",
-    "0.3",
-    meaning="where the gain is clipped: 1/ν is at most 1/ν_min",
-    glyph=r"\nu_{\min}",
-    unit="1",
-)
-steep = (
-    Slider(a1, "0.05", 10, "1.5", logarithmic=True), Slider(a2, "0.05", 10, "0.5", logarithmic=True),
-    Slider(b1, "0.05", 10, "1.4", logarithmic=True), Slider(b2, "0.05", 10, "3.3", logarithmic=True),
-)  # fmt: skip
+clip = Slider(lowest, "0.02", "0.98", "0.3", glyph=r"\nu_{\min}", unit="1", meaning="least ν of the clipped gain")
 order = Slider(kappa, 2, 5, 2, meaning="order of the field's bounds", unit="1", glyph=r"\kappa")
 start = Slider(R0, "0.05", 10, "2.83", logarithmic=True)
 GIVEN = " ".join(f"--{name} {{{name}}}" for name in ("a1", "a2", "b1", "b2"))
-DISTANCE = r"\|\bar x - x^*\|\ [\text{m}]"
+TIME, DISTANCE = r"t\ [\text{s}]", r"\|\bar x - x^*\|\ [\text{m}]"
+BEGUN = {t0: sp.S.Zero}
 
 
 def instruments() -> Iterator[Instrument]:
@@ -79,13 +82,12 @@ def instruments() -> Iterator[Instrument]:
 
 
 def _gain() -> Instrument:
-    sliders = (gain, drift_gain, horizon, start, *constants)
+    sliders = (gain, drift_gain, horizon, start, *quadratic)
     take = partial(taken, sliders=sliders)
-    begun = {t0: sp.S.Zero}
     return Instrument(
         "gain", "Gain against drift (κ = 1)",
-        "The asymptotic seeker needs a gain above a threshold that grows with the drift; the averaged PT Seeker comes to "
-        "the source by T for every gain, with a bound that the drift enlarges. All of it is about the average.",
+        "The asymptotic seeker needs a gain above a threshold that grows with the drift; the averaged PT Seeker comes "
+        "to the source by T for every gain, with a bound that the drift enlarges. All of it is about the average.",
         sliders,
         (
             Condition("The gain condition of the asymptotic seeker", take(gain_condition, assumed=True)),
@@ -94,13 +96,13 @@ def _gain() -> Instrument:
             Plot(
                 "The distance of the averaged PT Seeker is at most", t, 0, T,
                 (
-                    Curve("with the drift", take(distance_bound_in_t, at=begun, short={R0: distance_at(t0)})),
-                    Curve("without drift", take(drift_slows, at=begun), "left"),
+                    Curve("with the drift", take(distance_bound_in_t, at=BEGUN, short={R0: distance_at(t0)})),
+                    Curve("without drift", take(drift_slows, at=BEGUN), "left"),
                 ),
-                r"t\ [\text{s}]", DISTANCE,
+                TIME, DISTANCE,
             ),
         ),
-        f"ptproof gains --kappa 1 {GIVEN} --drift-norm {{E_norm}} --k {{k}} --T {{T}} --json",
+        f"ptproof gains --kappa 1 {GIVEN} --drift-norm {{E_norm}} --k {{k}} --T {{T}}",
     )  # fmt: skip
 
 
@@ -138,58 +140,58 @@ def _critical() -> Instrument:
                 "V of the average is at most", t, 0, T * sp.Rational(999, 1000),
                 (Curve("the bound, as long as its denominator is positive", take(remark_inequality, at=on_the_clock),
                        within=(finite,)),),
-                r"t\ [\text{s}]", r"V\ [F]",
+                TIME, r"V\ [F]",
             ),
         ),
-        f"ptproof gains --kappa {{kappa}} {GIVEN} --drift-norm {{E_norm}} --k {{k}} --T {{T}} --V0 {{V0}} --json",
+        f"ptproof gains --kappa {{kappa}} {GIVEN} --drift-norm {{E_norm}} --k {{k}} --T {{T}} --V0 {{V0}}",
     )  # fmt: skip
 
 
 def _clipped() -> Instrument:
-    sliders = (clip, gain, drift_gain, horizon, start, *constants)
+    sliders = (clip, gain, drift_gain, horizon, start, *quadratic)
     take = partial(taken, sliders=sliders)
-    final = take(distance_final, at={t0: sp.S.Zero}, short={R0: distance_then(t0)})
+    final = take(distance_final, at=BEGUN, short={R0: distance_then(t0)})
     return Instrument(
         "clip", "The clipped gain (κ = 1)",
-        "With ν kept above ν_min the inputs stay bounded, and the average ends within a distance of the source instead "
-        "of at it.",
+        r"With $\nu$ kept above $\nu_{\min}$ the inputs stay bounded, and the average ends within a distance of the "
+        "source instead of at it.",
         sliders,
         (
-            Quantity("At the prescribed time the average is within", final, "right", "m", "clip.residual_bound_printed"),
-            Quantity("The dilated time that passes", take(total_time, at={t0: sp.S.Zero}), "right", "s", "clip.tau_end"),
-            Quantity("The gain 1/ν² at the end", take(gain_after, at={t0: sp.S.Zero, t: T}), "right", "1"),
+            Quantity("At T the average is within", final, "right", "m", "clip.residual_bound_printed"),
+            Quantity("The dilated time that passes", take(total_time, at=BEGUN), "right", "s", "clip.tau_end"),
+            Quantity("The gain 1/ν² at the end", take(gain_after, at={**BEGUN, t: T}), "right", "1"),
             Condition("After the clip V still falls", take(closer_after_corrected, assumed=True, part=3)),
             Plot("At the prescribed time the average is within", lowest, clip.lowest, clip.highest,
                  (Curve("bound for every ν_min", final),), r"\nu_{\min}", DISTANCE, logarithmic=True),
         ),
         f"ptproof gains --kappa 1 {GIVEN} --drift-norm {{E_norm}} --k {{k}} --T {{T}} --nu-min {{nu_min}} "
-        "--x0-norm {R0} --json",
+        "--x0-norm {R0}",
     )  # fmt: skip
 
 
 def _bounded() -> Instrument:
-    sliders = (gain, horizon, Slider(d, 0, 5, "0.5"), start, *constants)
+    sliders = (gain, horizon, Slider(d, 0, 5, "0.5"), start, *quadratic)
     take = partial(taken, sliders=sliders)
-    one, begun = sp.S.One, {t0: sp.S.Zero}
+    one = sp.S.One
     return Instrument(
         "bounded-drift", "A drift that does not vanish (κ = 1)",
-        "A drift of at most ‖d‖ keeps the averaged asymptotic seeker away from the source; the averaged PT Seeker comes "
-        "to it by T all the same.",
+        "A drift of at most ‖d‖ keeps the averaged asymptotic seeker away from the source; the averaged PT Seeker "
+        "comes to it by T all the same.",
         sliders,
         (
             Plot(
                 "The distance is at most", t, 0, T * sp.Rational(999, 1000),
                 (
                     Curve("PT Seeker, by the Proposition's proof",
-                          take(solution_1[2], at=begun, short={R0: distance_of_x(t0)})),
-                    Curve("asymptotic seeker", take(asymptotic_iss[0], at=begun, short={R0: distance_of_x(t0)})),
+                          take(solution_1[2], at=BEGUN, short={R0: distance_of_x(t0)})),
+                    Curve("asymptotic seeker", take(asymptotic_iss[0], at=BEGUN, short={R0: distance_of_x(t0)})),
                 ),
-                r"t\ [\text{s}]", DISTANCE,
+                TIME, DISTANCE,
             ),
             Quantity("γ(h₂‖d‖): what a lasting drift leaves", take(named(kappa_1, "gamma-class-k"),
                      at={second: input_gain(one) * d}, part=2), "right", "m", "nonvanishing.gamma"),
         ),
-        f"ptproof gains --kappa 1 {GIVEN} --drift-bound {{d}} --k {{k}} --T {{T}} --x0-norm {{R0}} --json",
+        f"ptproof gains --kappa 1 {GIVEN} --drift-bound {{d}} --k {{k}} --T {{T}} --x0-norm {{R0}}",
     )  # fmt: skip
 
 
@@ -215,11 +217,13 @@ def _vehicles() -> Iterator[Instrument]:
          vanishing_as_simulated, (Slider(E_norm, 0, 3, 1, meaning="drift gain: the drift is −‖E‖∇F"),), push),
         ("nonvanishing", "The vehicle beside its average: a drift that does not vanish (Section 7.2)", nonvanishing,
          nonvanishing_as_simulated, (), None),
+        ("unsaturated", "The vehicle beside its average: no drift, without the saturation (Section 7.3)", saturated,
+         unsaturated_vehicle, (), None),
     ):  # fmt: skip
         yield Instrument(
             name, title,
-            "The closed loop and its Lie bracket average, integrated here in the dilated time, where the run up to T is "
-            "regular, and shown in t. Nothing about the vehicle is proved by looking at it.",
+            "The closed loop and its Lie bracket average, integrated here in the dilated time, where the run up to T "
+            "is regular, and shown in t. Nothing about the vehicle is proved by looking at it.",
             sliders(problem, *more),
             (vehicle(problem, "Vehicle and average", (claimed, averaged_system), moved, drift),),
             command(problem, moved, drift),

@@ -10,7 +10,7 @@ from jinja2 import Environment
 from markupsafe import Markup, escape
 
 from ptproof.report.content import Figure
-from ptproof.report.formula import mathml
+from ptproof.report.formula import mathml, width
 from ptproof.report.headline import Piece
 from ptproof.report.instruments.view import shown
 from ptproof.report.model import Said
@@ -22,12 +22,13 @@ from ptproof.report.templating import environment, text
 def html() -> Environment:
     """The environment of the HTML pages."""
     jinja = environment(escape=True).overlay()
-    filters: dict[str, Callable[..., str]] = {
+    filters: dict[str, Callable[..., str | float]] = {
         "math": lambda source: _formula(source, False),
         "display": lambda source: _formula(source, True),
         "prose": lambda source: Markup(to_html(source)),
         "data_uri": data_uri,
         "digits": shown,
+        "width": width,
         "pieces": pieces,
         "worded": worded,
         "tex": tex,

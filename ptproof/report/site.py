@@ -144,8 +144,8 @@ def _pages(report: Report) -> Iterator[Page]:
         cut = packed([*_cards(section)])
         for number, cards in enumerate(cut, 1):
             file = f"{name}.html" if number == 1 else f"{name}-{number}.html"
-            body = _topped(_section(section, cards, number, len(cut)))
-            yield Page(file, section.title + _of(number, len(cut)), body, section.anchor)
+            whole = _topped(_section(section, cards, number, len(cut)))
+            yield Page(file, section.title + _of(number, len(cut)), whole, section.anchor)
     yield from _split("statements", "Statements by verdict", [_listed(report)], "claims")
     if report.figures or report.appendix:
         drawn = [parts.drawn(report, False)] if report.figures else []

@@ -2,7 +2,8 @@
 
 SymPy's own printer of JavaScript lets through what JavaScript has not, or has with another meaning: ``%`` takes the
 sign of the dividend, chains of comparisons compare truth values, and what is unknown to it becomes a call of a function
-that nobody has. Here a comparison is 1, 0, or NaN where a side is not defined, and so is what rests on it.
+that nobody has; what is divided by 0 is infinite to it, and 1 over that is 0. Here it is NaN, and a comparison is 1, 0,
+or NaN where a side is not defined or too large for a float.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from ptproof.errors import InputError
 _SAME = {
     "Abs": "Math.abs", "sign": "Math.sign", "floor": "Math.floor", "ceiling": "Math.ceil", 
     "exp": "Math.exp", "sin": "Math.sin", "cos": "Math.cos", "tan": "Math.tan", "asin": "Math.asin",
-    "acos": "Math.acos", "atan": "Math.atan", "atan2": "Math.atan2", "sinh": "Math.sinh", "cosh": "Math.cosh",
+    "acos": "Math.acos", "atan": "Math.atan", "atan2": "atan2", "sinh": "Math.sinh", "cosh": "Math.cosh",
     "tanh": "Math.tanh", "asinh": "Math.asinh", "acosh": "Math.acosh", "atanh": "Math.atanh",
 }  # fmt: skip
 _COMPARISONS = {
@@ -27,19 +28,22 @@ _COMPARISONS = {
 }  # fmt: skip
 # What the printed code calls. A comparison, and what is made of comparisons, is 1, 0 or NaN, which is "not known".
 HELPERS = """\
-const nan2 = (a, b) => Number.isNaN(a) || Number.isNaN(b);
-const lt = (a, b) => nan2(a, b) ? NaN : +(a < b), le = (a, b) => nan2(a, b) ? NaN : +(a <= b);
+const known = (a, b) => Number.isFinite(a) && Number.isFinite(b);
+const lt = (a, b) => known(a, b) ? +(a < b) : NaN, le = (a, b) => known(a, b) ? +(a <= b) : NaN;
 const gt = (a, b) => lt(b, a), ge = (a, b) => le(b, a);
-const same = (a, b) => nan2(a, b) ? NaN : +(a === b), not = (a) => 1 - a, differ = (a, b) => not(same(a, b));
+const same = (a, b) => known(a, b) ? +(a === b) : NaN, not = (a) => 1 - a, differ = (a, b) => not(same(a, b));
 const and = (...all) => all.includes(0) ? 0 : all.every((a) => a === 1) ? 1 : NaN;
 const or = (...all) => all.includes(1) ? 1 : all.every((a) => a === 0) ? 0 : NaN;
 const pick = (chosen, a, b) => chosen === 1 ? a : chosen === 0 ? b : NaN;
+const div = (a, b) => b === 0 ? NaN : a / b, power = (a, b) => a === 0 && b < 0 ? NaN : Math.pow(a, b);
+const log = (a) => a > 0 ? Math.log(a) : NaN;
+const atan2 = (a, b) => a === 0 && b === 0 ? NaN : Math.atan2(a, b);
 const mod = (a, b) => { const r = a % b; return r !== 0 && (r < 0) !== (b < 0) ? r + b : r; };
 """
 
 
 class _Printer(JavascriptCodePrinter):
-    """SymPy's printer, which meets nothing but what has a method here, or is a sum or a product."""
+    """SymPy's printer, which meets nothing but what has a method here, or is a sum."""
 
     def __init__(self, names: Mapping[sp.Symbol, str]) -> None:
         super().__init__()
@@ -47,12 +51,12 @@ class _Printer(JavascriptCodePrinter):
 
     def _print(self, expr: Any, **settings: Any) -> str:
         # By SymPy's own classes: somebody else's function of the same name is another one.
-        for kind in (base.__name__ for base in type(expr).__mro__ if base.__module__.startswith("sympy.")):
+        for kind in (base.__name__ for base in type(expr).__mro__ if (base.__module__ or "").startswith("sympy.")):
             if (own := getattr(self, f"own_{kind}", None)) is not None:
                 return str(own(expr))
             if kind in _SAME:
                 return f"{_SAME[kind]}({self._all(expr.args)})"
-        if isinstance(expr, sp.Add | sp.Mul):
+        if isinstance(expr, sp.Add):
             return str(super()._print(expr, **settings))
         raise InputError(f"{expr} has no exact counterpart in JavaScript ({type(expr).__name__})")
 
@@ -79,19 +83,25 @@ class _Printer(JavascriptCodePrinter):
         raise InputError("an expression that is nowhere defined has no counterpart in JavaScript")
 
     def own_Pow(self, expr: sp.Pow) -> str:
-        base, exponent = self._print(expr.base), expr.exp
+        base, exponent = expr.base, expr.exp
+        if exponent.is_Number and exponent.is_negative:
+            return f"div(1, {self._print(sp.Pow(base, -exponent))})"
         if exponent == sp.Rational(1, 2):
-            return f"Math.sqrt({base})"
-        if exponent == sp.Rational(-1, 2):
-            return f"(1/Math.sqrt({base}))"
-        if exponent == -1:
-            return f"(1/({base}))"
-        return f"Math.pow({base}, {self._print(exponent)})"
+            return f"Math.sqrt({self._print(base)})"
+        call = "Math.pow" if exponent.is_nonnegative else "power"
+        return f"{call}({self._print(base)}, {self._print(exponent)})"
+
+    def own_Mul(self, expr: sp.Mul) -> str:
+        below = [item for item in expr.args if item.is_Pow and item.exp.is_Number and item.exp.is_negative]
+        if not below:
+            return str(super()._print_Mul(expr))
+        above = sp.Mul(*(item for item in expr.args if item not in below))
+        return f"div({self._print(above)}, {self._print(sp.Mul(*(1 / item for item in below)))})"
 
     def own_log(self, expr: sp.Expr) -> str:
         if len(expr.args) != 1:
             raise InputError(f"{expr} has no exact counterpart in JavaScript (a logarithm to another base)")
-        return f"Math.log({self._print(expr.args[0])})"
+        return f"log({self._print(expr.args[0])})"
 
     def own_Mod(self, expr: sp.Expr) -> str:
         return f"mod({self._all(expr.args)})"
@@ -141,6 +151,17 @@ def _float(number: sp.Expr) -> str:
     return f"({text})" if value < 0 else text
 
 
+def _tamed(source: sp.Basic) -> sp.Basic:
+    """The expression with products of exponentials as one: the factors alone would leave the range of floats."""
+
+    def joined(product: sp.Expr) -> sp.Expr:
+        exponents = [factor.args[0] for factor in product.args if isinstance(factor, sp.exp)]
+        others = [factor for factor in product.args if not isinstance(factor, sp.exp)]
+        return sp.Mul(*others, sp.exp(sp.Add(*exponents)))
+
+    return sp.sympify(source).replace(lambda node: isinstance(node, sp.Mul), joined)
+
+
 def expression(source: sp.Basic, names: Mapping[sp.Symbol, str]) -> str:
     """One expression, its symbols under these names.
 
@@ -177,7 +198,7 @@ def function(sources: Sequence[sp.Basic], arguments: Mapping[str, Sequence[sp.Sy
             names |= {symbol: f"{name}[{place}]" for place, symbol in enumerate(symbols)}
     for source in sources:  # what is wrong is named as it was written
         expression(source, names)
-    shared, reduced = sp.cse(list(map(sp.sympify, sources)), symbols=(sp.Dummy() for _ in iter(int, 1)))
+    shared, reduced = sp.cse(list(map(_tamed, sources)), symbols=(sp.Dummy() for _ in iter(int, 1)))
     lines = []
     for place, (symbol, value) in enumerate(shared):
         lines.append(f"const c{place} = {expression(value, names)}; ")

@@ -135,7 +135,10 @@ def superscript(unit: str) -> str:
 
 def evaluated(source: sp.Basic, values: Mapping[sp.Symbol, Any]) -> float:
     """The value of an expression at exact values; NaN where it has no real one."""
-    found = sp.N(source.xreplace(dict(values)), 30)
+    try:
+        found = sp.N(source.xreplace(dict(values)), 30)
+    except (TypeError, ZeroDivisionError):  # SymPy's words for a comparison of what is not real, and for Mod(x, 0)
+        return math.nan
     if found in (sp.oo, -sp.oo):
         return math.inf if found == sp.oo else -math.inf
     return float(found) if found.is_real else math.nan
@@ -175,11 +178,11 @@ class _Writer:
     letters: Mapping[Any, Letter]
 
     def control(self, slider: Slider) -> Control:
-        entry = self.letters.get(slider.symbol)
+        letter = self.letters.get(slider.symbol, Letter("", "", ""))
+        unit, meaning = superscript(slider.unit or letter.unit), slider.meaning or letter.meaning or slider.symbol.name
         return Control(
-            slider.symbol.name, latex(slider.symbol, self.glyphs), superscript(slider.unit or getattr(entry, "unit", "")),
-            slider.meaning or getattr(entry, "meaning", ""), float(slider.lowest), float(slider.highest),
-            float(slider.start), slider.logarithmic, bool(slider.symbol.is_integer),
+            slider.symbol.name, latex(slider.symbol, self.glyphs), unit, meaning, float(slider.lowest),
+            float(slider.highest), float(slider.start), slider.logarithmic, bool(slider.symbol.is_integer),
         )  # fmt: skip
 
     def row(self, part: Quantity | Condition) -> Row:
@@ -224,5 +227,5 @@ class _Writer:
         return tuple(rf"{latex(letter, self.glyphs)} = {latex(value, self.glyphs)}" for letter, value in taken.at)
 
     def unit(self, symbol: sp.Symbol) -> str:
-        unit = getattr(self.letters.get(symbol), "unit", "")
+        unit = self.letters.get(symbol, Letter("", "", "")).unit
         return rf"\ \text{{in {superscript(unit)}}}" if unit and unit != "1" else ""

@@ -402,7 +402,8 @@ const set = (tool, section) => {
   addEventListener("hashchange", restore);
   if (!restore()) move(first, false);
   let width = section.clientWidth;
-  new ResizeObserver(() => { if (section.clientWidth !== width) { width = section.clientWidth; draw(); } }).observe(section);
+  const resized = () => { if (section.clientWidth !== width) { width = section.clientWidth; draw(); } };
+  new ResizeObserver(() => setTimeout(resized)).observe(section);
   return { get values() { return s; }, move };
 };
 window.PTPROOF_INSTRUMENTS = { tools: INSTRUMENTS, run, changes, valueExactly, digits };

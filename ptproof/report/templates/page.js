@@ -167,14 +167,23 @@
     }
   }
 
-  // What is wider than its place can be reached, and moved, by the keyboard.
+  // On paper a wide formula is set smaller, since nothing scrolls there.
+  addEventListener("beforeprint", () => {
+    const wide = [...document.querySelectorAll("math")].map((math) => [math, math.getBoundingClientRect().width]);
+    for (const [math, width] of wide) math.style.setProperty("--em", Math.max(1, width / parseFloat(getComputedStyle(math).fontSize)));
+  });
+
+  // What is wider than its place can be reached, and moved, by the keyboard; so can what is not set yet, being far away.
   const scrolls = new ResizeObserver((seen) => {
     for (const { target } of seen) {
       if (target.scrollWidth > target.clientWidth) target.tabIndex = 0;
-      else target.removeAttribute("tabindex");
+      else if (target !== document.activeElement) target.removeAttribute("tabindex");
     }
   });
-  for (const item of document.querySelectorAll(".formula, .value, .prose, .canvas, .witness dd, table, pre")) scrolls.observe(item);
+  for (const item of document.querySelectorAll(".formula, .value, .prose, .canvas, .witness dd, table, pre")) {
+    item.tabIndex = 0;
+    scrolls.observe(item);
+  }
 
   const graph = document.querySelector("svg.graph");
   if (!graph) return;
