@@ -82,7 +82,7 @@ SECTION = "5.3 Proposition: a bounded drift that does not vanish"
 
 stretch = 1 + (tau - t0) / T
 V_dot, U_dot = sp.symbols("V_dot U_dot", real=True)
-lag = sp.Symbol("lag", nonnegative=True)  # (τ − t₀)/T
+lag = sp.Symbol("eta", nonnegative=True)  # (τ − t₀)/T
 
 
 @claim(

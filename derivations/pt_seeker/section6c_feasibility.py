@@ -130,7 +130,7 @@ asymptotic_iss = (
 
 # --- 6.4 --------------------------------------------------------------------------------------------------------------
 
-turn = sp.Symbol("turn", positive=True)  # ω − (k/μ)(y − z) at one instant
+turn = sp.Symbol("Omega", positive=True)  # ω − (k/μ)(y − z) at one instant
 lowest = sp.Symbol("nu_min", positive=True)
 
 

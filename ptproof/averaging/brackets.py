@@ -64,7 +64,7 @@ def tidy(expression: sp.Expr, factored: int = _FACTORED) -> sp.Expr:
     forms = [_reduce(expanded, sines, cosines)]
     if sines:
         forms.append(_reduce(expanded, cosines, sines))
-    for form in list(forms):
+    for form in dict.fromkeys(forms):
         if form.is_Add:
             forms.append(sp.factor_terms(form))
             if len(form.args) <= factored:

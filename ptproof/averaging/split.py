@@ -49,13 +49,13 @@ def split_dithers(
     theta = sp.Symbol("theta", real=True) if phase is None else phase
     if theta in {system.time, *system.state, *(system.parameters or ())}:
         raise AveragingRefused("form", "phase", f"the system already uses the symbol {theta}; name another phase")
-    root = sp.Dummy("root")
+    root = sp.Dummy("root", positive=True)
     drift: list[sp.Expr] = []
     columns: dict[tuple[sp.Expr, int], dict[int, sp.Expr]] = {}
     for row, entry in enumerate(system.rhs):
         where = f"d{system.state[row]}/d{system.time}"
         masked = _waves_in_phase(entry.subs(omega, root**2), system.time, theta, root, where)
-        slow, masked = sp.powdenest(masked, force=True).as_independent(root, theta, as_Add=True)
+        slow, masked = masked.as_independent(root, theta, as_Add=True)
         drift.append(slow)
         for (power, rate), parts in read(masked, theta, where).terms.items():
             for sine, part in enumerate(parts):

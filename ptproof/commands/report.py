@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from ptproof.commands import guard, options, streams
+from ptproof.commands.made import Made
 from ptproof.commands.papers import Opened, opened
 from ptproof.errors import InputError
 from ptproof.reading.outcomes import in_words
@@ -54,32 +55,43 @@ def report(
     Writes index.html and the pages that it leads to, report.md, graph.svg and figures/ into FOLDER; of several papers
     each into a folder of its own name in it, and a page above them. With --paper each card says whether what the paper
     prints was read from its source and is what is claimed. Exit status 1 if a claim did not come out as its author
-    recorded, a figure could not be drawn, or the paper prints something else; the report is written all the same.
+    recorded, a figure could not be drawn, or what is printed is something else; the report is written all the same.
     """
     from ptproof.proof.run import Interrupted
     from ptproof.reading.latex.source import read_paper
     from ptproof.report.printing import browser
+    from ptproof.report.versions import SETTING, versions
     from ptproof.report.writing import check_place
 
     place, printer = check_place(out), browser() if pdf else ""
-    tex = {name: read_paper(name) for name in sources}
+    whole = options.memory_of(paths, fresh)
+    asked = " ".join(
+        map(str, ("report", no_figures, single, *map(Path.resolve, map(Path, sources)), versions(SETTING)))
+    )
+    if not pdf and (made := Made.again(whole.run(asked))) is not None:
+        return _show(place, made, single, pdf)
     decided: dict[str, Verification] = {}
-    with opened(paths, fresh) as papers:
-        read = _read(papers, tex)
-        for paper in papers:
+    with whole.loading():
+        tex = {name: read_paper(name) for name in sources}
+        with opened(paths, fresh) as papers:
+            read = _read(papers, tex)
+            for paper in papers:
+                try:
+                    decided[paper.name] = _decided(paper, **how)
+                except Interrupted as interrupted:
+                    status = options.interrupted(interrupted)
+                    _say(_sums({**decided, paper.name: interrupted.verification}))
+                    return status
             try:
-                decided[paper.name] = _decided(paper, **how)
-            except Interrupted as interrupted:
-                status = options.interrupted(interrupted)
-                _summarize({**decided, paper.name: interrupted.verification})
-                return status
-        try:
-            return _write(place, papers, decided, read, no_figures, single, printer)
-        except KeyboardInterrupt:  # nothing is half written, and what is decided is shown
-            _summarize(decided)
-            if guard.own_interrupt():
-                raise InputError("the derivation raised KeyboardInterrupt while the report was written") from None
-            raise
+                made, drawn = _made(papers, decided, read, no_figures, single, printer)
+            except KeyboardInterrupt:  # nothing is half written, and what is decided is shown
+                _say(_sums(decided))
+                if guard.own_interrupt():
+                    raise InputError("the derivation raised KeyboardInterrupt while the report was written") from None
+                raise
+    status = _show(place, made, single, pdf)
+    whole.keep_run(asked, made.data, drawn and all(item.memory.lasts(decided[item.name]) for item in papers))
+    return status
 
 
 def _decided(paper: Opened, jobs: int | None, cluster: str | None, timeout: float) -> Verification:
@@ -121,38 +133,45 @@ def _read(papers: Sequence[Opened], tex: Mapping[str, str]) -> dict[str, Mapping
     return found
 
 
-def _write(
-    place: Path,
+def _made(
     papers: Sequence[Opened],
     decided: dict[str, Verification],
     read: Mapping[str, Mapping[str, ReadSide]],
     no_figures: bool,
     single: bool,
     printer: str,
-) -> int:
+) -> tuple[Made, bool]:
+    """The report, and whether everything in it could be drawn."""
     from ptproof.report.pages import all_files
-    from ptproof.report.writing import write_report
 
     guard.doing("while the report was made; none is written")
     composed = {
         paper.name: _composed(paper, decided[paper.name], read.get(paper.name, {}), no_figures) for paper in papers
     }
-    content = {name: found for name, (found, _) in composed.items()}
-    write_report(place, all_files(content, single=single, browser=printer))
-    _summarize(decided)
-    several = len(composed) > 1
+    files = all_files({name: found for name, (found, _) in composed.items()}, single=single, browser=printer)
+    several, notes = len(composed) > 1, []
     for name, (found, failures) in composed.items():
         of = f"{name}: " if several else ""
         for claim in found.unexpected:
-            words = f"{claim.ref.id}: expected {claim.expected}, came out {claim.status.word}"
-            click.echo(f"ptproof: {of}{words}", err=True)
-        for ref in found.read.get("different", ()):
-            click.echo(f"ptproof: {of}{ref.id}: what is printed is something else", err=True)
-        for note in failures:
-            click.echo(f"ptproof: {of}{note}", err=True)
-    _name_places(place, tuple(composed) if several else (), single, bool(printer))
-    failed = any(failures or "different" in found.read for found, failures in composed.values())
-    return 0 if all(found.as_expected for found in decided.values()) and not failed else 1
+            notes.append(f"{of}{claim.ref.id}: expected {claim.expected}, came out {claim.status.word}")
+        notes += [f"{of}{ref.id}: what is printed is something else" for ref in found.read.get("different", ())]
+        notes += [f"{of}{note}" for note in failures]
+    drawn = not any(failures for _, failures in composed.values())
+    same = not any("different" in found.read for found, _ in composed.values())
+    status = 0 if all(found.as_expected for found in decided.values()) and drawn and same else 1
+    return Made(files, tuple(composed) if several else (), _sums(decided), tuple(notes), status), drawn
+
+
+def _show(place: Path, made: Made, single: bool, pdf: bool) -> int:
+    """Write the report, say what came out and where it is, and give the exit status."""
+    from ptproof.report.writing import write_report
+
+    write_report(place, made.files)
+    _say(made.sums)
+    for note in made.notes:
+        click.echo(f"ptproof: {note}", err=True)
+    _name_places(place, made.folders, single, pdf)
+    return made.status
 
 
 def _composed(
@@ -189,16 +208,21 @@ def _name_places(place: Path, names: Sequence[str], single: bool, pdf: bool) -> 
             click.echo(f"{folder / 'report.pdf'}  the same on paper", file=streams.out())
 
 
-def _summarize(decided: dict[str, Verification]) -> None:
+def _sums(decided: Mapping[str, Verification]) -> tuple[str, ...]:
     from ptproof.commands.terminal import COLOURS
 
+    sums = []
     for name, verification in decided.items():
         summary = verification.summary()
         words = ", ".join(f"{summary[word]} {word}" for word in COLOURS if summary[word])
         of = f"{name}: " if len(decided) > 1 else ""
-        click.echo(
-            f"{of}{summary['total']} claims: {words}; {summary['fully_proved']} fully proved", file=streams.out()
-        )
+        sums.append(f"{of}{summary['total']} claims: {words}; {summary['fully_proved']} fully proved")
+    return tuple(sums)
+
+
+def _say(lines: Sequence[str]) -> None:
+    for line in lines:
+        click.echo(line, file=streams.out())
 
 
 def _drawn(derivation: Derivation) -> tuple[tuple[Figure, ...], tuple[Table, ...]]:

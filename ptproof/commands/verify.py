@@ -91,7 +91,7 @@ def _decided(
         return interrupted.verification, options.interrupted(interrupted)
     if not select:
         verification = replace(verification, gaps=len(derivation.gaps))
-    memory.keep_run(select, Shown.of(verification).data, verification)
+    memory.keep_run(select, Shown.of(verification).data, memory.lasts(verification))
     return verification, 0 if verification.as_expected else 1
 
 

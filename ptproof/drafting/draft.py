@@ -11,6 +11,8 @@ from ptproof.drafting.items import Item, items_of
 from ptproof.drafting.modules import texts
 from ptproof.drafting.paper import read_with_guesses
 from ptproof.errors import InputError
+from ptproof.reading.latex.formulas import find_formulas
+from ptproof.reading.latex.kept import FILE, written_kept
 from ptproof.reading.latex.source import absent_inputs, read_paper
 
 
@@ -42,8 +44,11 @@ def draft(paper: str | Path) -> Draft:
     InputError
         If the file cannot be read, or displays no formula.
     """
-    read = read_with_guesses(read_paper(paper))
+    source = read_paper(paper)
+    read = read_with_guesses(source)
     if not read.said:
         raise InputError(f"{paper}: no formula is displayed in it; name the LaTeX source of the paper")
     items, functions = items_of(read)
-    return Draft(texts(read, items, functions, Path(paper).name), items, absent_inputs(paper))
+    printed = written_kept((item.formula for item in items if item.kind != "gap"), find_formulas(source).macros)
+    files = {**texts(read, items, functions, Path(paper).name), FILE: printed}
+    return Draft(files, items, absent_inputs(paper))

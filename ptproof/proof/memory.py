@@ -53,7 +53,7 @@ class Memory:
         self._before: dict[str, str] = {}
         self._files: dict[str, str] = {}
         self._looked = 0.0
-        self._open = False
+        self._open, self._whole = False, True
 
     @contextlib.contextmanager
     def loading(self) -> Iterator[None]:
@@ -105,11 +105,15 @@ class Memory:
                     return data
         return None
 
-    def keep_run(self, select: str, data: dict[str, Any], verification: Verification) -> None:
-        """Keep the whole outcome, if each part of it is one that is remembered."""
-        if self._unchanged() and all(_lasting(item.claim, *item.evidence) for item in verification.results):
+    def keep_run(self, select: str, data: dict[str, Any], lasting: bool) -> None:
+        """Keep the whole outcome, if it is ``lasting``: see :meth:`lasts`."""
+        if lasting and self._unchanged():
             self._cache.write(self._run_key(select), {"files": self._files, "data": data})
         self._cache.tidy()
+
+    def lasts(self, verification: Verification) -> bool:
+        """Whether each part of the outcome is one that is remembered."""
+        return self._whole and all(_lasting(item.claim, *item.evidence) for item in verification.results)
 
     def recall(self, claim: Claim) -> Evidence | None:
         """The evidence of a claim from an earlier run."""
@@ -122,10 +126,14 @@ class Memory:
         """Keep the evidence of a claim whose proof has read these files."""
         if _lasting(claim, evidence) and set(read) <= set(self._files) and self._unchanged():
             self._cache.write(self._key(claim), written_evidence(evidence))
+        else:
+            self._whole = False
 
     def value(self, name: str, make: Callable[[], Any]) -> Any:
         """What ``make`` says of this state of every file, as plain data: from an earlier run where that is known."""
-        key = hashes.of_texts([name, self._environment, *(f"{file} {self._files[file]}" for file in sorted(self._files))])
+        key = hashes.of_texts(
+            [name, self._environment, *(f"{file} {self._files[file]}" for file in sorted(self._files))]
+        )
         known = None if self._fresh or not self._open else self._cache.read(key)
         if known is None:
             known = make()

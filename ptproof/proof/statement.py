@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
+from functools import lru_cache
 from typing import Any, TypeAlias
 
 import sympy as sp
@@ -216,4 +217,9 @@ def free_symbols(statements: Sequence[Statement | Assumption]) -> set[sp.Symbol]
 
 def undefined_functions(statements: Sequence[Statement | Assumption]) -> set[AppliedUndef]:
     """The applied undefined functions that occur."""
-    return set().union(*(expression.atoms(AppliedUndef) for expression in expressions_of(statements)))
+    return set().union(*map(_applied, expressions_of(statements)))
+
+
+@lru_cache(maxsize=8192)
+def _applied(expression: sp.Expr) -> frozenset[AppliedUndef]:
+    return frozenset(expression.atoms(AppliedUndef))  # claims share what they assume, and it is asked again and again

@@ -135,7 +135,7 @@ def opened() -> Iterator[set[str]]:
     try:
         yield found
     finally:
-        _opened.remove(found)
+        _opened[:] = [other for other in _opened if other is not found]  # equal ones are others
         found |= {str(file) for name in set(sys.modules) - before if (file := _file_of(name))}
 
 

@@ -17,6 +17,7 @@ from ptproof.proof.statement import (
     All,
     Assumption,
     Exists,
+    ForAll,
     Prose,
     Relation,
     Statement,
@@ -31,7 +32,7 @@ from ptproof.report.content import Figure, Table
 from ptproof.report.formula import Line, domain_of, latex, statement_lines
 from ptproof.report.instruments.instrument import Instrument
 from ptproof.report.instruments.view import viewed
-from ptproof.report.letters import Notation
+from ptproof.report.letters import Notation, spelled
 from ptproof.report.model import ClaimView, DefinitionView, Erratum, Ref, Report, Section
 from ptproof.report.read import ReadSide
 from ptproof.report.spoken import Letters, spoken
@@ -130,6 +131,7 @@ class _Composer:
     ) -> None:
         self.results, self.refs, self.glyphs, self.read = results, refs, glyphs, read
         self.letters = Letters(glyphs)
+        self.spellings = {spelled(glyph) for glyph in glyphs.values()}
         self.set: dict[Statement | Assumption, tuple[Line, ...]] = {}
         self.users: dict[str, list[str]] = {}
         self.corrections: dict[str, list[str]] = {}
@@ -194,13 +196,18 @@ class _Composer:
         )  # fmt: skip
 
     def unlike(self, id: str, statements: Sequence[Statement | Assumption]) -> tuple[str, ...]:
-        """The glyphs that do not stand here for what the notation says: of other letters, of bound ones, of functions."""
-        free = free_symbols(statements)
+        """The glyphs that do not stand here for what the notation says: other letters, bound ones, functions."""
+        quantified = [said for said in statements if isinstance(said, Exists | ForAll)]
+        bound = {symbol for said in quantified for symbol in (*said.variables, *getattr(said, "over", ()))}
+        free = free_symbols(statements) - (
+            bound - free_symbols([said for said in statements if said not in quantified])
+        )
         named = {symbol for said in expressions_of(statements) for symbol in said.atoms(sp.Symbol)}
         functions = {sp.Symbol(applied.func.__name__) for applied in undefined_functions(statements)}
         others = {item for item in named | functions if item not in self.glyphs or item not in free}
         read = self.read.get(id)
-        return tuple(sorted({*(latex(item, self.glyphs) for item in others), *(read.apart if read else ())}))
+        glyphs = {*(latex(item, self.glyphs) for item in others), *(read.apart if read else ())}
+        return tuple(sorted({spelled(glyph) for glyph in glyphs} & self.spellings))
 
 
 def _hits(verification: Verification) -> tuple[str, ...]:

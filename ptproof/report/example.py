@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeAlias
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -13,8 +13,9 @@ from ptproof.proof.statement import All, Relation, Statement, relations_of
 from ptproof.report.formula import SIGNS, Names, latex, width
 from ptproof.report.printer import numbers
 
-_ROOM, _SHORT, _DIGITS = 70.0, 12.0, 6
-_OPAQUE = (AppliedUndef, sp.Derivative, sp.Subs, sp.Integral, sp.Limit)
+_ROOM, _SHORT, _DIGITS = 60.0, 12.0, 6
+Ball: TypeAlias = tuple[sp.Expr, float]  # a number, and how far the true one may be from it
+_OPAQUE = (AppliedUndef, sp.Derivative, sp.Subs)
 
 
 @dataclass(frozen=True)
@@ -34,7 +35,7 @@ class Point:
             arguments, body = self.functions[node.func.__name__]
             return body.xreplace(dict(zip(arguments, node.args, strict=True)))
 
-        return side.replace(ours, put).doit().subs(dict(self.symbols), simultaneous=True)
+        return side.replace(ours, put).doit(integrals=False).subs(dict(self.symbols), simultaneous=True)
 
 
 @dataclass(frozen=True)
@@ -46,7 +47,7 @@ class Example:
     letters
         The names of the symbols and functions whose values stand in it.
     put
-        The relation with these values in it; empty where that is what they come to.
+        The relation with these values in it; empty where that is too long for a line, or is what they come to.
     compared
         What both sides come to.
     """
@@ -56,26 +57,28 @@ class Example:
     compared: str
 
 
-def example_of(statement: Statement, point: Point, left: Any, right: Any, names: Names) -> Example | None:
-    """The relation whose sides at the point are ``left`` and ``right``; None where it is too long for a line."""
+def example_of(statement: Statement, point: Point, left: Ball, right: Ball, names: Names) -> Example | None:
+    """The relation whose sides at the point lie in ``left`` and ``right``, if there is one of numbers."""
     if not isinstance(statement, Relation | All):
         return None
     for part in (one for relation in relations_of(statement) for one in relation.components()):
+        if part.left.has(sp.Integral, sp.Limit) or part.right.has(sp.Integral, sp.Limit):
+            continue  # nothing that is checked in a line
         try:
             sides = [point(side) for side in (part.left, part.right)]
         except (TypeError, ValueError, NotImplementedError):
             continue
-        if all(_same(mine, said) for mine, said in zip(sides, (left, right), strict=True)):
+        if _same(sides[0], *left) and _same(sides[1], *right):
             return _shown(part, point, sides, names)
     return None
 
 
-def _same(mine: Any, said: Any) -> bool:
-    """Whether both are one number, as far as a reader sees."""
+def _same(mine: Any, said: sp.Expr, radius: float) -> bool:
+    """Whether a side is the number that the witness says, as far as that says it."""
     if mine.free_symbols or not mine.is_number or mine.has(sp.nan, sp.zoo, sp.oo, *_OPAQUE):
         return False
     difference = sp.N(mine - said, 20)
-    return bool(difference.is_real) and abs(difference) < 1e-9
+    return bool(difference.is_real) and abs(difference) <= max(radius, 1e-9)
 
 
 def _shown(part: Relation, point: Point, values: list[Any], names: Names) -> Example | None:
@@ -84,7 +87,7 @@ def _shown(part: Relation, point: Point, values: list[Any], names: Names) -> Exa
     short = [_value(value) for value in values]
     put, compared = f" {sign} ".join(sides), f" {sign} ".join(short)
     if width(put) > _ROOM:
-        return None
+        sides = short  # then both sides are said, and not how they come about
     # A side that is a number already is said once: 3 > 2·4 = 8.
     if sides[0] == short[0] and sides[1] != short[1]:
         put, compared = "", f"{put} = {short[1]}"
@@ -100,6 +103,8 @@ def _structure(side: sp.Expr, point: Point, names: Names) -> str:
     masks = {node: sp.Dummy() for node in _outermost(side)}
     glyphs = {mask: numbers(point(node)) for node, mask in masks.items()}
     glyphs |= {symbol: numbers(value) for symbol, value in point.symbols.items()}
+    if side in masks or side.is_Symbol:
+        return latex(point(side), {})
     return latex(side.xreplace(masks), {**names, **glyphs}, dots=True)
 
 

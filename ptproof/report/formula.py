@@ -5,6 +5,7 @@ from __future__ import annotations
 import html
 import re
 from collections.abc import Iterable, Iterator, Sequence
+from copy import deepcopy
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
@@ -172,13 +173,12 @@ def markup(found: ElementTree.Element | None, source: str) -> str:
     """A formula's element as text; without one, its LaTeX."""
     if found is None:
         return f"<code>{html.escape(source)}</code>"
-    written = ElementTree.tostring(found, encoding="unicode")
-    return written.replace(' xmlns="http://www.w3.org/1998/Math/MathML"', "", 1)
+    return ElementTree.tostring(found, encoding="unicode")
 
 
 def element(source: str, *, display: bool = False) -> ElementTree.Element | None:
     """The formula as an element of its own, which may be changed; None where the converter does not know its LaTeX."""
-    found = _element(source)
+    found = deepcopy(_converted(source))
     if found is not None:
         found.set("display", "block" if display else "inline")
     return found
@@ -187,34 +187,26 @@ def element(source: str, *, display: bool = False) -> ElementTree.Element | None
 @lru_cache(maxsize=4096)
 def width(source: str) -> float:
     """About how many characters wide the formula is."""
-    element = _element(source)
-    return float(len(source)) if element is None else _width(element)
+    found = _converted(source)
+    return float(len(source)) if found is None else _width(found)
 
 
-@lru_cache(maxsize=4096)
-def _source(source: str) -> str | None:
-    from latex2mathml.converter import convert
+@lru_cache(maxsize=8192)
+def _converted(source: str) -> ElementTree.Element | None:
+    """The formula, which is shared: nobody changes it; None where the converter does not know its LaTeX."""
+    from latex2mathml.converter import Converter
 
     try:
-        converted = str(convert(source))
-        ElementTree.fromstring(converted)
+        found = Converter().convert_to_element(source)
     except Exception:  # the converter raises many kinds; the formula is then shown as its LaTeX
         return None
-    return converted
-
-
-def _element(source: str) -> ElementTree.Element | None:
-    converted = _source(source)
-    if converted is None:
-        return None
-    element = ElementTree.fromstring(converted)
-    for node in element.iter():
-        node.tag = node.tag.rsplit("}", 1)[-1]
+    del found.attrib["xmlns"]
+    for node in found.iter():
         if node.text:
             node.text = html.unescape(node.text)
-    for parent in list(element.iter()):
+    for parent in list(found.iter()):
         _repair(parent)
-    return element
+    return found
 
 
 def _repair(parent: ElementTree.Element) -> None:

@@ -5,11 +5,13 @@ from __future__ import annotations
 import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
+from xml.etree.ElementTree import Element
 
 from ptproof.errors import InputError
 from ptproof.proof.load import Derivation
-from ptproof.report.formula import latex
+from ptproof.report.formula import element, latex
 
 
 @dataclass(frozen=True)
@@ -19,6 +21,11 @@ class Letter:
     glyph: str
     unit: str
     meaning: str
+
+    @property
+    def key(self) -> str:
+        """How the glyph is spelled where it stands in a formula; empty for one that is not set."""
+        return spelled(self.glyph)
 
 
 @dataclass(frozen=True)
@@ -32,6 +39,20 @@ class Notation:
     def __post_init__(self) -> None:
         for name in ("glyphs", "by_symbol"):
             object.__setattr__(self, name, dict(getattr(self, name)))
+
+
+@lru_cache(maxsize=4096)
+def spelled(glyph: str) -> str:
+    """A formula in one spelling, by which the pages look letters up: ``msub(a,1)``; empty where it is not set."""
+    found = element(glyph)
+    return "" if found is None else _spelled(found)
+
+
+def _spelled(node: Element) -> str:
+    if not len(node):
+        return (node.text or "").strip()
+    inside = [_spelled(child) for child in node]
+    return "".join(inside) if node.tag in ("math", "mrow", "mstyle", "mpadded") else f"{node.tag}({','.join(inside)})"
 
 
 def notation_of(derivation: Derivation) -> Notation:

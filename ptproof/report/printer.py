@@ -32,6 +32,9 @@ class _Printer(LatexPrinter):
         shown = str(super()._print_Symbol(expr, style=style))
         return shown if expr in names else _upright(shown)
 
+    def _hprint_Function(self, func: str) -> str:
+        return _upright(str(super()._hprint_Function(func)))
+
     def _print_Mul(self, expr: sp.Expr) -> str:
         # SymPy asks of each power with a negative symbolic exponent whether it is constant, which takes seconds on a
         # page. None is, so letters that are printed like the powers stand in for them.
@@ -49,9 +52,16 @@ class _Printer(LatexPrinter):
         return str(super()._print_Mul(expr))
 
 
+_ACCENTS = {"hat": r"\hat{#}", "tilde": r"\tilde{#}", "bar": r"\bar{#}", "dot": r"\dot{#}", "star": "{#}^{*}"}
+
+
 def _upright(shown: str) -> str:
-    """A letter without a glyph: a word stands upright, and an index such as ``kappa1`` is a letter with a number."""
+    """A letter without a glyph: words stand upright, an index such as ``kappa1`` is a letter with a number, and one
+    such as ``hat`` is an accent; ``ijm`` is three indices."""
     shown = re.sub(rf"\{{({'|'.join(sorted(greek_letters_set))})(\d*)\}}", _greek, shown)
+    if accented := re.fullmatch(rf"(.+)_\{{({'|'.join(_ACCENTS)})\}}", shown):
+        return _ACCENTS[accented[2]].replace("#", accented[1])
+    shown = re.sub(r"_\{(?![i-q]+\})([a-z]{3,})\}", r"_{\\mathrm{\1}}", shown)
     return re.sub(r"^[A-Za-z]{3,}(?=$|_)", lambda found: rf"\mathrm{{{found[0]}}}", shown)
 
 

@@ -9,6 +9,7 @@ from textwrap import indent
 
 from markdown_it import MarkdownIt
 from markdown_it.tree import SyntaxTreeNode
+from markupsafe import Markup
 from mdit_py_plugins.dollarmath import dollarmath_plugin
 
 from ptproof.report.formula import mathml
@@ -52,7 +53,21 @@ def _html(node: SyntaxTreeNode) -> str:
             return f"<code>{html.escape(node.content)}</code>"
         case "softbreak" | "hardbreak":
             return " "
-    return "".join(inside) or html.escape(node.content)
+    return "".join(inside) or worded(node.content)
+
+
+_INDEX = re.compile(r"(?<![\w:.])(\w*?[^\W\d_][\u0300-\u036f]?)_([A-Za-zα-ωϵ]{1,5}[₀-₉]*)(?![A-Za-z0-9_])")
+
+
+def worded(text: str) -> Markup:
+    """Text, escaped, with the index of a letter set low: ν_min, μT_f; names such as file_name stay as they are."""
+
+    def low(found: re.Match[str]) -> str:
+        letters, index = found.groups()
+        name = "_" in letters or (len(letters) > 3 and letters.isascii())
+        return found[0] if name else f"{letters}<sub>{index}</sub>"
+
+    return Markup(_INDEX.sub(low, html.escape(text)))
 
 
 def to_markdown(text: str) -> str:

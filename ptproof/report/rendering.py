@@ -14,7 +14,7 @@ from ptproof.report.formula import mathml, width
 from ptproof.report.headline import Piece
 from ptproof.report.instruments.view import shown
 from ptproof.report.model import Said
-from ptproof.report.prose import to_html
+from ptproof.report.prose import to_html, worded
 from ptproof.report.templating import environment, text
 
 
@@ -30,6 +30,7 @@ def html() -> Environment:
         "digits": shown,
         "width": width,
         "pieces": pieces,
+        "worded": worded,
         "tex": tex,
     }
     jinja.filters = {**jinja.filters, **filters}
@@ -49,7 +50,7 @@ def style() -> str:
 
 def script() -> str:
     """The script of every page."""
-    return text("page.js")
+    return "\n".join(text(name) for name in ("letters.js", "page.js"))
 
 
 def pieces(said: Sequence[Piece]) -> Markup:

@@ -6,6 +6,7 @@ import json
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from ptproof.report.formula import mathml
 from ptproof.report.model import Report
 
 
@@ -25,6 +26,20 @@ def search_index(report: Report, places: Mapping[str, str]) -> str:
 def formulas(found: Mapping[str, str]) -> str:
     """A script that sets ``PTPROOF_FORMULAS`` to statements as they are set, by the anchors of their claims."""
     return _script("PTPROOF_FORMULAS", dict(found))
+
+
+def meanings(report: Report) -> str:
+    """A script that sets ``PTPROOF_LETTERS`` to letters by their spelling: as set, and what they stand for."""
+    found: dict[str, list[str]] = {}
+    for item in report.letters:
+        glyph, *said = found.get(item.key, [mathml(item.glyph)])  # two letters may share a glyph
+        found[item.key] = [
+            glyph,
+            *said,
+            f"{item.meaning} [{item.unit}]" if item.unit not in ("", "1") else item.meaning,
+        ]
+    found.pop("", None)
+    return _script("PTPROOF_LETTERS", found)
 
 
 def _script(name: str, data: Any) -> str:

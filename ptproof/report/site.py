@@ -21,7 +21,7 @@ from ptproof.report.instruments.script import script_of
 from ptproof.report.model import Report, Section
 from ptproof.report.picture import FORMS, picture
 from ptproof.report.rendering import html, script, style
-from ptproof.report.search import formulas, search_index
+from ptproof.report.search import formulas, meanings, search_index
 from ptproof.report.status import ALL
 
 MOST = 400_000  # bytes of a page beside what stands on every page
@@ -72,6 +72,7 @@ def site_files(of: Site, above: str = "") -> dict[str, bytes]:
     files["graph.svg"] = linked(graph, of.places, "graph.svg").encode()
     files["style.css"], files["page.js"] = style().encode(), script().encode()
     files["formulas.js"] = formulas(_short(of.report)).encode()
+    files["letters.js"] = meanings(of.report).encode()
     if of.report.instruments:
         files["instruments.js"] = _moving(of.report).encode()
     files["search.js"] = search_index(of.report, of.places).encode()
@@ -143,13 +144,13 @@ def _pages(report: Report) -> Iterator[Page]:
         cut = packed([*_cards(section)])
         for number, cards in enumerate(cut, 1):
             file = f"{name}.html" if number == 1 else f"{name}-{number}.html"
-            body = _topped(_section(section, cards, number, len(cut)))
-            yield Page(file, section.title + _of(number, len(cut)), body, section.anchor)
+            whole = _topped(_section(section, cards, number, len(cut)))
+            yield Page(file, section.title + _of(number, len(cut)), whole, section.anchor)
     yield from _split("statements", "Statements by verdict", [_listed(report)], "claims")
     if report.figures or report.appendix:
-        body = [parts.drawn(report, False)] if report.figures else []
-        body += [parts.appended(report)] if report.appendix else []
-        yield Page("figures.html", "Figures", _topped("\n".join(body)))
+        drawn = [parts.drawn(report, False)] if report.figures else []
+        drawn += [parts.appended(report)] if report.appendix else []
+        yield Page("figures.html", "Figures", _topped("\n".join(drawn)))
     if report.instruments:
         tools = _topped(_instruments(report)) + '<script src="instruments.js"></script>'
         yield Page("instruments.html", "Instruments", tools)
@@ -267,5 +268,5 @@ def _skeleton(
     return html().get_template("page.html.j2").render(
         title=title, brand=report.title, parts=parts, sections=report.sections, current=page.section,
         side=alone or bool(page.section), turn=turn, body=Markup(page.body), alone=alone, above=above,
-        style=Markup(style()), script=Markup(script()),
+        style=Markup(style()), script=Markup((meanings(report) if alone else "") + script()),
     )  # fmt: skip

@@ -56,6 +56,8 @@ def spoken(text: str, letters: Mapping[str, str], kept: Iterable[str] = ()) -> s
         name = found[0]
         if name in known:
             return name
+        if name[1:] in letters and name[0] == "_":  # the letter of another claim, for which something is put in
+            return f"{letters[name[1:]]}′"
         if name not in letters:  # of another claim, or bound in this one
             return plain(latex(sp.Symbol(name), {})) if _GREEK_LETTER.fullmatch(name) else name
         before, after = text[: found.start()].rstrip(" ")[-1:], text[found.end() :].lstrip(" ")[:1]
@@ -66,8 +68,43 @@ def spoken(text: str, letters: Mapping[str, str], kept: Iterable[str] = ()) -> s
     said = re.sub(rf"{ids}|{_NAME}" if ids else _NAME, written, text)
     for sign, shown in _SIGNS:
         said = said.replace(sign, shown)
-    said = re.sub(r"\*\*(\d+)(?![\d./])", lambda found: "".join(_HIGH[digit] for digit in found[1]), said)
+    said = re.sub(r"\*\*(\d+)(?![\d.])", lambda found: "".join(_HIGH[digit] for digit in found[1]), _derived(said))
+    said = re.sub(r"(?<!\w)sqrt\((\w+)\)", r"√\1", said).replace("sqrt(", "√(").replace("**", "^")
     return re.sub(r"(?<=[\w)⁰-⁹²³¹₀-₉‖])\*(?=[\w(‖√])", "·", said)
+
+
+def _derived(text: str) -> str:
+    """Derivatives as they are printed, and what is put in behind a bar: ∂F(x)/∂x, F(x)|x=0."""
+    for name in ("Derivative", "Subs"):
+        while (start := text.find(f"{name}(")) >= 0:
+            parts, end = _arguments(text, start + len(name) + 1)
+            if not parts or end < 0:
+                return text
+            inner, *others = parts
+            if name == "Subs":
+                shown = f"[{inner}]|_{', '.join(others[: len(others) // 2])} = {', '.join(others[len(others) // 2 :])}"
+            else:
+                along = [re.sub(r"^\((.*), (\d+)\)$", lambda found: f"{found[1]}**{found[2]}", part) for part in others]
+                count = sum(int(part.rpartition("**")[2]) if "**" in part else 1 for part in along)
+                power = "" if count == 1 else f"**{count}"
+                shown = f"∂{power}{inner}/{''.join(f'∂{part}' for part in along)}"
+                shown = f"({shown})" if text[end : end + 2] == "**" else shown
+            text = text[:start] + shown + text[end:]
+    return text
+
+
+def _arguments(text: str, start: int) -> tuple[list[str], int]:
+    """The arguments from ``start`` to the parenthesis that closes them, and where the text goes on; -1 without one."""
+    parts, depth, begin = [], 0, start
+    for place in range(start, len(text)):
+        sign = text[place]
+        if (sign == "," or sign == ")") and depth == 0:
+            parts.append(text[begin:place].strip())
+            begin = place + 1
+            if sign == ")":
+                return parts, place + 1
+        depth += (sign in "([") - (sign in ")]")
+    return parts, -1
 
 
 _GREEK = frozenset(

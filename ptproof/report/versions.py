@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import platform
+from collections.abc import Iterable
 from importlib import metadata
 
 LIBRARIES = ("ptproof", "sympy", "z3-solver", "python-flint", "networkx", "numpy", "scipy", "casadi", "control",
              "heyoka", "matplotlib", "latex2mathml", "jinja2")  # fmt: skip
+# What the look of a page depends on.
+SETTING = (*LIBRARIES, "markupsafe", "markdown-it-py", "mdit-py-plugins", "pylatexenc", "pillow", "contourpy")
 
 
-def versions() -> tuple[tuple[str, str], ...]:
+def versions(names: Iterable[str] = LIBRARIES) -> tuple[tuple[str, str], ...]:
     """Python and the libraries that are installed, with their versions."""
     found = [("python", platform.python_version())]
-    for name in LIBRARIES:
+    for name in names:
         try:
             found.append((name, metadata.version(name)))
         except metadata.PackageNotFoundError:

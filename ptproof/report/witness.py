@@ -13,7 +13,7 @@ from ptproof.proof.claim import Claim
 from ptproof.proof.statement import free_symbols, undefined_functions
 from ptproof.proof.verdict import Witness
 from ptproof.reading.expressions import parse
-from ptproof.report.example import Example, Point, example_of
+from ptproof.report.example import Ball, Example, Point, example_of
 from ptproof.report.formula import Names, latex
 
 
@@ -39,7 +39,7 @@ class WitnessView:
 def witness_view(witness: Witness, claim: Claim, names: Names) -> WitnessView:
     """Set the witness in the letters of the claim."""
     statements = [claim.statement, *claim.assumptions]
-    symbols = {symbol.name: symbol for symbol in free_symbols(statements)}
+    symbols = {symbol.name: symbol for symbol in (*names, *free_symbols(statements)) if isinstance(symbol, sp.Symbol)}
     functions = {applied.func.__name__: applied for applied in undefined_functions(statements)}
     values = {name: _value(name, text, symbols, functions, names) for name, text in witness.values.items()}
     left, right = (_side(side, symbols, names) for side in (witness.left, witness.right))
@@ -60,7 +60,7 @@ def _example(witness: Witness, claim: Claim, symbols: dict[str, sp.Symbol], name
                 functions[called.group(1)] = (tuple(own.values()), _read(text, {**symbols, **own}))
             elif name in symbols and text != "any":
                 known[symbols[name]] = _read(text, symbols)
-        left, right = (_read(side.partition(" = ")[0], symbols) for side in (witness.left, witness.right))
+        left, right = (_number(side, symbols) for side in (witness.left, witness.right))
     except InputError:
         return None
     return example_of(claim.statement, Point(known, functions), left, right, names)
@@ -72,6 +72,8 @@ def _value(
     plain = f"{name} = {text}"
     called = re.fullmatch(r"(\w+)\((.*)\)", name)
     try:
+        if name.isidentifier() and name not in symbols and name not in functions:
+            symbols = {**symbols, name: sp.Symbol(name, real=True)}
         if name in symbols and text == "any":
             return Value(plain, rf"\text{{any }}{latex(symbols[name], names)}")
         if name in symbols:
@@ -87,6 +89,18 @@ def _value(
     return Value(plain)
 
 
+_BALL = re.compile(r"\[?\s*(-?[\d.]+)(?:[eE]([+-]?\d+))?\s*(?:(?:±|\+/-)\s*([\d.]+)(?:[eE]([+-]?\d+))?)?\s*\]?")
+
+
+def _number(text: str, symbols: dict[str, sp.Symbol]) -> Ball:
+    """A side at the witness: exact, or where its text has no more than a ball, the middle and the radius of that."""
+    exact, _, _ = text.partition(" = ")
+    if found := _BALL.fullmatch(exact):
+        middle, power, radius, small = found.groups()
+        return sp.Rational(f"{middle}e{power or 0}"), float(f"{radius or 0}e{small or 0}")
+    return _read(exact, symbols), 0.0
+
+
 def _place(number: int, total: int) -> sp.Symbol:
     return sp.Symbol("s" if total == 1 else f"s{number}", real=True)
 
@@ -94,21 +108,18 @@ def _place(number: int, total: int) -> sp.Symbol:
 def _side(text: str, symbols: dict[str, sp.Symbol], names: Names) -> Value:
     """``exact = 1.234 ± 1e-9``: the exact value and its enclosure."""
     exact, equals, ball = text.partition(" = ")
+    number = _BALL.fullmatch(ball if equals else exact)
+    enclosed = ""
+    if number is not None:
+        middle, power, radius, small = number.groups()
+        enclosed = _scientific(middle, power) + (rf" \pm {_scientific(radius, small)}" if radius else "")
     try:
         shown = latex(_read(exact, symbols), names)
     except InputError:
-        return Value(text)
+        return Value(text, "" if equals else enclosed)
     if not equals:
         return Value(text, shown)
-    number = re.fullmatch(
-        r"\[?\s*(-?[\d.]+)(?:[eE]([+-]?\d+))?\s*(?:(?:±|\+/-)\s*([\d.]+)(?:[eE]([+-]?\d+))?)?\s*\]?", ball
-    )
-    if number is None:
-        return Value(text)
-    middle, power, radius, small = number.groups()
-    enclosed = _scientific(middle, power) + (rf" \pm {_scientific(radius, small)}" if radius else "")
-    same = not radius and shown == middle
-    return Value(text, shown if same else f"{shown} = {enclosed}")
+    return Value(text, shown if shown == enclosed else f"{shown} = {enclosed}" if enclosed else "")
 
 
 def _scientific(digits: str, power: str | None) -> str:

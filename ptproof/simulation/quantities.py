@@ -64,13 +64,15 @@ def _select(conditions: list[Any], choices: list[Any], default: Any = np.nan) ->
     # As numpy.select, whose checks take longer than a short run.
     result = default
     for condition, choice in zip(reversed(conditions), reversed(choices), strict=True):
-        result = np.where(condition, choice, result)
+        result = choice if condition is True else np.where(condition, choice, result)
     return result
 
 
 @lru_cache(maxsize=64)
 def time_map(expression: sp.Expr, variable: sp.Symbol) -> Callable[[Array, Mapping[str, Any]], Array]:
     """``expression`` for arrays of ``variable``, given the parameters of a clock by name."""
+    if expression == variable:
+        return lambda times, table: times + 0.0
     symbols = (parameters.t0, parameters.T, parameters.nu_min, parameters.exponent, parameters.gain)
     function = sp.lambdify([variable, *symbols], expression, modules=[{"select": _select}, "numpy"], cse=True)
     return lambda times, table: _spread(

@@ -19,7 +19,7 @@ from ptproof.simulation.ensembles import Progress, engine_for, members, run_bloc
 from ptproof.simulation.plan import Array, Batch, Paths, Plan, Work
 from ptproof.simulation.question import Options, Question, asked
 from ptproof.simulation.sampled import NOISE_SEED, noise_seeds
-from ptproof.simulation.settings import Outcome, Settings
+from ptproof.simulation.settings import Outcome, Settings, Stop
 from ptproof.simulation.setup import Setup
 from ptproof.simulation.trajectory import Ensemble, Trajectory
 from ptproof.system import System
@@ -118,8 +118,7 @@ def ensemble(
     begin = clock.perf_counter()
     finals = run_blocks(job.engine, job.plan, job.batch, workers, client, progress)
     seconds = clock.perf_counter() - begin
-    reached = setup.ended(job.table).outcome
-    outcomes = tuple(reached if outcome is Outcome.REACHED else outcome for outcome in finals.outcomes)
+    outcomes = tuple(job.ended.outcome if outcome is Outcome.REACHED else outcome for outcome in finals.outcomes)
     t = finals.time if setup.to_t is None else setup.to_t(finals.time, job.table)
     x = finals.x if setup.shift is None else _shifted(setup, finals.x, t)
     return Ensemble(
@@ -159,7 +158,8 @@ def _varied(question: Question, setup: Setup, size: int, seed: int, vary: Mappin
 
 @dataclass(frozen=True)
 class Job:
-    """A question made ready for an engine: its values by name (N each), and what the engine is given."""
+    """A question made ready for an engine: its values by name (N each), what the engine is given, and how a run that
+    comes to its end has ended."""
 
     setup: Setup
     table: Mapping[str, Array]
@@ -167,6 +167,7 @@ class Job:
     plan: Plan
     engine: str
     about: dict[str, Any]
+    ended: Stop
 
     @property
     def states(self) -> tuple[str, ...]:
@@ -201,7 +202,7 @@ def prepared(
     if problem is not None:
         about |= {name: getattr(question, name) for name in ("seeker", "frame", "coordinates", "model")}
         about |= {} if question.motion is None else {"motion": tuple(map(str, question.motion))}
-    return Job(setup, table, batch, plan, engine, about)
+    return Job(setup, table, batch, plan, engine, about, setup.ended(table))
 
 
 def _engine(plan: Plan, batch: Batch, work: Work) -> str:
@@ -255,10 +256,8 @@ def _tightening(setup: Setup, table: Mapping[str, Array], radians: float) -> flo
 
 
 def _trajectory(job: Job, run: Any, seconds: float) -> Trajectory:
-    setup, stop = job.setup, run.stop
-    values = dict(setup.defaults)
-    if stop.outcome is Outcome.REACHED:
-        stop = setup.ended(job.table)
+    setup, values = job.setup, job.setup.defaults
+    stop = job.ended if run.stop.outcome is Outcome.REACHED else run.stop
     t = run.time if setup.to_t is None else setup.to_t(run.time, values)
     tau = None if setup.to_tau is None else setup.to_tau(run.time, values)
     position, inputs = run.x[list(setup.position)], run.inputs
@@ -266,7 +265,7 @@ def _trajectory(job: Job, run: Any, seconds: float) -> Trajectory:
         inputs = {} if setup.inputs_at is None else setup.inputs_at(t, run.x, values)
     source, x = None, run.x
     if setup.field_at is not None:
-        source = np.repeat(np.array(setup.source)[:, None], len(t), axis=1)
+        source = np.array([[entry] * len(t) for entry in setup.source])
         if setup.shift is not None:
             source, x = source + setup.shift(t), _shifted(setup, run.x, t)
     return Trajectory(

@@ -47,7 +47,7 @@ class Settings:
     ----------
     rtol, atol
         The error asked for, relative and absolute, of the end result; the local tolerances of an engine are tighter
-        (CVODES: 50 times, the others: 10). ``atol`` is ``rtol``/10 if left out.
+        (CVODES: 50 times, SciPy's: 10). ``atol`` is ``rtol``/10 if left out.
     engine
         One of :func:`ptproof.simulation.engines.names`; left out, it is chosen to fit.
     samples

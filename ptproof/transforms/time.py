@@ -132,9 +132,14 @@ def _tidy(entry: sp.Expr, rate: sp.Expr) -> sp.Expr:
     """``rate`` times ``entry``, term by term, with rational factors cancelled and arguments in factored form."""
     entry = entry.replace(
         lambda node: isinstance(node, sp.core.function.AppliedUndef),
-        lambda node: node.func(*(factored(sp.cancel(argument)) for argument in node.args)),
+        lambda node: node.func(*map(_shortened, node.args)),
     )
     return sp.Add(*(_cancel_factors(rate * term) for term in sp.Add.make_args(entry)))
+
+
+@lru_cache(maxsize=1024)
+def _shortened(argument: sp.Expr) -> sp.Expr:
+    return factored(sp.cancel(argument))
 
 
 @lru_cache(maxsize=1024)
@@ -143,7 +148,7 @@ def _cancel_factors(term: sp.Expr) -> sp.Expr:
     rest: list[sp.Expr] = []
     for factor in sp.Mul.make_args(term):
         (rational if factor.is_rational_function() and not factor.is_Add else rest).append(factor)
-    return factored(sp.cancel(sp.Mul(*rational))) * sp.Mul(*rest)
+    return _shortened(sp.Mul(*rational)) * sp.Mul(*rest)
 
 
 def scale_time(system: System, factor: sp.Expr, time: sp.Symbol) -> System:

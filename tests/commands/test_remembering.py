@@ -103,3 +103,49 @@ def test_a_place_that_cannot_be_written_is_one_warning(
     monkeypatch.setenv("PTPROOF_CACHE", str(folder.parent / "file"))
     status, _, err = run(capsys, "verify", folder)
     assert (status, err.count("\n"), err.count("nothing is remembered")) == (0, 1, 1)
+
+
+FIGURES = """
+from pathlib import Path
+from ptproof.report.content import Figure
+def figures():
+    with open({log!r}, "a") as log:
+        log.write("drawn")
+    return [Figure(name="f", caption="A figure.", content=b"<svg xmlns='http://www.w3.org/2000/svg'/>")]
+"""
+AGAIN = {
+    "nothing": ((), lambda folder: None, 1),
+    "another place": (("--out", "other"), lambda folder: None, 1),
+    "fresh": (("--fresh",), lambda folder: None, 2),
+    "another question": (("--single",), lambda folder: None, 2),
+    "a file": ((), lambda folder: (folder / "more.py").write_text("y = 1\n"), 2),
+    "a file elsewhere": ((), lambda folder: (folder.parent / "data").write_text("2"), 2),
+}
+
+
+@pytest.mark.parametrize("change", AGAIN)
+def test_a_report_is_made_again_where_something_it_depends_on_has_changed(
+    change: str, folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    figures, data = FIGURES.format(log=str(folder.parent / "log")), folder.parent / "data"
+    data.write_text("1")
+    (folder / "figures.py").write_text(
+        figures.replace("    return", f"    Path({str(data)!r}).read_text()\n    return")
+    )
+    arguments, changed, drawn = AGAIN[change]
+    first = run(capsys, "report", folder, "--out", "out")
+    changed(folder)
+    second = run(capsys, "report", folder, *(() if "--out" in arguments else ("--out", "out")), *arguments)
+    assert first[0] == second[0] == 0
+    assert (folder.parent / "log").read_text().count("drawn") == drawn
+    if drawn == 1:
+        out = "other" if "--out" in arguments else "out"
+        assert second[1] == first[1].replace("out/", f"{out}/")
+        assert (folder.parent / out / "figures" / "f.svg").is_file()
+
+
+def test_a_report_without_its_figures_is_tried_again(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    figures = FIGURES.format(log=str(folder.parent / "log")).replace("return", "raise ValueError")
+    (folder / "figures.py").write_text(figures)
+    assert [run(capsys, "report", folder, "--out", "out")[0] for _ in range(2)] == [1, 1]
+    assert (folder.parent / "log").read_text().count("drawn") == 2

@@ -98,7 +98,7 @@ CHANGES: dict[str, Callable[[Path, pytest.MonkeyPatch], object]] = {
 @pytest.mark.parametrize("change", CHANGES)
 def test_after_a_change_nothing_is_recalled(change: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     memory = kept(folder)
-    memory.keep_run("", {"json": 1}, Verification((), 0.0))
+    memory.keep_run("", {"json": 1}, lasting=True)
     assert Memory([folder]).run("") == {"json": 1}
     CHANGES[change](folder, monkeypatch)
     assert told(folder).recall(ONE) is None
@@ -144,7 +144,7 @@ NOT_KEPT = {
 def test_what_is_open_for_want_of_time_is_tried_again(evidence: Evidence, folder: Path) -> None:
     memory = kept(folder, evidence)
     assert told(folder).recall(ONE) is None
-    memory.keep_run("", {}, Verification(conclude([ONE], {"one": evidence}), 0.0))
+    memory.keep_run("", {}, memory.lasts(Verification(conclude([ONE], {"one": evidence}), 0.0)))
     assert Memory([folder]).run("") is None
 
 

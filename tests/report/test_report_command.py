@@ -86,18 +86,21 @@ PAPER = r"\begin{document}\begin{equation} y = %s \label{eq:one} \end{equation}\
 
 
 @pytest.mark.parametrize(("printed", "ends", "word"), [("3 x", 1, "different"), ("2 x", 0, "equal")])
-def test_the_printed_side_is_read_from_the_papers_source(folder, tmp_path, capsys, printed, ends, word):
+@pytest.mark.parametrize("kept", [True, False])
+def test_the_printed_side_is_read_from_the_papers_source(folder, tmp_path, capsys, printed, ends, word, kept):
     body = GOOD.replace("x + x, {right})", 'sp.Symbol("y", real=True), 2 * x), labels=["eq:one"], expected="refuted"')
     (folder / "claims.py").write_text(body)
     (folder / "__init__.py").touch()
     (folder / "notation.toml").write_text('letters = { x = "x", y = "y" }')
     (tmp_path / "paper.tex").write_text(PAPER % printed)
-    assert status(folder, "--out", tmp_path / "out", "--paper", tmp_path / "paper.tex") == ends
-    assert ("the paper prints something else" in capsys.readouterr().err) is (word == "different")
+    (folder / "printed.toml").write_text(f"[printed]\n'eq:one' = 'y = {printed if kept else '9 x'}'")
+    paper = [] if kept else ["--paper", tmp_path / "paper.tex"]
+    assert status(folder, "--out", tmp_path / "out", *paper) == ends
+    assert ("c/one: what is printed is something else" in capsys.readouterr().err) is (word == "different")
     for name in ("section-claims.html", "report.md"):
-        assert f"printed side read from the source: {word}" in (tmp_path / "out" / name).read_text()
+        assert f"printed side read: {word}" in (tmp_path / "out" / name).read_text()
     for name in ("index.html", "report.md"):
-        assert "Printed sides read from the paper's source" in (tmp_path / "out" / name).read_text()
+        assert "Printed sides read by a machine" in (tmp_path / "out" / name).read_text()
 
 
 def test_a_paper_that_is_not_there_is_bad_input_before_anything_runs(folder, tmp_path, capsys):

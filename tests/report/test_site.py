@@ -111,6 +111,17 @@ def test_a_long_section_has_several_pages(many, large):
     assert len({places[claim.ref.anchor] for claim in large.sections[4].claims}) == 1
 
 
+def test_parts_of_a_section_say_so_lead_to_one_another_and_the_first_lists_what_is_in_it(many, large):
+    pages = [many[f"section-4-step-4{part}.html"].decode() for part in ("", "-2")]
+    count = sum(name.startswith("section-4-step-4") for name in many)
+    assert [f"<h1>4 Step 4 ({part} of {count})</h1>" in page for part, page in enumerate(pages, 1)] == [True] * 2
+    assert '<a href="section-4-step-4-2.html">4 Step 4 (2 of' in pages[0]
+    assert '<a href="section-4-step-4.html">← 4 Step 4 (1 of' in pages[1]
+    links = re.findall(r'href="[^"#]*#([^"]+)"', pages[0])
+    assert {*links} >= {claim.ref.anchor for claim in large.sections[3].claims}
+    assert " of 1)" not in "".join(page.decode() for page in many.values())
+
+
 @pytest.mark.parametrize("name", ["files", "many"])
 def test_everything_is_found_where_the_index_says(name, request, report, large):
     found, content = request.getfixturevalue(name), report if name == "files" else large
@@ -219,11 +230,26 @@ def test_a_result_stands_as_its_claim_does(report, mark, said):
     assert plain(headline(grown)).endswith(f"; {said}")
 
 
-def test_a_word_that_only_begins_like_a_result_is_none(report):
+@pytest.mark.parametrize(
+    ("claims", "said"),
+    [
+        ([("Every run ends", "", ("proposition",))], "the Proposition stands"),
+        ([("Every run ends", "Lemma 3", ("lem:end",))], "Lemma 3 stands"),
+        ([("A step", "Step 6", ("thm:main",)), ("It works", "Theorem 2", ("thm:main",))], "Theorem 2 stands"),
+        ([("Corollary 1, second part", "", ())], "Corollary 1 stands"),
+        ([("Theorems of others", "", ())], ""),
+        ([("Theorem 1 for the seeker: it is met", "Step 5", ())], ""),
+        ([("A property", "", ("property",)), ("A step", "Proof of Theorem 2", ("eq:thm",))], ""),
+    ],
+)
+def test_a_result_is_told_by_its_title_or_by_its_label(report, claims, said):
     model = report.claims[1]
-    other = replace(model, ref=replace(model.ref, title="Theorems of others"))
-    grown = replace(report, sections=(replace(report.sections[0], claims=(other,)),))
-    assert "Theorem" not in plain(headline(grown))
+    told = tuple(
+        replace(model, ref=replace(model.ref, title=title), place=place, labels=labels)
+        for title, place, labels in claims
+    )
+    shown = plain(headline(replace(report, sections=(replace(report.sections[0], claims=told),))))
+    assert re.findall(r"(?:the )?(?:Theorem|Proposition|Lemma|Corollary)[^;.]*", shown) == ([said] if said else [])
 
 
 @pytest.mark.parametrize(

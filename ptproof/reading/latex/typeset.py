@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from functools import partial
 
 from ptproof.reading.latex.formulas import goes_on, split_rows
 from ptproof.reading.latex.source import braced
@@ -27,6 +28,7 @@ _DEEPEST = 20
 def typeset(text: str, macros: Mapping[str, Macro]) -> str:
     """The formula with the paper's macros put in; rows stay apart by a double backslash, and lined up by ``&``."""
     bare = " ".join(_NUMBERS.sub(" ", _put_in(text, macros, 0)).replace("~", " ").split())
+    bare = "".join(sign for sign in bare if sign.isprintable())
     return re.sub(r"(?:\s|[.,;]|\\\\)+$", "", _UPRIGHT.sub(r"\\mathrm{\1}", bare))
 
 
@@ -43,13 +45,13 @@ def _put_in(text: str, macros: Mapping[str, Macro], depth: int) -> str:
         for _ in range(macro.arguments):
             value, position = _argument(text, position)
             values.append(value)
-        body = re.sub(r"(\\[a-zA-Z]+)?#(\d)", lambda found, values=values: _filled(found, values), written(macro.body))
+        body = re.sub(r"(\\[a-zA-Z]+)?#(\d)", partial(_filled, values), written(macro.body))
         follows = " " if body[-1:].isalpha() and text[position : position + 1].isalpha() else ""
         parts.append(_put_in(body, macros, depth + 1) + follows)
     return "".join(parts) + text[position:]
 
 
-def _filled(found: re.Match[str], values: list[str]) -> str:
+def _filled(values: list[str], found: re.Match[str]) -> str:
     """An argument in its place, not drawn together with the command before it."""
     value = values[int(found[2]) - 1] if int(found[2]) <= len(values) else ""
     return f"{found[1]} {value}" if found[1] and value[:1].isalpha() else f"{found[1] or ''}{value}"
@@ -68,9 +70,7 @@ def rows(text: str) -> tuple[tuple[str, bool], ...]:
     """The rows of a formula, without what lines them up, and whether each goes on with the one before it."""
     found = [row for _, row in split_rows(text)]
     before = ["", *found]
-    return tuple(
-        (_without_marks(row), number > 0 and goes_on(before[number], row)) for number, row in enumerate(found)
-    )
+    return tuple((_without_marks(row), number > 0 and goes_on(before[number], row)) for number, row in enumerate(found))
 
 
 def pieces(text: str) -> tuple[str, ...]:

@@ -136,11 +136,6 @@
     draw();
 
     // The name and the formula of a claim, beside its mark: from its entry on this page, or from a script beside it.
-    const note = document.createElement("div");
-    note.className = "note";
-    note.setAttribute("role", "tooltip");
-    note.hidden = true;
-    document.body.append(note);
     let loaded;
     const formulas = () => (loaded ??= new Promise((done) => {
       const script = document.createElement("script");
@@ -155,14 +150,10 @@
       const anchor = decodeURIComponent(link.hash.slice(1)), here = document.getElementById(anchor);
       const found = here ? here.querySelector(".formula, .words")?.outerHTML : (await formulas())[anchor];
       if (over !== mark || (!found && mark === link)) return;
-      note.innerHTML = found ?? "";
-      if (mark !== link) note.prepend(Object.assign(document.createElement("p"), { textContent: link.textContent }));
-      note.hidden = false;
-      const box = mark.getBoundingClientRect(), width = note.offsetWidth;
-      note.style.left = `${Math.max(8, Math.min(box.left, innerWidth - width - 8))}px`;
-      note.style.top = `${box.bottom + 6 + note.offsetHeight > innerHeight ? box.top - note.offsetHeight - 6 : box.bottom + 6}px`;
+      const name = Object.assign(document.createElement("p"), { textContent: link.textContent });
+      tip.show((mark === link ? "" : name.outerHTML) + (found ?? ""), mark.getBoundingClientRect());
     };
-    const hush = () => { over = null; note.hidden = true; };
+    const hush = () => { over = null; tip.hide(); };
     addEventListener("keydown", (event) => { if (event.key === "Escape") hush(); });
     for (const group of groups.values()) {
       const links = [...group.querySelectorAll(".inside li a")];
@@ -176,14 +167,23 @@
     }
   }
 
-  // What is wider than its place can be reached, and moved, by the keyboard.
+  // On paper a wide formula is set smaller, since nothing scrolls there.
+  addEventListener("beforeprint", () => {
+    const wide = [...document.querySelectorAll("math")].map((math) => [math, math.getBoundingClientRect().width]);
+    for (const [math, width] of wide) math.style.setProperty("--em", Math.max(1, width / parseFloat(getComputedStyle(math).fontSize)));
+  });
+
+  // What is wider than its place can be reached, and moved, by the keyboard; so can what is not set yet, being far away.
   const scrolls = new ResizeObserver((seen) => {
     for (const { target } of seen) {
       if (target.scrollWidth > target.clientWidth) target.tabIndex = 0;
-      else target.removeAttribute("tabindex");
+      else if (target !== document.activeElement) target.removeAttribute("tabindex");
     }
   });
-  for (const item of document.querySelectorAll(".formula, .value, .prose, .canvas, .witness dd, table, pre")) scrolls.observe(item);
+  for (const item of document.querySelectorAll(".formula, .value, .prose, .canvas, .witness dd, table, pre")) {
+    item.tabIndex = 0;
+    scrolls.observe(item);
+  }
 
   const graph = document.querySelector("svg.graph");
   if (!graph) return;

@@ -1,18 +1,20 @@
-"""CasADi with CVODES: the default engine.
+"""CasADi: the default engine, an explicit method of order 8 where one suits and CVODES elsewhere.
 
-Time is normalised, dx/ds = L·rhs(a + L·s, x) with s in [0, 1], so that start, length and parameters are arguments of
-one integrator and a run with other values builds nothing. A call that fails is repeated in pieces, which are halved
-until they succeed or can't be told apart.
+The explicit one is :mod:`ptproof.simulation.runge_kutta`. For CVODES time is normalised, dx/ds = L·rhs(a + L·s, x)
+with s in [0, 1], so that start, length and parameters are arguments of one integrator and a run with other values
+builds nothing. A call that fails is repeated in pieces, which are halved until they succeed or can't be told apart.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
+from ptproof.simulation import runge_kutta
 from ptproof.simulation.plan import Array, Batch, Engine, Finals, Plan, Run, Samples
 from ptproof.simulation.settings import Budget, Outcome, Stop
 from ptproof.simulation.translate import casadi_expressions
@@ -70,28 +72,15 @@ class _Solver:
         return result if np.isfinite(result).all() else None
 
 
-class _CVODES(Engine):
+class _CasADi(Engine):
     def trajectory(self, plan: Plan, member: Batch) -> Run:
-        """One run with samples: as many as possible in one call, since each call starts the method afresh."""
-        solve, samples = _Solver(plan, member.parameters[:, 0].tolist(), Budget(plan.settings)), Samples(member)
-        for grid in member.grids(plan.settings.samples):
-            reached, size = 0, len(grid) - 1
-            while reached < len(grid) - 1:
-                size = min(size, len(grid) - 1 - reached)
-                ahead = grid[reached : reached + size + 1]
-                # The step limit keeps even a hopeless call short.
-                most = min(_STEPS_A_CALL, max(500, _FIRST_STEPS // size))
-                block = None if size == 1 else solve(samples.state, ahead, most)
-                if block is not None and plan.within(block) and solve.budget.steps > 0:
-                    samples.add(ahead[1:], block)
-                    reached, size = reached + size, 2 * size
-                elif size > 1 and solve.budget.spent is None:
-                    size //= 2
-                else:
-                    if stop := _advance(solve, samples, float(ahead[1])):
-                        return samples.run(stop)
-                    reached, size = reached + 1, 2
-        return samples.run()
+        """One run with samples, by the explicit method as far as it goes and by CVODES from there."""
+        samples, grids = Samples(member), list(member.grids(plan.settings.samples))
+        budget = Budget(plan.settings)
+        found = runge_kutta.through(plan, member, [len(grid) - 1 for grid in grids], budget)
+        for grid, states in zip(grids, found, strict=False):
+            samples.add(grid[1:], states)
+        return _by_cvodes(plan, samples, grids[len(found) :], budget)
 
     def finals(self, plan: Plan, batch: Batch, workers: int = 1) -> Finals:
         """End states of many; chunks of a fixed size go through CasADi's own map, failing ones one by one."""
@@ -125,6 +114,29 @@ def mapped(system: System, size: int, rtol: float, atol: float, max_steps: int, 
     return run.map(size) if workers == 1 or size == 1 else run.map(size, "thread", min(workers, size))
 
 
+def _by_cvodes(plan: Plan, samples: Samples, grids: Sequence[Array], budget: Budget) -> Run:
+    """The rest of a run, as many samples as possible in one call, since each call starts the method afresh."""
+    solve = _Solver(plan, samples.member.parameters[:, 0].tolist(), budget)
+    for grid in grids:
+        reached, size = 0, len(grid) - 1
+        while reached < len(grid) - 1:
+            size = min(size, len(grid) - 1 - reached)
+            ahead = grid[reached : reached + size + 1]
+            # The step limit keeps even a hopeless call short.
+            most = min(_STEPS_A_CALL, max(500, _FIRST_STEPS // size))
+            block = None if size == 1 else solve(samples.state, ahead, most)
+            if block is not None and plan.within(block) and solve.budget.steps > 0:
+                samples.add(ahead[1:], block)
+                reached, size = reached + size, 2 * size
+            elif size > 1 and solve.budget.spent is None:
+                size //= 2
+            else:
+                if stop := _advance(solve, samples, float(ahead[1])):
+                    return samples.run(stop)
+                reached, size = reached + 1, 2
+    return samples.run()
+
+
 def _advance(solve: _Solver, samples: Samples, target: float) -> Stop | None:
     """Go on to ``target`` in pieces that are halved where they fail and doubled where they don't."""
     plan, member = solve.plan, samples.member
@@ -154,4 +166,4 @@ def _advance(solve: _Solver, samples: Samples, target: float) -> Stop | None:
     return stop
 
 
-ENGINE = _CVODES()
+ENGINE = _CasADi()

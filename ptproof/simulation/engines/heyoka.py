@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import copy
 import importlib.util
-import itertools
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -21,7 +20,7 @@ from sympy.core.relational import Relational
 from ptproof.errors import InputError
 from ptproof.simulation.plan import Array, Batch, Engine, Finals, Paths, Plan, Run, Samples, Work
 from ptproof.simulation.settings import Budget, Outcome, Stop
-from ptproof.simulation.smooth import picker
+from ptproof.simulation.smooth import picker, pieces
 from ptproof.simulation.taylor_form import equations
 from ptproof.system import System
 
@@ -201,10 +200,10 @@ class _Taylor(Engine):
 def _by_groups(plan: Plan, batch: Batch, workers: int, integrate: Callable[[_Solvers, Array], list[int]]) -> list[int]:
     """All groups, spread over ``workers`` threads; gives the members that ``integrate`` gave back as unfinished."""
     groups = [np.arange(first, first + WIDTH) for first in range(0, batch.size, WIDTH)]
-    pieces = [(row, system, equations(system).constants(batch.parameters)) for row, system in _pieces(plan, batch)]
+    smooth = [(row, system, equations(system).constants(batch.parameters)) for row, system in pieces(plan, batch)]
 
     def work(share: Iterable[Any], thread: int) -> list[int]:
-        solvers = [(row, values, batched(system, _tolerance(plan), thread)) for row, system, values in pieces]
+        solvers = [(row, values, batched(system, _tolerance(plan), thread)) for row, system, values in smooth]
         return [i for group in share for i in integrate(solvers, group)]
 
     if workers == 1 or len(groups) < 2 * workers:
@@ -265,18 +264,6 @@ def _portions(grid: Array) -> Iterator[Array]:
     """A grid in parts that share their ends: the limit on the steps of a call is for one of them."""
     for first in range(0, len(grid) - 1, _SAMPLES_A_CALL):
         yield grid[first : first + _SAMPLES_A_CALL + 1]
-
-
-def _pieces(plan: Plan, batch: Batch) -> list[tuple[int, System]]:
-    """The smooth system of each piece that is not empty, with the piece's place among the edges."""
-    systems, pick, values = [], picker(plan.system, plan.conditions), tuple(batch.parameters[:, 0].tolist())
-    for row, (a, b) in enumerate(itertools.pairwise(batch.edges)):
-        if np.all(b == a):
-            continue
-        if not np.all(b > a):
-            raise InputError("heyoka: some members have a kink in time where others have none; use the engine casadi")
-        systems.append((row, pick(float((a[0] + b[0]) / 2), values)))
-    return systems
 
 
 @lru_cache(maxsize=64)

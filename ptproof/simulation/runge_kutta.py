@@ -1,0 +1,148 @@
+"""Dormand and Prince's method of order 8 as a CasADi function: short work of smooth systems that are not too stiff.
+
+Error estimate and step control are part of the function, as in Hairer's DOP853: a call makes some trial steps one
+after the other, each of which goes on or is repeated shorter, without a way through Python.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+
+from ptproof.errors import InputError
+from ptproof.simulation.dormand_prince import FIFTH, STAGES, STEP, THIRD, Weights
+from ptproof.simulation.plan import Array, Batch, Plan
+from ptproof.simulation.settings import Budget
+from ptproof.simulation.smooth import pieces
+from ptproof.simulation.translate import casadi_expressions
+from ptproof.system import System
+
+_TRIALS = 16
+# As parts of the way from sample to sample: the first step, which soon grows, and where steps are too short to go on.
+_FIRST, _SMALLEST = 1e-6, 1e-12
+# Measured: the end's error is below a half of the one asked for where steps are limited by it, and far below where
+# they are limited by stability.
+_LOCAL = 3.0
+# How much the error of the step before counts. By the last one alone, every other step fails where stability limits
+# them.
+_DAMPING = 0.08
+# Pieces that take more trials are left to CVODES, which makes two to twenty steps a radian, of half a trial's cost.
+# A plan's tightening is a hundred over its radians, rounded down to a power of ten.
+_MOST, _SAMPLED = 100, 1
+
+
+def through(plan: Plan, member: Batch, counts: Sequence[int], budget: Budget) -> list[Array]:
+    """The states (n × count) at the samples of a single member's pieces, from the first one on.
+
+    Parameters
+    ----------
+    counts
+        The number of samples, evenly spaced, in each piece that is not empty; the last one is at the piece's end.
+    budget
+        The trials of what is found are taken from it.
+
+    A piece that is left out, with all after it, is for another method: the rates have kinks at unknown instants, the
+    run leaves the ball or does not come to the end, or it is so stiff that the steps of an explicit method are too
+    short.
+    """
+    found: list[Array] = []
+    try:
+        parts = pieces(plan, member)
+    except InputError:
+        return found
+    x = member.initial[:, 0]
+    for (row, system), count in zip(parts, counts, strict=True):
+        given = [*member.parameters[:, 0], member.edges[row, 0], member.edges[row + 1, 0] - member.edges[row, 0]]
+        carries = _piece(plan, system, x, np.array(given), count, budget)
+        if carries is None:
+            break
+        steps = int(np.count_nonzero(carries[:, 1] < count)) + 1
+        states = carries[np.diff(carries[:, 1], prepend=0.0) > 0, 4:].T
+        if steps > budget.steps or not plan.within(states):
+            break
+        budget.steps -= steps
+        found.append(states)
+        x = states[:, -1]
+    return found
+
+
+def _piece(plan: Plan, system: System, x: Array, given: Array, count: int, budget: Budget) -> Array | None:
+    """What is carried on after each trial of one piece, to its end; None where it does not come to that."""
+    settings = plan.settings
+    tolerances = max(_LOCAL * settings.rtol * plan.tightening, 3e-14), max(_LOCAL * settings.absolute, 1e-18)
+    carry, given = np.array([0.0, 0.0, _FIRST / count, 1e-4, *x]), np.array([*given, count, *tolerances])
+    made, found = np.empty((_TRIALS, len(carry))), []
+    buffer, evaluate = trials(system).buffer()
+    for i, array in enumerate((carry, given)):
+        buffer.set_arg(i, array.data)
+    buffer.set_res(0, made.data)
+    most = _MOST / plan.tightening + _SAMPLED * count
+    while carry[1] < count:
+        evaluate()
+        found.append(made.copy())
+        carry[:] = made[-1]
+        number = len(found) * _TRIALS
+        too_long = number > 4 * _TRIALS and number > most * carry[0]  # as far as can be foreseen, once steps have grown
+        if too_long or carry[2] * count < _SMALLEST or budget.spent:
+            return None
+    return np.concatenate(found)
+
+
+@lru_cache(maxsize=64)
+def trials(system: System) -> Any:
+    """Some trial steps, from what is carried on and what is given to what is carried on after each of them."""
+    import casadi as ca
+
+    step = trial(system)
+    carry, given = ca.MX.sym("carry", step.size1_in(0)), ca.MX.sym("given", step.size1_in(1))
+    found: list[Any] = []
+    for _ in range(_TRIALS):
+        found.append(step(found[-1] if found else carry, given))
+    return ca.Function("trials", [carry, given], [ca.horzcat(*found)])
+
+
+@lru_cache(maxsize=64)
+def trial(system: System) -> Any:
+    """One trial step, in a time that goes from 0 to 1 in a piece.
+
+    What is carried on: the time, the number of samples arrived at, the length of the next step, the error of the last
+    one, and the states. What is given: the parameters, the piece's start and length, the number of its samples, and
+    the two tolerances. Steps end at samples.
+    """
+    import casadi as ca
+
+    time, x, p, rhs = casadi_expressions(system)
+    rate = ca.Function("rate", [time, x, p], [rhs])
+    carry, given = ca.SX.sym("carry", 4 + x.numel()), ca.SX.sym("given", p.numel() + 5)
+    place, arrived, wanted, before = ca.vertsplit(carry[:4])
+    old, values = carry[4:], given[: p.numel()]
+    start, length, count, rtol, atol = ca.vertsplit(given[p.numel() :])
+    target, going = (arrived + 1) / count, arrived < count
+    left = target - place
+    last = wanted >= left * (1 - 1e-9)
+    step = ca.if_else(last, left, ca.fmin(wanted, left / 2))
+    now, ahead = start + length * place, length * step
+    slopes: list[Any] = []
+
+    def combined(weights: Weights) -> Any:
+        return sum((weight * slopes[stage] for stage, weight in weights.items()), ca.SX.zeros(x.numel()))
+
+    for weights in STAGES:
+        slopes.append(rate(now + sum(weights.values()) * ahead, old + ahead * combined(weights), values))
+    new = old + ahead * combined(STEP)
+    scale = atol + rtol * ca.fmax(ca.fabs(old), ca.fabs(new))
+    fifth, third = (ca.sumsqr(combined(weights) / scale) for weights in (FIFTH, THIRD))
+    error = ahead * fifth / ca.sqrt((fifth + 0.01 * third) * x.numel() + 1e-300)
+    taken = ca.logic_and(going, error <= 1)
+    growth = 0.9 * error ** (0.2 * _DAMPING - 0.125) * before**_DAMPING
+    growth = ca.fmin(ca.if_else(taken, 6, 1), ca.fmax(0.2, growth))  # a fifth also where the error is no number
+    ended = ca.logic_and(taken, last)
+    made = ca.vertcat(
+        ca.if_else(ended, target, ca.if_else(taken, place + step, place)), arrived + ended,
+        ca.if_else(going, step * growth, wanted), ca.if_else(taken, ca.fmax(error, 1e-4), before),
+        ca.if_else(taken, new, old),
+    )  # fmt: skip
+    return ca.Function("trial", [carry, given], [made], {"cse": True})
