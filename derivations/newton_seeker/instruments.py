@@ -6,7 +6,8 @@ from collections.abc import Iterator
 
 import sympy as sp
 
-from ptproof.report.instruments import Instrument, Slider, Vehicle
+from ptproof.proof import Claim
+from ptproof.report.instruments import Instrument, Quantity, Region, Slider, Vehicle, taken
 
 from . import chain
 from .notation import (
@@ -31,12 +32,45 @@ from .notation import (
     z1,
     z2,
 )
+from .section4_linear import eigenvalues as gradient_eigenvalues
+from .section4_linear import stable as gradient_stable
 from .section5a_design import average_newton
+from .section5a_design import eigenvalues as newton_eigenvalues
+from .section5a_design import stable as newton_stable
 from .section6_simulation import NUMBERS, START
 
 
 def instruments() -> Iterator[Instrument]:
-    """Section VI."""
+    """Sections IV to VI."""
+    yield _eigenvalues()
+    yield _vehicle()
+
+
+def _eigenvalues() -> Instrument:
+    sliders = (
+        Slider(alpha, "0.1", 20, 5, logarithmic=True), Slider(omega_0, "0.1", 5, 1), Slider(H, "0.01", 3, "0.9"),
+    )  # fmt: skip
+
+    def both(claimed: Claim, seeker: str) -> list[Quantity]:
+        return [
+            Quantity(f"λ{sign} of the {seeker}", taken(claimed, sliders, assumed=True, part=part), unit="1/s")
+            for part, sign in ((1, "₁"), (2, "₂"))
+        ]
+
+    return Instrument(
+        "eigenvalues", "How fast: the eigenvalues of both averages",
+        "Where they are real. Those of the Newton seeker do not move with $H$; those of the gradient seeker do.",
+        sliders,
+        (
+            *both(newton_eigenvalues, "Newton seeker"), *both(gradient_eigenvalues, "gradient seeker"),
+            Region("Where those of the Newton seeker are real, and negative", omega_0, alpha,
+                   (taken(newton_stable, sliders),)),
+            Region("Where those of the gradient seeker are", omega_0, alpha, (taken(gradient_stable, sliders),)),
+        ),
+    )  # fmt: skip
+
+
+def _vehicle() -> Instrument:
     end = sp.Symbol("t_end", positive=True)
     fixed = {letter: START[letter] for letter in (F_star, *source)}
     gains = {c: omega ** (1 - p), alpha_t: alpha * omega**p}
@@ -53,7 +87,7 @@ def instruments() -> Iterator[Instrument]:
         Slider(H, "0.005", "0.05", NUMBERS[H], logarithmic=True),
         Slider(end, 5, 60, 40, glyph="t", unit="s", meaning="end of the run"),
     )  # fmt: skip
-    yield Instrument(
+    return Instrument(
         "newton", "The Newton seeker beside its average",
         "The closed loop of Section VI from its start, with the rate h of the filter that the text does not give, and "
         "its average, turned back from the rotating frame. Where the filter is slow, or H small, d may escape.",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
@@ -16,13 +16,15 @@ from ptproof.errors import InputError
 from ptproof.reading.outcomes import in_words
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     from ptproof.proof.load import Derivation
     from ptproof.proof.result import Verification
     from ptproof.report.content import Figure, Table
     from ptproof.report.model import Report
     from ptproof.report.read import ReadSide
+
+T = TypeVar("T")
 
 
 @click.command()
@@ -182,11 +184,13 @@ def _composed(
     from ptproof.report.versions import versions
 
     derivation = _derivation(paper)
-    figures, tables, failures = ((), (), ()) if no_figures else _drawn(derivation)
+    drawn, failures = (None, ()) if no_figures else _tried("figures", lambda: _drawn(derivation))
+    tools, more = _tried("instruments", lambda: tuple(instruments_of(derivation)))
+    (figures, tables), failures = drawn or ((), ()), (*failures, *more)
     content = compose(
         verification, derivation, title=title_of(derivation), notation=notation_of(derivation),
         versions=versions(), figures=figures, appendix=tables, notes=failures, read=read,
-        instruments=tuple(instruments_of(derivation)),
+        instruments=tools or (),
     )  # fmt: skip
     return content, failures
 
@@ -221,17 +225,22 @@ def _say(lines: Sequence[str]) -> None:
         click.echo(line, file=streams.out())
 
 
-def _drawn(derivation: Derivation) -> tuple[tuple[Figure, ...], tuple[Table, ...], tuple[str, ...]]:
-    """The figures and tables of the derivation; one that fails is named in the report instead of ending it."""
+def _drawn(derivation: Derivation) -> tuple[tuple[Figure, ...], tuple[Table, ...]]:
+    """The figures and tables of the derivation."""
     from ptproof.report.content import brought
 
     if any(f"{package.__name__}.figures" in sys.modules for package in derivation.packages):
         click.echo("simulating and drawing the figures", err=True)
+    return tuple(brought(derivation, "figures")), tuple(brought(derivation, "tables"))
+
+
+def _tried(what: str, make: Callable[[], T]) -> tuple[T | None, tuple[str, ...]]:
+    """What is made, or what the report says instead: a part that fails is named in it and does not end it."""
     try:
-        return tuple(brought(derivation, "figures")), tuple(brought(derivation, "tables")), ()
+        return make(), ()
     except KeyboardInterrupt:
         raise
     except Exception as error:
-        return (), (), (f"The figures could not be drawn: {type(error).__name__}: {error}",)
+        return None, (f"The {what} could not be drawn: {type(error).__name__}: {error}",)
     except BaseException as error:
-        return (), (), (f"The figures could not be drawn: their code {in_words(error)}",)
+        return None, (f"The {what} could not be drawn: their code {in_words(error)}",)

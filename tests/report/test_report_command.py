@@ -160,3 +160,27 @@ def test_what_is_no_figure_is_named_and_the_report_is_written(folder, tmp_path, 
     (folder / "figures.py").write_text("def figures(): return [3]")
     assert status(folder, "--out", tmp_path / "out") == 1
     assert "got 3" in capsys.readouterr().err
+
+
+TOOLS = """
+import sympy as sp
+from ptproof.report.instruments import Instrument, Quantity, Slider, taken
+from .claims import one, x
+
+def instruments():
+    {body}
+    sliders = (Slider(x, 0, 2, 1),)
+    yield Instrument("sum", "A sum", "", sliders, (Quantity("It", taken(one, sliders)),))
+"""
+
+
+@pytest.mark.parametrize(
+    ("body", "expected", "said"),
+    [("pass", 0, ""), ("raise ValueError('no slider')", 1, "The instruments could not be drawn: ValueError: no slider"),
+     ("sp.Symbol('y').nonsense", 1, "The instruments could not be drawn: AttributeError")],
+)  # fmt: skip
+def test_instruments_are_brought_by_a_module_beside_the_claims(folder, tmp_path, capsys, body, expected, said):
+    (folder / "instruments.py").write_text(TOOLS.replace("{body}", body))
+    assert status(folder, "--no-figures", "--out", tmp_path / "out") == expected
+    assert said in capsys.readouterr().err
+    assert (tmp_path / "out" / "instruments.html").is_file() == (expected == 0)

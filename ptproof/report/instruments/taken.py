@@ -126,7 +126,8 @@ def taken(
     put = Substitution(dict(at or {}), lambda value, sign: _on_range(value, sign, sliders))
     kept = {item.symbol for item in sliders} | {*put.values, *(short or {})}
     spelled_out: dict[sp.Symbol, sp.Expr] = {}
-    main, given = _spelled_out(parts[part], given, kept, spelled_out)
+    others = tuple(item for item in given if not (assumed and item is parts[part]))
+    main, given = _spelled_out(parts[part], others, kept, spelled_out)
     letters = {put.into(meant): letter for letter, meant in (short or {}).items()}
 
     def said(relation: Relation) -> Relation:
@@ -136,8 +137,7 @@ def taken(
     for meant, letter in letters.items():
         if not shown.left.has(meant) and not shown.right.has(meant):
             raise InputError(f"{source.id}: {letter} would be short for {meant}, which does not stand there")
-    others = (said(item) for item in given if not assumed or item != main)
-    of_numbers = tuple(item for item in others if not _functions(item) and compared(item) is not sp.true)
+    of_numbers = tuple(item for item in map(said, given) if not _functions(item) and compared(item) is not sp.true)
     own = parts[part].map(lambda side: side.xreplace({meant: letter for letter, meant in (short or {}).items()}))
     at_once = {letter: value for letter, value in put.values.items() if letter in own.free_symbols}
     spelled = {letter: said(eq(letter, meaning)).right for letter, meaning in spelled_out.items()}
