@@ -13,7 +13,8 @@ from ptproof.proof.statement import All, Relation, Statement, relations_of
 from ptproof.report.formula import SIGNS, Names, latex, width
 from ptproof.report.printer import numbers
 
-_ROOM, _SHORT, _DIGITS = 60.0, 12.0, 6
+_ROOM, _SHORT = 60.0, 12.0
+_DIGITS = (6, 9, 14, 20)
 Ball: TypeAlias = tuple[sp.Expr, float]  # a number, and how far the true one may be from it
 _OPAQUE = (AppliedUndef, sp.Derivative, sp.Subs)
 
@@ -84,7 +85,7 @@ def _same(mine: Any, said: sp.Expr, radius: float) -> bool:
 def _shown(part: Relation, point: Point, values: list[Any], names: Names) -> Example | None:
     sign = SIGNS[part.sign]
     sides = [_structure(side, point, names) for side in (part.left, part.right)]
-    short = [_value(value) for value in values]
+    short = _apart(values)
     put, compared = f" {sign} ".join(sides), f" {sign} ".join(short)
     if width(put) > _ROOM:
         sides = short  # then both sides are said, and not how they come about
@@ -116,10 +117,17 @@ def _outermost(side: sp.Expr) -> Iterator[sp.Expr]:
         yield from _outermost(inside)
 
 
-def _value(value: sp.Expr) -> str:
+def _apart(values: list[Any]) -> list[str]:
+    """Both numbers, in as many digits as tell them apart."""
+    told = (n for n in _DIGITS if str(sp.N(values[0], n)) != str(sp.N(values[1], n)))
+    digits = next(told, _DIGITS[-1])
+    return [_value(value, digits) for value in values]
+
+
+def _value(value: sp.Expr, digits: int) -> str:
     """A number: exact where that is short, and in digits where it is no fraction."""
     exact = latex(value, {})
     if value.is_Rational and width(exact) < _SHORT:
         return exact
-    digits = latex(sp.Float(sp.N(value, _DIGITS), _DIGITS), {}).rstrip("0")
-    return rf"{exact} \approx {digits}" if width(exact) < _SHORT else digits
+    about = latex(sp.Float(sp.N(value, digits), digits), {}).rstrip("0")
+    return rf"{exact} \approx {about}" if width(exact) < _SHORT else about

@@ -33,6 +33,11 @@ def test_values_stand_in_the_formula_and_nothing_is_multiplied_out(statement, si
     assert (found.put, found.compared) == (put, compared)
 
 
+def test_two_numbers_that_differ_look_different():
+    found = example(le(sp.sqrt(x), sp.sqrt(y)), sp.sqrt(2), sp.sqrt(sp.Rational("1.9999999")), x=2, y="1.9999999")
+    assert found.compared == r"\sqrt{2} \approx 1.41421356 \le 1.41421353"
+
+
 @pytest.mark.parametrize("sides", [(3, 15), (2, 16)])
 def test_what_the_witness_does_not_say_is_not_shown(sides):
     assert example(gt(k, 2 * x * y**2), *sides, k=3, x=2, y=2) is None

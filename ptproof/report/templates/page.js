@@ -185,6 +185,15 @@
     scrolls.observe(item);
   }
 
+  // Cards far away are set after the rest, a few at a time: the page is there at once, and soon after all of it.
+  const later = [...document.querySelectorAll(".claim, .definition, .erratum")];
+  const soon = window.requestIdleCallback ?? setTimeout;
+  const set = () => {
+    for (const card of later.splice(0, 4)) card.style.contentVisibility = "visible";
+    if (later.length) soon(set);
+  };
+  addEventListener("load", () => soon(set));
+
   const graph = document.querySelector("svg.graph");
   if (!graph) return;
   const edges = [...graph.querySelectorAll(".edge")];
