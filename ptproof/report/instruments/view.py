@@ -85,6 +85,11 @@ class Picture:
     names: tuple[str, ...]
     refs: tuple[Ref, ...]
 
+    @property
+    def proved(self) -> bool:
+        """Whether all of the claims are."""
+        return all(ref.status is None or ref.status.proved for ref in self.refs)
+
 
 @dataclass(frozen=True)
 class View:

@@ -330,7 +330,8 @@ const set = (tool, section) => {
     if (picture.kind === "plot") drawPlot(picture, svg, s, picture.own < 0 ? null : tool.sliders[picture.own]);
     else if (picture.kind === "region") {
       const holds = drawRegion(picture, svg, s, tool.sliders), said = boxes[n].querySelector(".said");
-      said.textContent = holds ? "The sliders stand inside: it is proved here." : "The sliders stand outside: nothing is proved here.";
+      const inside = "proved" in boxes[n].dataset ? "it is proved here" : "all that is assumed holds here, but the claim is not proved";
+      said.textContent = holds ? `The sliders stand inside: ${inside}.` : "The sliders stand outside: nothing is proved here.";
       said.className = `said ${holds ? "yes" : "no"}`;
     } else vehicles[n].draw();
   });
