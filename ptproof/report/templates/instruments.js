@@ -51,7 +51,7 @@ const run = (moving, s, edges, tolerance) => {
 const digits = (value) => {
   if (Number.isNaN(value)) return "not defined";
   if (!Number.isFinite(value)) return value > 0 ? "∞" : "−∞";
-  return String(Number(value.toPrecision(6))).replace("-", "−").replace(/e\+?/, "·10^");
+  return String(Number(value.toPrecision(6))).replaceAll("-", "−").replace(/e\+?/, "·10^");
 };
 const rounded = (slider, value) => slider.integer ? Math.round(value) : Number(value.toPrecision(4));
 const PLACES = 400;
