@@ -265,3 +265,28 @@ def test_nothing_moves_for_those_who_do_not_want_it(page, folder):
     assert page.evaluate("document.getAnimations().length") == 0
     page.emulate_media(reduced_motion="no-preference")
     assert page.evaluate(how) == "smooth"
+
+
+@pytest.mark.parametrize("file", ["section-1-first-part.html", "report.html"])
+def test_a_letter_says_what_it_stands_for(page, folder, file):
+    """By the keyboard, pointed at and tapped; and nothing where it stands for something else in this claim."""
+    page.goto((folder / "one" / file).as_uri())
+    card, note = page.locator("#c-a-printed"), page.locator("#note")
+    page.keyboard.press("Tab")
+    card.locator(".formula").first.focus()
+    note.wait_for()
+    assert note.locator("p").count() == 2
+    page.keyboard.press("Escape")
+    assert note.is_hidden()
+    letter, place = card.locator(".formula mi", has_text="k").first, card.locator(".formula mover mi").first
+    for act in ("hover", "click"):
+        for target, said in ((letter, "gain | rate [1/s]"), (place, "place [m]")):
+            getattr(target, act)()
+            note.get_by_text(said).wait_for()
+        page.mouse.click(1, 1)
+        assert note.is_hidden()
+    card.evaluate("(item) => { item.dataset.unlike = 'k'; }")
+    place.hover()
+    note.wait_for()
+    letter.hover()
+    note.wait_for(state="hidden")

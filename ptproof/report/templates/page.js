@@ -177,7 +177,7 @@
   const scrolls = new ResizeObserver((seen) => {
     for (const { target } of seen) {
       if (target.scrollWidth > target.clientWidth) target.tabIndex = 0;
-      else if (target !== document.activeElement) target.removeAttribute("tabindex");
+      else if (target !== document.activeElement && !target.matches("article .formula")) target.removeAttribute("tabindex");
     }
   });
   for (const item of document.querySelectorAll(".formula, .value, .prose, .canvas, .witness dd, table, pre")) {
