@@ -8,7 +8,8 @@ or NaN where a side is not defined or too large for a float.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import count
 from typing import Any
 
 import sympy as sp
@@ -151,6 +152,11 @@ def _float(number: sp.Expr) -> str:
     return f"({text})" if value < 0 else text
 
 
+def _letters() -> Iterator[sp.Symbol]:
+    """Letters that nobody has, whose order is that of their making, in every run."""
+    return (sp.Dummy(f"c{place:06}") for place in count())
+
+
 def _tamed(source: sp.Basic) -> sp.Basic:
     """The expression with products of exponentials as one: the factors alone would leave the range of floats."""
 
@@ -198,7 +204,7 @@ def function(sources: Sequence[sp.Basic], arguments: Mapping[str, Sequence[sp.Sy
             names |= {symbol: f"{name}[{place}]" for place, symbol in enumerate(symbols)}
     for source in sources:  # what is wrong is named as it was written
         expression(source, names)
-    shared, reduced = sp.cse(list(map(_tamed, sources)), symbols=(sp.Dummy() for _ in iter(int, 1)))
+    shared, reduced = sp.cse(list(map(_tamed, sources)), symbols=_letters())
     lines = []
     for place, (symbol, value) in enumerate(shared):
         lines.append(f"const c{place} = {expression(value, names)}; ")

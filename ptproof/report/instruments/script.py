@@ -52,7 +52,7 @@ def _picture(part: Part, of: Instrument) -> str:
     match part:
         case Plot(variable=variable):
             own = symbols.index(variable) if variable in symbols else -1
-            stand_in = sp.Dummy() if own >= 0 else variable
+            stand_in = sp.Dummy("v") if own >= 0 else variable
             put = {variable: stand_in}
             drawn = [
                 item.xreplace(put)

@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
+from decimal import Decimal
 from typing import Any
 
 import sympy as sp
@@ -85,6 +86,11 @@ class Picture:
     names: tuple[str, ...]
     refs: tuple[Ref, ...]
 
+    @property
+    def proved(self) -> bool:
+        """Whether all of the claims are."""
+        return all(ref.status is None or ref.status.proved for ref in self.refs)
+
 
 @dataclass(frozen=True)
 class View:
@@ -121,10 +127,14 @@ def decimal(value: float) -> str:
 
 
 def shown(value: float) -> str:
-    """A number for people."""
+    """A number for people, as the page's script writes it."""
     if math.isnan(value):
         return "not defined"
-    return f"{'−' if value < 0 else ''}∞" if math.isinf(value) else f"{value:.6g}".replace("-", "−")
+    if math.isinf(value):
+        return f"{'−' if value < 0 else ''}∞"
+    exact = Decimal(f"{value:.6g}").normalize()
+    text = f"{exact:f}" if value == 0 or 1e-6 <= abs(value) < 1e21 else f"{exact:e}".replace("e+", "e")
+    return text.replace("-", "−").replace("e", "·10^")
 
 
 def superscript(unit: str) -> str:

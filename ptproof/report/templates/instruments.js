@@ -51,7 +51,7 @@ const run = (moving, s, edges, tolerance) => {
 const digits = (value) => {
   if (Number.isNaN(value)) return "not defined";
   if (!Number.isFinite(value)) return value > 0 ? "∞" : "−∞";
-  return String(Number(value.toPrecision(6))).replace("-", "−").replace(/e\+?/, "·10^");
+  return String(Number(value.toPrecision(6))).replaceAll("-", "−").replace(/e\+?/, "·10^");
 };
 const rounded = (slider, value) => slider.integer ? Math.round(value) : Number(value.toPrecision(4));
 const PLACES = 400;
@@ -330,7 +330,8 @@ const set = (tool, section) => {
     if (picture.kind === "plot") drawPlot(picture, svg, s, picture.own < 0 ? null : tool.sliders[picture.own]);
     else if (picture.kind === "region") {
       const holds = drawRegion(picture, svg, s, tool.sliders), said = boxes[n].querySelector(".said");
-      said.textContent = holds ? "The sliders stand inside: it is proved here." : "The sliders stand outside: nothing is proved here.";
+      const inside = "proved" in boxes[n].dataset ? "it is proved here" : "all that is assumed holds here, but the claim is not proved";
+      said.textContent = holds ? `The sliders stand inside: ${inside}.` : "The sliders stand outside: nothing is proved here.";
       said.className = `said ${holds ? "yes" : "no"}`;
     } else vehicles[n].draw();
   });

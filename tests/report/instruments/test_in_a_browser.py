@@ -199,7 +199,8 @@ def page(tooled_report, tmp_path_factory):
 FAULTS = ("wide", "flat", "axe", "faint", "print")
 FIRST = ["1.87083", "0.22313", "2", "0.4", "holds"]
 SAID = {
-    "errors": [], "flaws": [], "first": FIRST, "reset": FIRST, "single": FIRST,
+    "errors": [], "flaws": [], "first": FIRST, "reset": FIRST, "single": FIRST, "printed": FIRST,
+    "after": ["2.64575", "0.00247875", "1", "0.153846", "holds"],
     "moved": ["1.87083", "1.64872", "4", "0.666667", "does not hold"],
     "region": "The sliders stand outside: nothing is proved here.",
     "command": "echo 3.5 2 1 3", "range": 200, "needs": 1, "hash": "#i-bounds:E=2", "end": "10", "words": "10 1/s",

@@ -1,5 +1,7 @@
 """Expressions as JavaScript: what has no exact counterpart is refused by name, never printed as something else."""
 
+from itertools import pairwise
+
 import pytest
 import sympy as sp
 
@@ -45,3 +47,10 @@ def test_letters_of_the_language_are_no_trouble():
 def test_what_is_shared_is_computed_once():
     shared = sp.sqrt(x + y)
     assert function([shared, shared * x, sp.exp(shared)], {"s": [x, y]}).count("Math.sqrt") == 1
+
+
+def test_it_is_the_same_in_every_run():
+    """However many letters somebody has made before."""
+    parts = [sp.sqrt(x + n * y) + 1 for n in range(1, 30)]
+    sources = [sum(parts), *(a * b for a, b in pairwise(parts))]
+    assert len({function(sources, {"s": [x, y]}) for _ in range(12)}) == 1

@@ -101,7 +101,18 @@ def test_the_json_has_expressions_and_values(tooled_report):
 
 @pytest.mark.parametrize(
     ("value", "words"),
-    [(float("nan"), "not defined"), (float("inf"), "∞"), (-float("inf"), "−∞"), (-1234567.0, "−1.23457e+06")],
+    [
+        (float("nan"), "not defined"),
+        (float("inf"), "∞"),
+        (-float("inf"), "−∞"),
+        (-1234567.0, "−1234570"),
+        (0.1, "0.1"),
+        (2.0, "2"),
+        (0.00001, "0.00001"),
+        (-1.5e-7, "−1.5·10^−7"),
+        (3e30, "3·10^30"),
+        (0.0, "0"),
+    ],
 )
 def test_numbers_in_words(value, words):
     assert shown(value) == words
