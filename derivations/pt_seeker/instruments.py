@@ -133,7 +133,7 @@ def _critical() -> Instrument:
                 (take(finite_small_start, at=small), take(finite_under_condition, at=small)),
             ),
             Region(
-                "The same against the drift", E_norm, V0,
+                "Where it stays finite, against the drift", E_norm, V0,
                 (take(finite_small_start, at=small), take(finite_under_condition, at=small)),
             ),
             Plot(

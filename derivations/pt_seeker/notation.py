@@ -54,7 +54,13 @@ V0 = letter("V0", "V(x_0)", "[F]", "V at the initial time", positive=True)
 U = letter("U", "U", "[F]^{1/2κ}", "V^(1/2κ)", positive=True)
 G = letter("G", r"\|\nabla F\|", "[F]/m", "norm of the gradient", positive=True)
 R = letter("R", r"\|\bar x - x^*\|", "m", "distance of the averaged vehicle from the source", positive=True)
-R0 = letter("R0", r"\|\bar x(t_0) - x^*\|", "m", "that distance at the initial time", positive=True)
+R0 = letter(
+    "R0",
+    r"\|\bar x(t_0) - x^*\|",
+    "m",
+    "distance of the averaged vehicle from the source at the initial time",
+    positive=True,
+)
 f_norm = letter("f_norm", r"\|f\|", "m/s", "norm of the drift", nonnegative=True)
 d = letter("d", r"\|d\|_{[t_0,\tau]}", "m/s", "largest bound of the drift up to now", nonnegative=True)
 zeta = letter("zeta", r"\zeta", "[F]^{1/2κ}/s", "input of the scalar comparison system", nonnegative=True)

@@ -138,9 +138,10 @@ def shown(value: float) -> str:
 
 
 def superscript(unit: str) -> str:
-    """A unit without LaTeX: m^{2κ} as m²ᵏ."""
-    raised = str.maketrans("0123456789-/κ", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻ᐟᵏ")
-    return re.sub(r"\^\{?([0-9κ/-]+)\}?", lambda found: found[1].translate(raised), unit)
+    """A unit without LaTeX: m^{2} as m², m^{2κ} as m^(2κ), since no raised κ exists."""
+    raised = str.maketrans("0123456789-/", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻ᐟ")
+    unit = re.sub(r"\^(-?\d+)|\^\{([-\d/]+)\}", lambda found: (found[1] or found[2]).translate(raised), unit)
+    return re.sub(r"\^\{([^{}]*)\}", r"^(\1)", unit)
 
 
 def evaluated(source: sp.Basic, values: Mapping[sp.Symbol, Any]) -> float:

@@ -8,7 +8,7 @@ from math import exp
 import pytest
 
 from ptproof.report.exported import exported, exported_json, schema
-from ptproof.report.instruments.view import decided, evaluated, shown
+from ptproof.report.instruments.view import decided, evaluated, shown, superscript
 from ptproof.report.markdown import markdown_page
 from ptproof.report.site import single_page, site, site_files
 
@@ -55,7 +55,7 @@ def test_the_page_needs_no_network(files):
 
 def test_text_is_escaped(files):
     assert "Bounds &lt;of&gt; V" in files["instruments.html"]
-    assert "drift &lt;gain&gt; &amp; more, in m²ᵏ" in files["instruments.html"]
+    assert "drift &lt;gain&gt; &amp; more, in m^(2κ)" in files["instruments.html"]
 
 
 def test_sliders_are_labelled_and_native(files):
@@ -125,3 +125,17 @@ def test_what_has_no_real_value_is_not_defined(tools):
     assert decided(condition.value, values) is True
     assert str(evaluated(quantity.value, {**values, E: values[k]})) == "nan"
     assert decided(quantity.value > 0, {**values, E: values[k]}) is None
+
+
+@pytest.mark.parametrize(
+    ("unit", "shown"),
+    [
+        ("m^2/s", "m²/s"),
+        ("m^{2κ}", "m^(2κ)"),
+        ("s^{-1}", "s⁻¹"),
+        ("[F]^{1/2}", "[F]¹ᐟ²"),
+        ("[F]^{1/2κ}/s", "[F]^(1/2κ)/s"),
+    ],
+)
+def test_a_unit_is_raised_where_its_letters_can_be(unit, shown):
+    assert superscript(unit) == shown
