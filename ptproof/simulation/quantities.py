@@ -60,8 +60,8 @@ def input_function(
     return evaluate
 
 
-def _select(conditions: list[Any], choices: list[Any], default: Any = np.nan) -> Any:
-    # As numpy.select, whose checks take longer than a short run.
+def select(conditions: list[Any], choices: list[Any], default: Any = np.nan) -> Any:
+    """As ``numpy.select``, whose checks take longer than a short run."""
     result = default
     for condition, choice in zip(reversed(conditions), reversed(choices), strict=True):
         result = choice if condition is True else np.where(condition, choice, result)
@@ -74,7 +74,7 @@ def time_map(expression: sp.Expr, variable: sp.Symbol) -> Callable[[Array, Mappi
     if expression == variable:
         return lambda times, table: times + 0.0
     symbols = (parameters.t0, parameters.T, parameters.nu_min, parameters.exponent, parameters.gain)
-    function = sp.lambdify([variable, *symbols], expression, modules=[{"select": _select}, "numpy"], cse=True)
+    function = sp.lambdify([variable, *symbols], expression, modules=[{"select": select}, "numpy"], cse=True)
     return lambda times, table: _spread(
         function, times, times, *(table.get(symbol.name, 1.0) for symbol in symbols)
     )  # fmt: skip

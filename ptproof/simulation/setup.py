@@ -20,6 +20,7 @@ from ptproof.simulation.plan import Array, Batch, Sampling
 from ptproof.simulation.quantities import field_function, input_function, motion_function, time_map
 from ptproof.simulation.sampled import sampled as sampled_loop
 from ptproof.simulation.settings import Limit, Outcome, Stop
+from ptproof.simulation.switches import between_switches
 from ptproof.system import System
 from ptproof.transforms import CappedClock, Clock
 
@@ -115,9 +116,14 @@ def from_system(system: System, initial: Any, span: tuple[Any, Any] | None, valu
     defaults = {name: as_float(value, f"initial.{name}") for name, value in given.items()}
     defaults |= {name: as_float(value, f"parameters.{name}") for name, value in parameters_given.items()}
     return Setup(
-        system, defaults, lambda table: np.outer((start, end), np.ones(len(table[states[0]]))),
+        system, defaults, partial(_span, system, start, end),
         tuple(range(system.dimension)), (0.0,) * system.dimension, free=tuple(defaults),
     )  # fmt: skip
+
+
+def _span(system: System, start: float, end: float, table: Mapping[str, Array]) -> Array:
+    size = len(table[system.state[0].name])
+    return between_switches(system, np.outer((start, end), np.ones(size)), table)
 
 
 def from_problem(
@@ -143,7 +149,8 @@ def from_problem(
             raise InputError("sample_time, noise: only the closed loop in t and in full coordinates can be sampled")
         system, sampling = sampled_loop(problem, seeker, clock, system)
     return Setup(
-        system, defaults, edges=ending, position=(0, 1), source=tuple(map(float, problem.source)),
+        system, defaults, edges=partial(_switching, system, ending), position=(0, 1),
+        source=tuple(map(float, problem.source)),
         ended=ending.ended,
         to_t=time_map(TIME, TIME) if frame == "t" else time_map(clock.to_t, TAU),
         to_tau=time_map(TAU, TAU) if frame == "tau" else time_map(clock.to_tau, TIME),
@@ -186,6 +193,10 @@ def _completed(
     measured = table[z] if z in table else field_function(problem.field)(position)
     placed = dict(zip((symbol.name for symbol in problem.variables), position, strict=True))
     return {**table, **placed, z: measured, parameters.p0.name: table[heading] + table[parameters.k.name] * measured}
+
+
+def _switching(system: System, ending: _Ending, table: Mapping[str, Array]) -> Array:
+    return between_switches(system, ending(table), table, ending.clock.conditions)
 
 
 @dataclass(frozen=True)
