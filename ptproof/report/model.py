@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -22,10 +23,9 @@ from ptproof.report.witness import WitnessView
 _HALF_PAGE = 36.0  # characters
 
 
-def _printed(read: ReadSide | None) -> tuple[Line, ...]:
-    """What was read, line by line as the paper prints it; a row that goes on with the one before is indented."""
-    found = read.latex if read is not None and read.read == "equal" else ()
-    return tuple(Line(row, 2 * goes_on) for latex in found for row, goes_on in rows(latex))
+def _set(formulas: Iterable[str]) -> tuple[Line, ...]:
+    """Formulas line by line as the paper prints them; a row that goes on with the one before is indented."""
+    return tuple(Line(row, 2 * goes_on) for latex in formulas for row, goes_on in rows(latex))
 
 
 @dataclass(frozen=True)
@@ -39,7 +39,12 @@ class Said:
     @cached_property
     def printed(self) -> tuple[Line, ...]:
         """The formula as the paper prints it, where that was read and is what is said."""
-        return _printed(self.read)
+        return _set(self.read.latex if self.read is not None and self.read.read == "equal" else ())
+
+    @property
+    def unread(self) -> tuple[Line, ...]:
+        """What the paper prints of it where that was not read, or says more or less than it."""
+        return _set(self.read.unread if self.read is not None else ())
 
     @property
     def whole(self) -> bool:

@@ -99,12 +99,12 @@ def _compared(formula: Formula, formulas: Formulas, source: Printed, items: tupl
     ids = tuple(item.id for item in items)
     if not source.known:
         return Compared(formula, ids, "not read", "notation", f"{source.where}, so that no letter means anything")
-    meaning = source.letters(formula)
+    meaning, shown = source.letters(formula), replace(formula, text=typeset(formula.text, formulas.macros))
     try:
         reading = read_formula(formula, formulas.macros, meaning)
     except NotUnderstood as error:
-        return Compared(formula, ids, "not read", error.kind, str(error))
-    return _Comparison(replace(formula, text=typeset(formula.text, formulas.macros)), items, reading, source).judged()
+        return Compared(shown, ids, "not read", error.kind, str(error))
+    return _Comparison(shown, items, reading, source).judged()
 
 
 def compare_correction(claim: Item, formula: Formula, source: Printed) -> Compared:

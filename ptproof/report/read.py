@@ -29,6 +29,8 @@ class ReadSide:
         Why it is not equal, or which part of a claim of several relations was met in the paper.
     latex
         Where it is equal: the formulas, or the parts of them that it states, as the paper prints them.
+    unread
+        Where it is not: the formulas that it covers, as the paper prints them, held against nothing.
     whole
         Whether they say all that the claim says, and not only what it assumes.
     apart
@@ -41,16 +43,18 @@ class ReadSide:
     latex: tuple[str, ...] = ()
     whole: bool = True
     apart: tuple[str, ...] = ()
+    unread: tuple[str, ...] = ()
 
     def to_json(self) -> dict[str, Any]:
         return {"read": self.read, "places": list(self.places), "detail": self.detail, "printed": list(self.latex),
-                "whole": self.whole, "apart": list(self.apart)}  # fmt: skip
+                "whole": self.whole, "apart": list(self.apart), "unread": list(self.unread)}  # fmt: skip
 
     @staticmethod
     def from_json(data: Mapping[str, Any]) -> ReadSide:
         """The side that was written."""
         latex, apart = tuple(data["printed"]), tuple(data["apart"])
-        return ReadSide(data["read"], tuple(data["places"]), data["detail"], latex, data["whole"], apart)
+        unread = tuple(data["unread"])
+        return ReadSide(data["read"], tuple(data["places"]), data["detail"], latex, data["whole"], apart, unread)
 
 
 def read_sides(source: str, derivation: Derivation) -> Mapping[str, ReadSide]:
@@ -91,10 +95,11 @@ def side_of(id: str, formulas: list[Compared]) -> ReadSide:
         return ReadSide("different", _places(different), different[0].detail)
     unread = [item for item in formulas if item.read != "equal"]
     if unread:
-        return ReadSide("not read", _places(unread), unread[0].detail)
+        return ReadSide("not read", _places(unread), unread[0].detail, unread=_texts(unread))
     said = [item for item in formulas if id in item.said]
     if not said:
-        return ReadSide("not read", _places(formulas), "what it covers was read, and says something else of it")
+        detail = "what it covers was read, and says something else of it"
+        return ReadSide("not read", _places(formulas), detail, unread=_texts(formulas))
     met = frozenset().union(*(item.said[id].parts for item in said))
     of = said[0].said[id].of
     detail = f"{len(met)} of its {of} relations" if 0 < len(met) < of else ""
@@ -105,3 +110,7 @@ def side_of(id: str, formulas: list[Compared]) -> ReadSide:
 
 def _places(formulas: Iterable[Compared]) -> tuple[str, ...]:
     return tuple(dict.fromkeys(item.formula.place for item in formulas))
+
+
+def _texts(formulas: Iterable[Compared]) -> tuple[str, ...]:
+    return tuple(dict.fromkeys(item.formula.text for item in formulas))

@@ -83,6 +83,14 @@ def test_each_claim_has_the_part_that_it_states(folder):
     }  # fmt: skip
 
 
+def test_what_is_not_read_is_handed_on_as_it_is_printed(folder):
+    changed(folder, "V &= x^2", r"V &= \oddly x^2")
+    found = sides(folder)
+    assert (found["group"].read, found["group"].unread) == ("not read", (r"V &= \oddly x^2",))
+    assert found["given"].unread == (r"y \le 2x, \qquad z = 3 x",)
+    assert found["upper"].unread == ()
+
+
 @pytest.mark.parametrize(
     ("before", "after", "id"),
     [("2x", "3 y", "upper"), (r"\le 2", r"\ge 2", "upper"), ("3 x", "4 x", "triple"), ("x^2", "x^3", "group")],

@@ -188,6 +188,17 @@ def test_a_mark_says_what_was_read_from_the_source(report):
     assert [strip(word).count(" read ") for word in ("equal", "different", "not read")] == [1, 0, 0]
 
 
+def test_an_erratum_shows_what_the_paper_prints_also_where_that_was_not_read(report):
+    first, *rest = report.errata
+    side = ReadSide("not read", ("eq:sum",), "why", unread=("q &= 1 \\\\ w &= 2",))
+    unread = replace(report, errata=(replace(first, printed=replace(first.printed, read=side)), *rest))
+    pages = {name: site_files(site(found))["errata.html"].decode() for name, found in
+             (("not given", report), ("unread", unread))}  # fmt: skip
+    assert "The paper prints" not in pages["not given"]
+    shown = pages["unread"][pages["unread"].index("The paper prints") :]
+    assert shown.index("<mi>q</mi>") < shown.index("<mi>w</mi>") < shown.index("<summary>What is claimed</summary>")
+
+
 def test_a_hostile_title_stays_text(report):
     first = report.sections[0]
     claims = tuple(replace(claim, ref=replace(claim.ref, title=HOSTILE, id=HOSTILE)) for claim in first.claims)
