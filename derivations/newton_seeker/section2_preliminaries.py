@@ -102,7 +102,7 @@ practical_stability = definition(
 # --- The average and its coefficients, as they are printed ------------------------------------------------------------
 
 _T, _i, _j, _m = sp.Symbol("T", positive=True), *(sp.Symbol(f"p_{n}", positive=True) for n in "ijm")
-_zero, *_ones = _fields(_averaged := sp.symbols("xb1:3", real=True))
+_zero, *_ones = _fields(_averaged := sp.symbols("xbar1:3", real=True))
 _bracket_12 = lie_bracket(list(_ones[0]), list(_ones[1]), _averaged)
 
 
@@ -113,7 +113,7 @@ def _gamma_of(name: str) -> sp.Expr:
 _seconds = [lie_bracket(_bracket_12, list(field), _averaged) for field in _ones]
 average_printed = definition(
     "newton/2-average", "The second-order Lie bracket system",
-    eq(sp.Matrix([rate_of("xb1"), rate_of("xb2")]), sp.Matrix([
+    eq(sp.Matrix([rate_of("xbar1"), rate_of("xbar2")]), sp.Matrix([
         _zero[row] + sp.Limit(_bracket_12[row] * _gamma_of("12"), omega, sp.oo)
         + sp.Limit(sum(_seconds[m][row] * _gamma_of(f"12{m + 1}") for m in (0, 1)), omega, sp.oo)
         for row in (0, 1)

@@ -124,7 +124,7 @@ def drift_norm_below(goal: Goal) -> Evidence:
     return reals(goal, *specialise(goal, norm_below, values), *instances(goal, instant(tau)))
 
 
-rate, low_factor, high_factor, widening, power = sp.symbols("rate c_1 c_2 w p_x", nonnegative=True)
+rate, low_factor, high_factor, widening, power = sp.symbols("Lambda c_1 c_2 w p_x", nonnegative=True)
 slope = sp.Symbol("V_dot", real=True)
 
 

@@ -110,7 +110,7 @@ def largest(until: sp.Expr | None) -> ForAll:
 
 pushed: list[Assumption] = [*solves(tau), *later, *assumption_2, assumption_3b, largest(tau)]
 PUSHED = EXAMPLE | {d_of(t): 0}
-size, pull, factor = sp.symbols("p_x pull w", nonnegative=True)
+size, pull, factor = sp.symbols("p_x P w", nonnegative=True)
 
 
 @claim(

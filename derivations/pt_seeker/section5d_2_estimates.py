@@ -88,7 +88,7 @@ def input_in_t(order: sp.Expr) -> sp.Expr:
 
 
 slope = sp.Symbol("V_dot", real=True)
-low_input, high_input, size, pull = sp.symbols("zeta_1 zeta_2 p_x pull", nonnegative=True)
+low_input, high_input, size, pull = sp.symbols("zeta_1 zeta_2 p_x P", nonnegative=True)
 
 
 @claim(

@@ -200,7 +200,7 @@ def bernoulli_comparison(goal: Goal) -> Evidence:
     return comparison(goal, V0 * left(s) ** (-1 / sigma), denominators=[left(s)])
 
 
-base, top, below = sp.symbols("B numerator denominator", positive=True)
+base, top, below = sp.symbols("B N D", positive=True)
 
 
 @claim(
@@ -256,7 +256,7 @@ def bound_attained(goal: Goal) -> Evidence:
     return exact(goal)
 
 
-numerator, small = sp.symbols("numerator small", positive=True)
+numerator, small = sp.symbols("N s_0", positive=True)
 
 
 @claim(

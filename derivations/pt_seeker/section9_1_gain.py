@@ -186,7 +186,7 @@ def definite_necessary(goal: Goal) -> Evidence:
     return refute(goal, {E11: 0, E22: 0, E12: 4, E21: 0, k: 1})
 
 
-eps, deficit = sp.symbols("epsilon_H deficit", positive=True)
+eps, deficit = sp.symbols("epsilon_H delta_H", positive=True)
 direction = sp.Matrix([g1, g2])
 hessian = direction * direction.T + eps * sp.eye(2)
 x = sp.Matrix(position)

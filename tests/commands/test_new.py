@@ -168,9 +168,15 @@ def test_a_paper_becomes_a_derivation_and_what_was_not_read_is_said(tmp_path, mo
     monkeypatch.chdir(tmp_path)
     (tmp_path / "law.tex").write_text(PAPER)
     assert call("law", "--from", "law.tex") == 0
-    assert sorted(os.listdir("law")) == ["__init__.py", "notation.py", "notation.toml", "section1_law.py"]
+    assert sorted(os.listdir("law")) == [
+        "__init__.py",
+        "notation.py",
+        "notation.toml",
+        "printed.toml",
+        "section1_law.py",
+    ]
     said = capsys.readouterr()
-    assert said.out.startswith("law holds 4 files with 1 definition, 1 claim, 1 gap.")
+    assert said.out.startswith("law holds 5 files with 1 definition, 1 claim, 1 gap.")
     assert said.err.splitlines() == [
         "ptproof: law.tex inputs rest, which is not beside it; nothing of that was read",
         r"ptproof: Section 1 (3): line 4: \sup is not known",

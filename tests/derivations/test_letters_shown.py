@@ -19,6 +19,11 @@ PAPERS = ["pt_seeker", "newton_seeker"]
 # A name with an underscore that nothing has set low, a word in italics, an index that is a word in italics.
 RAW_TEXT = re.compile(r"(?<![\w./:-])[^\W\d_]{1,3}_[^\W_]")
 RAW_LATEX = re.compile(r"(?<![\\a-zA-Z{])[a-z]{3,}|_\{(?![i-q]+\})[a-zA-Z]{3,}|(?:alpha|kappa|tau|mu|nu|omega)\d|\\_")
+# Upright words are meant where the notation lists them, and as indices.
+UPRIGHT = {
+    True: r"\\(?:mathrm|text|operatorname)\{[^{}]*\}|\\[a-zA-Z]+",
+    False: r"(?<=_\{)\\mathrm\{[^{}]*\}|\\(?:mathrm|operatorname)\{|\\[a-zA-Z]+",
+}
 WORDS = re.compile(r"\\(?:[a-zA-Z]+|[^_])|\{matrix\}|\b(?:array|cases|bmatrix|otherwise|for|and)\b")
 
 
@@ -34,13 +39,9 @@ def raw_letters(name: str, extra: tuple[sp.Symbol, ...] = ()) -> set[str]:
     said += [item.statement for item in derivation.definitions]
     symbols = {symbol for side in expressions_of(said) for symbol in side.atoms(sp.Symbol)}
     functions = {applied.func for applied in undefined_functions(said)}
-    shown = {latex(symbol, glyphs) for symbol in (*symbols, *extra)}
-    shown |= {latex(function(sp.Symbol("x")), glyphs) for function in functions}
-    return {
-        text
-        for text in shown
-        if RAW_LATEX.search(re.sub(r"\\(?:mathrm|text|operatorname)\{[^{}]*\}|\\[a-zA-Z]+", " ", text))
-    }
+    shown = [(latex(symbol, glyphs), symbol in glyphs) for symbol in (*symbols, *extra)]
+    shown += [(latex(function(sp.Symbol("x")), glyphs), False) for function in functions]
+    return {text for text, listed in shown if RAW_LATEX.search(re.sub(UPRIGHT[listed], " ", text))}
 
 
 def texts(derivation: Derivation) -> list[str]:
