@@ -191,6 +191,8 @@ class _Pair:
 
     def gap(self, rung: float) -> tuple[float, str]:
         """The largest distance at ω = ``rung``, or NaN and why a run did not get through."""
+        from scipy.interpolate import CubicSpline
+
         (begin, end), names = self.span, [state.name for state in self.full.state]
         samples = min(200_000, max(400, math.ceil(_SAMPLES_A_TURN * rung * (end - begin) / (2 * math.pi))))
         fast = self._run(self.full, {name: self.initial[name] for name in names if name in self.initial}, rung, samples)
@@ -200,7 +202,9 @@ class _Pair:
         if not fast.outcome is mean.outcome is Outcome.REACHED:
             return math.nan, f"at omega = {rung:g} the system ended as {fast.outcome}, the average as {mean.outcome}"
         rows = [names.index(name) for name in shared]
-        return float(np.max(np.linalg.norm(fast.x[rows] - self.along(mean.t, mean.x, rung), axis=0))), ""
+        # A system that jumps has its samples between the jumps; its average is smooth, and has many.
+        at = mean.x if np.array_equal(fast.t, mean.t) else CubicSpline(mean.t, mean.x, axis=1)(fast.t)
+        return float(np.max(np.linalg.norm(fast.x[rows] - self.along(fast.t, at, rung), axis=0))), ""
 
     def _run(self, system: System, initial: Mapping[str, Any], rung: float, samples: int) -> Trajectory:
         given = {self.omega.name: rung} if self.omega in (system.parameters or ()) else {}
