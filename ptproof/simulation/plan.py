@@ -68,18 +68,26 @@ class Plan:
     conditions: tuple[Relational, ...] = ()
     sampling: Sampling | None = None
 
+    def away(self, x: Array) -> float:
+        """The distance of one state x (n) from the center; for one, NumPy takes longer than the distance."""
+        return math.dist([x.item(i) for i in self.watched], self.center)
+
     def distance(self, x: Array) -> Array:
         """The distance of the watched states from the center, for x (n × …)."""
-        if x.size == len(x):  # one state, for which NumPy takes longer than the distance
-            found = math.dist([float(x[i].item()) for i in self.watched], self.center)
-            return np.full(x.shape[1:], found)
         with np.errstate(all="ignore"):
             squares = [(x[i] - center) ** 2 for i, center in zip(self.watched, self.center, strict=True)]
             return np.asarray(np.sqrt(sum(squares[1:], squares[0])))
 
+    def inside(self, x: Array) -> int:
+        """How many of the states x (n × …) come before the first that has escaped or is not a number."""
+        if x.shape[1] == 1:
+            return int(self.away(x[:, 0]) <= self.radius)
+        good = self.distance(x) <= self.radius
+        return len(good) if good.all() else int(np.argmin(good))
+
     def within(self, x: Array) -> bool:
         """Whether no state of x (n × …) has escaped, or is not a number."""
-        return bool(np.all(self.distance(x) <= self.radius))
+        return self.inside(x) == x.shape[1]
 
     def at_limit(self, limit: Limit, time: float, end: float) -> Stop:
         """A limit met at ``time``, on the way to ``end``."""
@@ -99,7 +107,7 @@ class Plan:
 
     def broken(self, start: Array, end: Array, why: str) -> Stop:
         """A solver that could not go on at ``end``: out of the ball or far away it has met an escape in finite time."""
-        first, last = float(self.distance(start)), float(self.distance(end))
+        first, last = self.away(start), self.away(end)
         if last > self.radius:
             return self.escaped
         if not np.all(np.isfinite(end)) or last > 1000 * max(1.0, first):

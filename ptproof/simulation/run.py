@@ -269,7 +269,7 @@ def _trajectory(job: Job, run: Any, seconds: float) -> Trajectory:
         if setup.shift is not None:
             source, x = source + setup.shift(t), _shifted(setup, run.x, t)
     return Trajectory(
-        t, x, job.states, stop.outcome, float(job.plan.distance(run.x[:, -1])), stop.message, tau,
+        t, x, job.states, stop.outcome, job.plan.away(run.x[:, -1]), stop.message, tau,
         None if setup.field_at is None else setup.field_at(position), inputs, dict(job.about), seconds, stop.limit,
         source,
     )  # fmt: skip

@@ -155,10 +155,10 @@ class _Pass:
             padded = np.pad(part, ((0, 0), (0, size - part.shape[1])))
             found = np.array(block(along[:, last], padded, np.repeat(numbers[:, None], size, axis=1)))
             along[:, last + 1 : last + made + 1] = found[:, self.steps - 1 :: self.steps][:, :made]
-            inside = plan.distance(along[:n, last + 1 : last + made + 1]) <= plan.radius
+            inside = plan.inside(along[:n, last + 1 : last + made + 1])
             budget.steps -= part.shape[1]
-            if not inside.all():
-                last += int(np.argmin(inside)) + 1
+            if inside < made:
+                last += inside + 1
                 finite = np.isfinite(along[:n, last]).all()
                 why = "what is held drives the state beyond all bounds; sample more often"
                 stop = plan.escaped if finite else plan.broken(along[:n, 0], along[:n, last - 1], why)

@@ -60,7 +60,7 @@ class SciPy(Engine):
                 return [math.nan] * len(x)
 
         def border(_: float, x: Any) -> float:
-            return float(plan.radius - plan.distance(x))
+            return plan.radius - plan.away(x)
 
         border.terminal = True  # type: ignore[attr-defined]
         samples, start = Samples(member), member.initial[:, 0]
