@@ -42,6 +42,13 @@ class Figure:
             raise InputError(f"the figure {self.name} is neither SVG nor PNG")
 
     @property
+    def title(self) -> str:
+        """What is seen, in words: the caption to its first semicolon or full stop, or to the clause with a formula."""
+        seen = re.split(r"; |\. |\.$", self.caption, maxsplit=1)[0]
+        words, formula, _ = seen.partition("$")
+        return (words.rpartition(",")[0] or words).strip() if formula else seen
+
+    @property
     def kind(self) -> str:
         return "png" if self.content.startswith(b"\x89PNG") else "svg"
 

@@ -11,7 +11,7 @@ from ptproof.report.model import Report
 
 
 def search_index(report: Report, places: Mapping[str, str]) -> str:
-    """A script that sets ``PTPROOF`` to the pages and, for each claim and definition, where it is and what is found.
+    """A script that sets ``PTPROOF`` to the pages and to what is found: claims, definitions, instruments and figures.
 
     ``places`` says on which page each anchor stands.
     """
@@ -58,6 +58,13 @@ def _entries(report: Report) -> Iterator[list[Any]]:
             said = (claim.erratum.wrong, claim.erratum.survives) if claim.erratum else ()
             words = _words(claim.labels, claim.place, claim.words, claim.prose, *said)
             yield [claim.ref.anchor, claim.ref.id, claim.ref.title, claim.status.key, words]
+    for view in report.instruments:
+        moved = [control.meaning for control in view.controls]
+        shown = [part.title for part in (*view.rows, *view.pictures)]
+        words = _words((), view.instrument.prose, *moved, *shown)
+        yield [f"i-{view.instrument.name}", "instrument", view.instrument.title, "instrument", words]
+    for figure in report.figures:
+        yield [f"figure-{figure.name}", "figure", figure.title, "figure", _words((), figure.caption)]
 
 
 def _words(labels: tuple[str, ...], *texts: str) -> str:

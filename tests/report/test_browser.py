@@ -203,6 +203,15 @@ def test_a_claim_is_searched_and_reached_by_the_keyboard_alone(page, folder):
     page.wait_for_url("**/section-1-first-part.html#c-a-*")
 
 
+@pytest.mark.parametrize(("name", "file"), [("one/index.html", "figures.html"), ("one/report.html", "")])
+def test_a_figure_is_searched_as_a_claim_is(page, folder, name, file):
+    page.goto((folder / name).as_uri())
+    page.locator("#find").fill("FIGURE path")
+    page.wait_for_selector("#hits a")
+    assert page.locator("#hits .title").all_inner_texts() == ["The path of x"]
+    assert page.locator("#hits a").first.get_attribute("href") == f"{file}#figure-path"
+
+
 @pytest.mark.parametrize(
     "name", ["one/index.html", "one/section-1-first-part.html", "one/graph.html", "one/errata.html"]
 )

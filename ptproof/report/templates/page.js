@@ -13,6 +13,10 @@
     if (document.querySelector("script[src]") === null) {
       const entries = articles.map((a) => [0, a.id, a.querySelector(".id").textContent, a.querySelector(".name").textContent,
         a.dataset.status === "definition" ? "" : a.dataset.status, a.textContent]);
+      for (const one of document.querySelectorAll("section.instrument, #figures figure")) {
+        const kind = one.className === "instrument" ? "instrument" : "figure";
+        entries.push([0, one.id, kind, one.dataset.title ?? one.querySelector("h2").textContent, kind, one.textContent]);
+      }
       return done({ pages: [""], entries, sections: [] });
     }
     const script = document.createElement("script");
@@ -28,7 +32,7 @@
     if (!words.every((word) => all.includes(word))) return -1;
     return words.reduce((sum, word) => sum + (name.includes(word) ? 2 : 0), 0) + (id.toLowerCase() === words.join(" ") ? 9 : 0);
   };
-  const SIGNS = { full: "✓", modulo: "✓*", open: "✓?", refuted: "✗", undecided: "?", cited: "§", observed: "◉", "": "≔" };
+  const SIGNS = { full: "✓", modulo: "✓*", open: "✓?", refuted: "✗", undecided: "?", cited: "§", observed: "◉", "": "≔", instrument: "⇆", figure: "▨" };
 
   const show = async () => {
     const words = find.value.trim().toLowerCase().split(/\s+/).filter(Boolean);
