@@ -33,9 +33,10 @@ def available(kernel: bool, keep: Path | None) -> None:
     if keep is not None and not kernel:
         raise InputError("--keep: names a folder for the files of --kernel, which is not asked for")
     if kernel:
-        from ptproof.proof.kernel.evidence import available as installed
+        from ptproof.proof.kernel import missing
 
-        installed()
+        if lacking := missing():
+            raise InputError(f"--kernel: {lacking}")
 
 
 def confirmed(verification: Verification, jobs: int | None, keep: Path | None) -> Verification:

@@ -6,24 +6,10 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from ptproof.errors import InputError
 from ptproof.proof.claim import Claim
 from ptproof.proof.kernel.check import SECONDS_PER_CLAIM, Confirmation, check
-from ptproof.proof.kernel.coq import missing
 from ptproof.proof.result import Result
 from ptproof.proof.verdict import Evidence, Verdict
-
-
-def available() -> None:
-    """Nothing, if Coq can be asked.
-
-    Raises
-    ------
-    InputError
-        With what has to be installed.
-    """
-    if lacking := missing():
-        raise InputError(f"--kernel: {lacking}")
 
 
 def second_opinion(

@@ -54,3 +54,10 @@ def plain(text: str) -> str:
 
 
 Names = Mapping[Any, str]
+
+
+def fresh(name: str, names: Names) -> str:
+    """The name, with what it takes at its end to be an identifier that nothing else has."""
+    while name in names.values():
+        name += "_"
+    return name

@@ -32,25 +32,10 @@ from ptproof.proof.statement import (
 class Proposition:
     """A claim in Coq's words.
 
-    Attributes
-    ----------
-    id
-        The claim's.
-    name
-        Its identifier in Coq.
-    text
-        The proposition.
-    names
-        Which symbol or function became which identifier.
-    binders
-        The identifiers of its functions and free symbols, in their order.
-    premises, conclusions
-        Its parts.
-    claim
-        What was translated.
+    ``name`` is its identifier in Coq and ``names`` says which symbol or function became which. ``binders`` are those of
+    its functions and free symbols, in their order; ``premises`` and ``conclusions`` its parts.
     """
 
-    id: str
     name: str
     text: str
     names: Names
@@ -83,13 +68,13 @@ def proposition(claim: Claim) -> Proposition:
     for item in claim.assumptions:
         premises += _given(item, names)
     conclusions, domain = _said(claim.statement, names)
-    if getattr(claim, "where_defined", False):
+    if claim.where_defined:
         premises += domain
     else:
         conclusions = [*domain, *conclusions]
     order = (_sorted(functions), _sorted(free))
     return Proposition(
-        claim.id, f"claim_{plain(claim.id)}", _text(names, *order, applied, premises, conclusions), names,
+        f"claim_{plain(claim.id)}", _text(names, *order, applied, premises, conclusions), names,
         tuple(names[item] for items in order for item in items), tuple(premises), tuple(conclusions), claim,
     )  # fmt: skip
 

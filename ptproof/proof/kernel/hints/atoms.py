@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import sympy as sp
 
-from ptproof.proof.kernel.names import Names
+from ptproof.proof.kernel.names import Names, fresh
 from ptproof.proof.kernel.terms import term
 
 
@@ -57,16 +57,9 @@ class Atoms:
             return expression
         key = sp.Tuple(expression)
         if key not in self.made:
-            self.made[key] = sp.Symbol(self.fresh(f"w{len(self.made)}"), real=True)
+            self.made[key] = sp.Symbol(fresh(f"w{len(self.made)}", self.names), real=True)
             self.names[self.made[key]] = term(expression, self.names)
         return self.made[key]
-
-    def fresh(self, name: str) -> str:
-        """An identifier that nothing else has."""
-        taken = set(self.names.values())
-        while name in taken:
-            name += "_"
-        return name
 
     def _power(self, base: sp.Basic, exponent: sp.Basic) -> sp.Basic:
         """The power by the one chosen for its base, where the exponents differ by whole numbers."""
@@ -111,7 +104,7 @@ class Atoms:
     def _atom(self, expression: sp.Basic) -> sp.Symbol:
         if expression not in self.made:
             text = term(expression, self.names)
-            name = self.fresh(f"a{len(self.made)}")
+            name = fresh(f"a{len(self.made)}", self.names)
             sign = {"positive": True} if expression.is_positive else {}
             sign = sign or ({"nonnegative": True} if expression.is_nonnegative else {})
             symbol = sp.Symbol(name, real=True, **sign)

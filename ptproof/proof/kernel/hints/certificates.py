@@ -87,8 +87,7 @@ class _Writer:
         return [*lines, *self._equation(chain, said)]
 
     def write(self, expression: sp.Basic) -> str:
-        text = term(expression, self.names)
-        return text if text.startswith("(") or text.isidentifier() or text.isdigit() else f"({text})"
+        return term(expression, self.names)
 
     def sides(self, relation: Relation) -> tuple[str, str]:
         """Both sides, as they stand in the claim."""

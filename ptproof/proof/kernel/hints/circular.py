@@ -8,6 +8,7 @@ import sympy as sp
 
 from ptproof.proof.kernel.hints.goals import Goal
 from ptproof.proof.kernel.hints.products import products
+from ptproof.proof.kernel.names import fresh
 from ptproof.proof.statement import Relation
 
 
@@ -23,7 +24,7 @@ def by_circular_bounds(goal: Goal) -> Iterator[str]:
     lines: list[str] = []
     facts = list(goal.known)
     for number, call in enumerate(calls):
-        symbol = stands[call] = sp.Symbol(goal.fresh(f"trig{number}"), real=True)
+        symbol = stands[call] = sp.Symbol(fresh(f"trig{number}", goal.names), real=True)
         names[symbol] = symbol.name
         (angle,) = call.args
         kind = "sin" if isinstance(call, sp.sin) else "cos"

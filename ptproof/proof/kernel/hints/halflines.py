@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import sympy as sp
 
 from ptproof.proof.kernel.hints.goals import Goal, is_shown
+from ptproof.proof.kernel.names import fresh
 from ptproof.proof.statement import Relation
 
 _MOST_DERIVATIVES = 6
@@ -89,7 +90,7 @@ def _one_part(part: sp.Expr, symbol: sp.Symbol, over: _Range, name: str, goal: G
     """That this part is not negative, as a fact called ``name``."""
     if is_shown(part):
         return f"assert ({name} : 0 <= {goal.text(part)}) by sign"
-    own, x = goal.names[symbol], goal.fresh("every")
+    own, x = goal.names[symbol], fresh("every", goal.names)
     variable = sp.Symbol(x, real=True)
     goal = Goal(goal.relation, goal.known, {**goal.names, variable: x})
     part, symbol = part.xreplace({symbol: variable}), variable

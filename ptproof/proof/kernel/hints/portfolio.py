@@ -17,13 +17,14 @@ from ptproof.proof.kernel.declared import of_symbol
 from ptproof.proof.kernel.hints.atoms import Atoms
 from ptproof.proof.kernel.hints.certificates import certificate
 from ptproof.proof.kernel.hints.derived import Derived, derived
-from ptproof.proof.kernel.hints.goals import Goal, brackets
+from ptproof.proof.kernel.hints.goals import Goal, upright
 from ptproof.proof.kernel.hints.integrals import integrals
 from ptproof.proof.kernel.hints.limits import near
 from ptproof.proof.kernel.hints.norms import norms
 from ptproof.proof.kernel.hints.products import products
 from ptproof.proof.kernel.hints.search import by_steps
 from ptproof.proof.kernel.hints.witnesses import witnesses
+from ptproof.proof.kernel.names import fresh
 from ptproof.proof.kernel.obligations import Part
 from ptproof.proof.kernel.smooth import script as smoothness
 from ptproof.proof.kernel.terms import NoTranslation, term
@@ -83,15 +84,10 @@ def _leaf(part: Part, known: list[Relation], more: list[Derived], said: Proposit
     for way in ways:
         with contextlib.suppress(NoTranslation, sp.PolynomialError):
             tries += way(part.relation, known, said)
-    if part.relation.sign != "!=" and _powers(part.relation):
+    powers = sp.Tuple(part.relation.left, part.relation.right).atoms(sp.Pow)
+    if part.relation.sign != "!=" and any(not power.exp.is_number for power in powers):
         tries.append("solve [ by_growth ]")
-    quick = "quickly"
-    return "; ".join([quick, *(f"try ({hint})" for hint in tries), "leaf_or_say"])
-
-
-def _powers(relation: Relation) -> bool:
-    """Whether a power with an exponent that is no number stands in the relation."""
-    return any(not power.exp.is_number for side in (relation.left, relation.right) for power in side.atoms(sp.Pow))
+    return "; ".join(["quickly", *(f"try ({hint})" for hint in tries), "leaf_or_say"])
 
 
 def _witnessed(part: Part, known: list[Relation], said: Proposition) -> str:
@@ -101,22 +97,15 @@ def _witnessed(part: Part, known: list[Relation], said: Proposition) -> str:
         return ""
     steps: list[str] = []
     for symbol in part.exists.variables:
-        kinds = of_symbol(symbol, said.names[symbol])
-        steps.append(
-            f"exists {brackets(term(values[symbol], said.names))}{'; split; [> solve [ WAY ] | ]' * len(kinds)}"
-        )
-        way = " | ".join(
-            f"solve [ {hint} ]" for hint in _by_steps(Relation(sp.Integer(0), "<", values[symbol]), known, said)
-        )
-        steps[-1] = steps[-1].replace("WAY", f"first [ sign | {way or 'fail'} ]")
-    leaves = [_leaf(_put(item, values), known, [], said, True) for item in part.body]
+        positive = Relation(sp.Integer(0), "<", values[symbol])
+        ways = " | ".join(f"solve [ {hint} ]" for hint in _by_steps(positive, known, said)) or "fail"
+        kinds = f"; split; [> solve [ first [ sign | {ways} ] ] | ]" * len(of_symbol(symbol, said.names[symbol]))
+        steps.append(f"exists {term(values[symbol], said.names)}{kinds}")
+    put = (item.relation and item.relation.map(lambda side: side.xreplace(values)) for item in part.body)
+    body = [replace(item, relation=relation) for item, relation in zip(part.body, put, strict=True)]
+    leaves = [_leaf(item, known, [], said, True) for item in body]
     intro = f"intros {' '.join(said.names[symbol] for symbol in part.exists.over)}; " if part.exists.over else ""
     return f"{'; '.join(steps)}; {intro}intros; facts; pieces; [> {' | '.join(leaves)} ]"
-
-
-def _put(part: Part, values: dict[sp.Symbol, sp.Expr]) -> Part:
-    relation = part.relation and part.relation.map(lambda side: side.xreplace(values))
-    return replace(part, relation=relation)
 
 
 def _by_steps(relation: Relation, known: list[Relation], said: Proposition) -> Iterator[str]:
@@ -168,9 +157,9 @@ def _directly(relation: Relation, known: list[Relation], said: Proposition) -> I
     start = "; ".join([*atoms.lines, *lines])
     start = f"{start}; " if start else ""
     if relation.sign == "!=":
-        yield f"solve [ {start}nonzero_as {_text(-gap, atoms)} ]"
+        yield f"solve [ {start}nonzero_as {term(-gap, atoms.names)} ]"
         return
-    yield f"solve [ {start}difference_as {_text(_upright(gap), atoms)} ]"
+    yield f"solve [ {start}difference_as {term(upright(gap), atoms.names)} ]"
     if gap.is_positive or (gap.is_nonnegative and relation.sign in ("<=", ">=")):
         return
     # Here the variables stay as they are: their bounds are facts like any other.
@@ -185,25 +174,16 @@ def _by_norms(relation: Relation, known: list[Relation], said: Proposition) -> I
         yield from (f"solve [ {'; '.join([*lines, hint])} ]" for hint in _directly(goal, others, said))
 
 
-def _upright(product: sp.Expr) -> sp.Expr:
-    """The same product without a minus before it, where one of its factors can take that."""
-    constant, factors = product.as_coeff_mul()
-    turned = next((factor for factor in factors if factor.is_Add and factor.is_nonnegative is None), None)
-    if constant >= 0 or turned is None:
-        return product
-    return sp.Mul(-constant, *(sp.expand(-factor) if factor is turned else factor for factor in factors))
-
-
 def _by_products(gap: sp.Expr, facts: list[Relation], atoms: Atoms) -> str:
     top, bottom = sp.fraction(gap)
     found = products(top, facts)
     if found is None:
         return ""
-    steps = [f"top_of {_text(top, atoms)} {_text(bottom, atoms)}"]
+    steps = [f"top_of {term(top, atoms.names)} {term(bottom, atoms.names)}"]
     if found.factor != 1:
-        steps.append(f"multiply_by {_text(found.factor, atoms)}")
-    steps += [f"fact_from {_text(fact.bottom, atoms)} {_text(fact.top, atoms)}" for fact in found.facts]
-    steps += [f"product ({' * '.join(_text(factor, atoms) for factor in factors)})" for factors in found.products]
+        steps.append(f"multiply_by {term(found.factor, atoms.names)}")
+    steps += [f"fact_from {term(fact.bottom, atoms.names)} {term(fact.top, atoms.names)}" for fact in found.facts]
+    steps += [f"product ({' * '.join(term(factor, atoms.names) for factor in factors)})" for factors in found.products]
     return "; ".join([*steps, "linear"])
 
 
@@ -217,7 +197,7 @@ def _by_logarithms(relation: Relation, known: list[Relation], said: Proposition)
     facts = []
     for item in (given.standard() for given in known):
         if _monomial(item.left) and _monomial(item.right):
-            sides = " ".join(_brackets(term(side, said.names)) for side in (item.left, item.right))
+            sides = " ".join(term(side, said.names) for side in (item.left, item.right))
             steps.append(f"try (logarithms_of {sides})")
             facts.append(item.map(lambda side: _logarithm(side, atoms)))
         elif item.left.is_number or item.right.is_number:
@@ -267,13 +247,13 @@ def slack(facts: list[Relation], atoms: Atoms) -> tuple[dict[sp.Symbol, sp.Expr]
         text = atoms.names[symbol]
         if relation.sign == "=":
             value = rest
-            lines.append(f"replace_by {text} {_text(value, atoms)}")
+            lines.append(f"replace_by {text} {term(value, atoms.names)}")
         else:
-            name = atoms.fresh(f"gap{len(lines)}")
+            name = fresh(f"gap{len(lines)}", atoms.names)
             above = sp.Symbol(name, **{"positive" if relation.sign == "<" else "nonnegative": True})
             atoms.names[above] = name
             value = rest + above
-            lines.append(f"{'above' if relation.sign == '<' else 'at_least'} {text} {_text(rest, atoms)} {name}")
+            lines.append(f"{'above' if relation.sign == '<' else 'at_least'} {text} {term(rest, atoms.names)} {name}")
         moved = {old: new.xreplace({symbol: value}) for old, new in moved.items()} | {symbol: value}
     return moved, lines
 
@@ -287,11 +267,3 @@ def _solvable(gap: sp.Expr, sign: str) -> sp.Symbol | None:
 
     found = [symbol for symbol in gap.free_symbols if fits(symbol)]
     return min(found, key=lambda s: (s.name.startswith("gap"), s.is_nonnegative is True, s.name), default=None)
-
-
-def _text(expression: sp.Basic, atoms: Atoms) -> str:
-    return _brackets(term(expression, atoms.names))
-
-
-def _brackets(text: str) -> str:
-    return text if text.startswith("(") or text.isidentifier() or text.isdigit() else f"({text})"

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import sympy as sp
 
 from ptproof.proof.kernel.hints.goals import Goal
+from ptproof.proof.kernel.names import fresh
 from ptproof.proof.statement import Relation
 
 
@@ -17,7 +18,7 @@ def squared_symbols(goal: Goal) -> tuple[list[str], Goal]:
     lines: list[str] = [f"keeps_root {number}" for number in numbers]
     symbols = dict.fromkeys(root.base for root in roots if root.base.is_Symbol and root.base.is_nonnegative)
     for symbol in symbols:
-        name = goal.fresh("r_" + goal.names[symbol])
+        name = fresh("r_" + goal.names[symbol], goal.names)
         kind = "positive" if symbol.is_positive or _is_positive(symbol, goal) else "nonnegative"
         root = sp.Symbol(name, **{kind: True})
         number = next((n for n in numbers if _together(goal, symbol, n)), None)

@@ -40,10 +40,6 @@ class View:
         """Both sides in this view."""
         return Relation(self.of(relation.left), relation.sign, self.of(relation.right))
 
-    def out(self, expression: sp.Expr) -> sp.Expr:
-        """The expression in the claim's own symbols."""
-        return expression.xreplace(self.back)
-
 
 def view(known: Iterable[Relation]) -> View:
     """A view in which what is known of plain symbols is seen; signs that are declared stay so."""
