@@ -154,6 +154,10 @@ class Claim:
         used = tuple(used.content for used in self.uses)
         return digest(self.statement, self.assumptions, self.where_defined, used)
 
+    def contains(self, text: str) -> bool:
+        """Whether the text stands in its id, title, section or labels, in small or large letters."""
+        return any(text.lower() in word.lower() for word in (self.id, self.title, self.section, *self.labels))
+
     def goal(self) -> Goal:
         """What the proof receives."""
         return Goal(self.id, self.statement, self.assumptions, self.uses, self.where_defined, self.example)

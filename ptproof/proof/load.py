@@ -56,11 +56,7 @@ class Derivation:
         """The claims whose id, title, section or labels contain ``text``, and all that they use."""
         if not text:
             return self.claims
-        chosen = [
-            item for item in self.claims
-            if any(text.lower() in word.lower() for word in (item.id, item.title, item.section, *item.labels))
-        ]  # fmt: skip
-        wanted = {item.id for item in with_ancestors(chosen)}
+        wanted = {item.id for item in with_ancestors(item for item in self.claims if item.contains(text))}
         return tuple(item for item in self.claims if item.id in wanted)
 
 
