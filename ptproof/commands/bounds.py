@@ -105,7 +105,7 @@ def _certify(
     from ptproof.certify import certify_field
     from ptproof.errors import InputError
     from ptproof.reading.expressions import parse
-    from ptproof.reading.tables import RESERVED, declared
+    from ptproof.reading.tables import RESERVED, declared, split_list
 
     variables = [sp.Symbol(name, real=True) for name in declared(split_list(names), "--vars", RESERVED)]
     at = ["0"] * len(variables) if source is None else split_list(source)
@@ -122,18 +122,6 @@ def _certify(
         rtol=rtol,
         seconds=seconds,
     )
-
-
-def split_list(text: str) -> list[str]:
-    """The entries of a list, separated by the commas outside of parentheses."""
-    entries, depth = [""], 0
-    for character in text:
-        depth += (character == "(") - (character == ")")
-        if character == "," and depth == 0:
-            entries.append("")
-        else:
-            entries[-1] += character
-    return [entry.strip() for entry in entries]
 
 
 def _draw(certificate: FieldCertificate, path: str) -> None:

@@ -25,6 +25,7 @@ from typing import Any
 
 from ptproof.drafting.letters import Letters
 from ptproof.drafting.names import python_name, unused
+from ptproof.reading.latex.notation import flat
 
 
 @dataclass(frozen=True)
@@ -125,11 +126,11 @@ class _Guessing:
 
     def move(self, key: str, times: Sequence[str]) -> None:
         """A letter that moves is the same with and without its time."""
-        flat = list(_flat(self.letters[key]))
-        self.states.update(flat)
+        names = list(flat(self.letters[key]))
+        self.states.update(names)
         if key in self.found.applied and key not in self.found.factors:
             self.functions[key] = self.letters[key]
-            self.means.update({f"{name}({time})": name for name in flat for time in times})
+            self.means.update({f"{name}({time})": name for name in names for time in times})
 
     def apply(self, key: str) -> None:
         """A function, and what its letter alone stands for."""
@@ -140,10 +141,10 @@ class _Guessing:
         value = self.functions[key] = self.value(key, function=True)
         if at is None:
             return
-        arguments = [name for x in at for name in _flat(self.letters[x])]
+        arguments = [name for x in at for name in flat(self.letters[x])]
         if len(set(arguments)) < len(arguments):
             return
-        for name in _flat(value):
+        for name in flat(value):
             self.generic[name] = tuple(arguments)
         spoken = f"({', '.join(arguments)})"
         self.letters[key] = _mapped(value, lambda name: name + spoken)
@@ -165,14 +166,6 @@ def _entry(key: str, index: str) -> str:
     both = f"{low.strip('{}')},{index}" if low else index
     script = f"_{both}" if len(both) == 1 else f"_{{{both}}}"
     return base + script + star + high
-
-
-def _flat(value: Any) -> Iterable[str]:
-    if isinstance(value, list):
-        for entry in value:
-            yield from _flat(entry)
-    else:
-        yield str(value)
 
 
 def _mapped(value: Any, change: Any) -> Any:

@@ -6,12 +6,11 @@ from collections.abc import Generator, Iterator, Sequence
 from dataclasses import dataclass
 
 from ptproof.drafting.matrices import columns, members, transposed
-from ptproof.drafting.spelled import arguments_at, name_at
+from ptproof.drafting.spelled import TRANSPOSE, arguments_at, name_at
 from ptproof.reading.latex.cursor import differential
 from ptproof.reading.latex.notation import spelling
 from ptproof.reading.latex.tokens import NotUnderstood, Token, argument
 
-_TRANSPOSE = frozenset({"T", r"\top", r"\intercal", r"\text"})
 _NOT_SMOOTH = frozenset({"sat", "sgn", "sign", "sig", "dz"})
 
 
@@ -74,13 +73,11 @@ def _walk(tokens: list[Token], integral: bool, along: str = "") -> Iterator[Occu
                 yield from _quotient(above, below, tokens, after, integral)
                 position = after
             elif text in (r"\dot", r"\ddot"):
-                inside, after = argument(tokens, position + 1, token)
-                after = _behind(tokens, after)
-                yield from _walk(
-                    [*inside, *tokens[position + 1 + _length(tokens, position + 1) : after]], integral, "t"
-                )
+                inside, end = argument(tokens, position + 1, token)
+                after = _behind(tokens, end)
+                yield from _walk([*inside, *tokens[end:after]], integral, "t")
                 position = after
-            elif text in (r"\text", r"\mathbb", r"\begin{array}") or text in (r"\label", r"\tag"):
+            elif text in (r"\text", r"\mathbb", r"\begin{array}", r"\label", r"\tag"):
                 position = yield from _word(tokens, position)
             elif (named := name_at(tokens, position)) is not None:
                 key, after, base = named
@@ -93,7 +90,7 @@ def _walk(tokens: list[Token], integral: bool, along: str = "") -> Iterator[Occu
                 along, position = "", after
             else:
                 position += 1
-                if text == "^" and position < len(tokens) and tokens[position].text in _TRANSPOSE:
+                if text == "^" and position < len(tokens) and tokens[position].text in TRANSPOSE:
                     position += 1
         except NotUnderstood:
             position += 1
@@ -134,10 +131,6 @@ def _behind(tokens: Sequence[Token], position: int) -> int:
     while position + 1 < len(tokens) and tokens[position].text == "_":
         _, position = argument(tokens, position + 1, tokens[position])
     return arguments_at(tokens, position)[1]
-
-
-def _length(tokens: Sequence[Token], position: int) -> int:
-    return argument(tokens, position, tokens[position])[1] - position
 
 
 def _is_differential(tokens: Sequence[Token], position: int, integral: bool) -> bool:

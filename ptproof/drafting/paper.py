@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
 from typing import Any
@@ -77,7 +77,7 @@ def read_with_guesses(source: str) -> Paper:
         guessed, before = guess(letters), dict(letters.shapes)
         reader = _Reader(guessed, letters)
         for item in every:
-            letters.shapes |= {**reader.shapes(tokens[id(item)], letters), **letters.forms_shaped()}
+            letters.shapes |= {**reader.shapes(tokens[id(item)]), **letters.forms_shaped()}
         if letters.shapes == before:
             break
     said = [reader.said(item, formulas.macros) for item in formulas.displayed]
@@ -126,12 +126,7 @@ class _Reader:
         """What the formula says in the names of the derivation, states without their time."""
         try:
             self.refuse_two_readings(_tokens(formula, macros), formula.line)
-            reading, meaning = read_formula(formula, macros, self.notation), self.meaning
-            parts = {
-                name: tuple(replace(p, left=meaning(p.left), right=meaning(p.right)) for p in getattr(reading, name))
-                for name in ("pairs", "conditions", "braces")
-            }
-            return Said(formula, replace(reading, **parts))
+            return Said(formula, read_formula(formula, macros, self.notation).map(self.meaning))
         except NotUnderstood as error:
             return Said(formula, None, str(error))
         except (InputError, TypeError, ValueError, AttributeError, ArithmeticError, RecursionError) as error:
@@ -152,14 +147,12 @@ class _Reader:
             if not self.letters.is_sized(item.key):
                 raise NotUnderstood("matrix", f"nothing tells of what size {item.key} is", item.line)
 
-    def shapes(self, tokens: Sequence[Token], letters: Letters) -> dict[str, tuple[int, int]]:
+    def shapes(self, tokens: Sequence[Token]) -> dict[str, tuple[int, int]]:
         """The shapes of letters that stand alone beside a column or a matrix."""
         found: dict[str, tuple[int, int]] = {}
         for chain in _chains(tokens):
             alone = [(_alone(side), i) for i, side in enumerate(chain)]
-            unknown = [(key, i) for key, i in alone if key and letters.shape(key) is None]
-            if not unknown or len(chain) < 2:
-                continue
+            unknown = [(key, i) for key, i in alone if key and self.letters.shape(key) is None]
             for key, place in unknown:
                 for beside in (place + 1, place - 1):
                     value = self.value(chain[beside]) if 0 <= beside < len(chain) else None
@@ -206,9 +199,7 @@ def _alone(side: Sequence[Token]) -> str:
     if named is None:
         return ""
     rest = [token.text for token in tokens[named[1] :]]
-    return (
-        named[0] if not rest or (rest[0] == "(" and rest.index(")") == len(rest) - 1 if ")" in rest else False) else ""
-    )
+    return named[0] if not rest or (rest[0] == "(" and rest[-1] == ")" and rest.count(")") == 1) else ""
 
 
 def _has_power_of_e(tokens: Sequence[Token]) -> bool:

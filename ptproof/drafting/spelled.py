@@ -4,17 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ptproof.reading.latex.letters import low_letter
+from ptproof.reading.latex.letters import ACCENTS, low_letter
 from ptproof.reading.latex.notation import spelling
 from ptproof.reading.latex.tokens import Token, argument, written
 
-_ACCENTS = frozenset(
-    rf"\{name}" for name in (
-        "bar", "tilde", "hat", "check", "vec", "mathbf", "mathcal", "mathfrak", "boldsymbol", "widetilde", "overline",
-    )
-)  # fmt: skip
+_ACCENTS = ACCENTS - {r"\mathbb", r"\text"}
 _IN_NAME = frozenset({"*", "+", r"\star", r"\ast", r"\dagger"})
-_TRANSPOSE = frozenset({"T", r"\top", r"\intercal", r"\text"})
+TRANSPOSE = frozenset({"T", r"\top", r"\intercal", r"\text"})
 _CLOSED = {"(": ")", "[": "]", "{": "}"}
 
 
@@ -50,7 +46,7 @@ def arguments_at(tokens: Sequence[Token], position: int) -> tuple[tuple[str, ...
     """The spelling of each argument in the parentheses that open here, behind a transpose at most."""
     if position < len(tokens) and tokens[position].text == "^":
         above, behind = argument(tokens, position + 1, tokens[position])
-        if len(above) != 1 or above[0].text not in _TRANSPOSE:
+        if len(above) != 1 or above[0].text not in TRANSPOSE:
             return None, position
         return arguments_at(tokens, behind) if behind < len(tokens) and tokens[behind].text == "(" else (None, position)
     if position >= len(tokens) or tokens[position].text != "(":

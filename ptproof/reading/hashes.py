@@ -16,18 +16,8 @@ from pathlib import Path
 from typing import Any
 
 # A verdict may depend on each of these; what else is installed does not matter.
-LIBRARIES = (
-    "sympy",
-    "z3-solver",
-    "python-flint",
-    "mpmath",
-    "numpy",
-    "scipy",
-    "casadi",
-    "heyoka",
-    "control",
-    "networkx",
-)
+LIBRARIES = ("sympy", "z3-solver", "python-flint", "mpmath", "numpy", "scipy", "casadi", "heyoka", "control",
+             "networkx")  # fmt: skip
 REPORT = ".ptproof-report.json"  # stands in the folder of a report
 _SIZE, _FILES = 2**27, 2000
 _PACKAGE = Path(__file__).resolve().parents[1]
@@ -136,11 +126,8 @@ def opened() -> Iterator[set[str]]:
         yield found
     finally:
         _opened[:] = [other for other in _opened if other is not found]  # equal ones are others
-        found |= {str(file) for name in set(sys.modules) - before if (file := _file_of(name))}
-
-
-def _file_of(name: str) -> Any:
-    return getattr(sys.modules.get(name), "__file__", None)
+        new = (getattr(sys.modules.get(name), "__file__", None) for name in set(sys.modules) - before)
+        found.update(str(file) for file in new if file)
 
 
 def _note(event: str, arguments: tuple[Any, ...]) -> None:

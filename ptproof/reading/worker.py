@@ -24,15 +24,13 @@ def whole(sent: bytearray) -> tuple[bytes, bool] | str | None:
     if len(sent) < HEAD.size:
         return None
     length, digest = HEAD.unpack_from(sent)
-    size = abs(length)
-    if not 0 < size < _MOST or len(sent) > HEAD.size + size:
-        return "the work wrote to the channel of its answer"
-    if len(sent) < HEAD.size + size:
+    fits, missing = 0 < abs(length) < _MOST, abs(length) - (len(sent) - HEAD.size)
+    if fits and missing > 0:
         return None
     payload = bytes(sent[HEAD.size :])
-    return (payload, length < 0) if hashlib.sha256(payload).digest() == digest else (
-        "the work wrote to the channel of its answer"
-    )  # fmt: skip
+    if not fits or missing < 0 or hashlib.sha256(payload).digest() != digest:
+        return "the work wrote to the channel of its answer"
+    return payload, length < 0
 
 
 _HEARD = {signal.SIGCHLD, signal.SIGUSR1}

@@ -193,11 +193,8 @@ class _Scan:
 
     def foreign(self, position: int, end: int) -> bool:
         """Whether a second display begins before this one ends; a blank line alone does not break one."""
-        return bool(
-            re.search(
-                r"\\(?:begin\s*\{{(?:{})\*?\}}|(?:sub)?section\b)".format("|".join(DISPLAYS)), self.text[position:end]
-            )
-        )
+        display = r"\\(?:begin\s*\{{(?:{})\*?\}}|(?:sub)?section\b)".format("|".join(DISPLAYS))
+        return re.search(display, self.text[position:end]) is not None
 
     def display(self, name: str, full: str, position: int) -> int:
         if name in ("alignat", "xalignat", "xxalignat", "IEEEeqnarray"):
@@ -214,22 +211,12 @@ class _Scan:
         return after
 
     def inline(self, closing: str, position: int) -> int:
-        match = re.compile(r"(?<!\\)" + re.escape(closing) if closing == "$" else re.escape(closing)).search(
-            self.text, position
-        )
+        match = re.compile(r"(?<!\\)\$" if closing == "$" else re.escape(closing)).search(self.text, position)
         blank = re.compile(r"\n[ \t]*\n").search(self.text, position)
         if match is None or (blank and blank.start() < match.start()):
             end = blank.start() if blank else len(self.text)
-            self.running.append(
-                Formula(
-                    self.place.next_in_text(),
-                    (),
-                    self.line(position),
-                    self.text[position:end],
-                    False,
-                    "its end is missing",
-                )
-            )
+            place, text = self.place.next_in_text(), self.text[position:end]
+            self.running.append(Formula(place, (), self.line(position), text, False, "its end is missing"))
             return end
         text = self.text[position : match.start()]
         if _RELATION.search(text):

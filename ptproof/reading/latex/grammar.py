@@ -52,8 +52,7 @@ class Grammar(Sets):
     def signed(self) -> Any:
         if self.text not in ("+", "-"):
             return self.product()
-        value = self.product() if self.take().text == "+" else negate(self.product())
-        return value
+        return self.product() if self.take().text == "+" else negate(self.product())
 
     def ends(self) -> bool:
         """Whether no further factor follows."""
@@ -139,17 +138,9 @@ class Grammar(Sets):
 
     def group(self) -> Any:
         opened = self.take()
-        bars, self.bars = self.bars, []
-        value = self.expression()
-        self.bars = bars
-        if self.text == "," and opened.text == "[":
-            listed = [value]
-            while self.text == ",":
-                self.take()
-                listed.append(self.expression())
-            value = self.listed(listed, opened)
+        values = self.separated() if opened.text == "[" else self.separated(1)
         self.expect(_DELIMITERS[opened.text], opened)
-        return value
+        return values[0] if len(values) == 1 else self.listed(values, opened)
 
     def between_bars(self) -> Any:
         """A norm: what the notation says that it is, or the one that is computed."""

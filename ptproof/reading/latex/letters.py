@@ -7,13 +7,14 @@ from collections.abc import Sequence
 from typing import Any
 
 import sympy as sp
+from sympy.core.alphabets import greeks
 
 from ptproof.reading.latex.cursor import Cursor, differential
 from ptproof.reading.latex.notation import Notation, spelling
 from ptproof.reading.latex.rewrite import function
 from ptproof.reading.latex.tokens import Token, written
 
-_ACCENTS = frozenset(
+ACCENTS = frozenset(
     rf"\{name}" for name in (
         "bar", "tilde", "hat", "check", "vec", "mathbf", "mathcal", "mathbb", "mathfrak", "boldsymbol", "text",
         "widetilde", "overline",
@@ -50,7 +51,7 @@ class Letters(Cursor):
     def named(self) -> list[Token]:
         """The tokens of a letter with its accents, without index and exponent."""
         token = self.take()
-        if token.text not in _ACCENTS:
+        if token.text not in ACCENTS:
             known = token.text.isalpha() or (token.text.startswith("\\") and token.text[1:].isalpha())
             if not known:
                 raise self.refuse("grammar", f"{token.text or 'the end'} is not expected here", token)
@@ -80,7 +81,7 @@ class Letters(Cursor):
         raise self.refuse(*self.unknown(base, key, start), start)
 
     def unknown(self, base: list[Token], key: str, start: Token) -> tuple[str, str]:
-        if start.text.startswith("\\") and start.text not in _ACCENTS and len(base) == 1 and not low_letter(start.text):
+        if start.text.startswith("\\") and start.text not in ACCENTS and len(base) == 1 and not low_letter(start.text):
             return "macro", f"{start.text} is not known"
         return "letter", f"the notation says nothing of {key}"
 
@@ -111,13 +112,18 @@ class Letters(Cursor):
     def arguments(self) -> list[Any]:
         """What stands in parentheses, or in a group, separated by commas."""
         opened = self.take()
+        values = self.separated()
+        self.expect(")" if opened.text == "(" else "}", opened)
+        return values
+
+    def separated(self, most: int = 0) -> list[Any]:
+        """Expressions between commas, at ``most`` so many; bars that were open before do not close in them."""
         bars, self.bars = self.bars, []
         values = [self.expression()]
-        while self.text == ",":
+        while self.text == "," and len(values) != most:
             self.take()
             values.append(self.expression())
         self.bars = bars
-        self.expect(")" if opened.text == "(" else "}", opened)
         return values
 
     def dotted(self, tokens: list[Token], at: Token) -> tuple[Any, list[Token]]:
@@ -145,37 +151,4 @@ def low_letter(text: str) -> bool:
     return text[1:].lower() in _GREEK
 
 
-_GREEK = frozenset(
-    [
-        "alpha",
-        "beta",
-        "gamma",
-        "delta",
-        "epsilon",
-        "varepsilon",
-        "zeta",
-        "eta",
-        "theta",
-        "vartheta",
-        "iota",
-        "kappa",
-        "lambda",
-        "mu",
-        "nu",
-        "xi",
-        "pi",
-        "varpi",
-        "rho",
-        "varrho",
-        "sigma",
-        "varsigma",
-        "tau",
-        "upsilon",
-        "phi",
-        "varphi",
-        "chi",
-        "psi",
-        "omega",
-        "ell",
-    ]
-)
+_GREEK = {*greeks, "lambda", "varepsilon", "vartheta", "varpi", "varrho", "varsigma", "varphi", "ell"} - {"omicron"}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import sympy as sp
@@ -11,7 +11,7 @@ import sympy as sp
 from ptproof.reading.latex.calculus import Calculus
 from ptproof.reading.latex.cursor import RELATIONS
 from ptproof.reading.latex.tokens import Token
-from ptproof.reading.latex.values import add
+from ptproof.reading.latex.values import add, entrywise
 
 _MOST = 200
 
@@ -127,8 +127,7 @@ class Ranges(Calculus):
         equal = next((i for i, token in enumerate(where) if token.text == "="), 0)
         variable, point = self.inner(where[:equal]), self.inner(where[equal + 1 :])
         pairs = list(zip(variable, point, strict=True)) if isinstance(variable, sp.MatrixBase) else [(variable, point)]
-        change: Callable[[Any], Any] = lambda entry: sp.Subs(entry, *map(tuple, zip(*pairs, strict=True)))  # noqa: E731
-        return value.applyfunc(change) if isinstance(value, sp.MatrixBase) else change(value)
+        return entrywise(value, lambda entry: sp.Subs(entry, *map(tuple, zip(*pairs, strict=True))))
 
 
 def _limit(entry: Any, variable: sp.Symbol, target: Any) -> Any:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import sympy as sp
@@ -58,6 +58,13 @@ class Reading:
 
     def __str__(self) -> str:
         return ", ".join(map(str, self.pairs))
+
+    def map(self, change: Callable[[sp.Expr], sp.Expr]) -> Reading:
+        """The same with every side changed."""
+        names = ("pairs", "conditions", "braces")
+        parts = {name: tuple(replace(p, left=change(p.left), right=change(p.right)) for p in getattr(self, name))
+                 for name in names}  # fmt: skip
+        return replace(self, **parts)
 
 
 def read_formula(formula: Formula, macros: Mapping[str, Macro], notation: Notation) -> Reading:
@@ -210,12 +217,8 @@ def _flat(tokens: list[Token]) -> list[Token]:
         if matrices == 0 and text == "\\\\":
             following = next((t.text for t in tokens[position:] if t.text != "&"), "")
             last = result[-1].text if result else ""
-            if (
-                brackets <= 0
-                and last not in {*_GO_ON, ","}
-                and following not in _GO_ON
-                and not following.startswith(r"\end")
-            ):
+            goes_on = last in {*_GO_ON, ","} or following in _GO_ON or following.startswith(r"\end")
+            if brackets <= 0 and not goes_on:
                 result.append(Token(",", token.line))
             continue
         result.append(token)

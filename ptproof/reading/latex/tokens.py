@@ -9,7 +9,6 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from ptproof.errors import InputError
 from ptproof.reading.latex.source import braced
 
 _DEFINITION = re.compile(
@@ -125,17 +124,6 @@ def _numbers(raw: Iterator[tuple[Token, int, int]]) -> Iterator[Token]:
         else:
             yield token
     yield from (item for item in (held, point) if item is not None)
-
-
-def expand(found: Sequence[Token], macros: Mapping[str, Macro]) -> list[Token]:
-    """The tokens with the paper's macros replaced by what they stand for, and spacing left out.
-
-    Raises
-    ------
-    NotUnderstood
-        Where a macro lacks an argument, or stands for itself.
-    """
-    return list(_without_spacing(_evaluated(_upright(_expanded(list(found), macros, 0)))))
 
 
 def _expanded(found: list[Token], macros: Mapping[str, Macro], depth: int) -> list[Token]:
@@ -269,12 +257,15 @@ def checked(found: Sequence[Token]) -> None:
 
 
 def read(text: str, line: int, macros: Mapping[str, Macro]) -> list[Token]:
-    """Tokens of a piece of mathematics with macros put in, or :class:`NotUnderstood`."""
+    """Tokens of a piece of mathematics with the paper's macros put in, and spacing left out.
+
+    Raises
+    ------
+    NotUnderstood
+        Where it does not end, a macro lacks an argument or stands for itself, or braces do not match.
+    """
     if len(text) > _LONGEST:
         raise NotUnderstood("bad LaTeX", "the formula does not come to an end", line)
-    try:
-        found = expand(tokens(text, line), macros)
-    except InputError as error:  # pragma: no cover
-        raise NotUnderstood("bad LaTeX", str(error), line) from None
+    found = list(_without_spacing(_evaluated(_upright(_expanded(tokens(text, line), macros, 0)))))
     checked(found)
     return found
