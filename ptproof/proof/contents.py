@@ -44,17 +44,7 @@ def said(derivation: Derivation, digests: Mapping[str, str], files: Sequence[Pat
     }
 
 
-def needed(known: Any, digests: Mapping[str, str], files: Iterable[Path], text: str) -> list[Path] | None:
-    """Those of the files that may hold a claim that contains ``text``; None where they have to be loaded all."""
-    return _holding(known, digests, files, text) or None
-
-
-def lacking(known: Any, digests: Mapping[str, str], files: Iterable[Path], text: str) -> bool:
-    """Whether none of the files holds a claim that contains ``text``, for certain."""
-    return _holding(known, digests, files, text) == []
-
-
-def _holding(known: Any, digests: Mapping[str, str], files: Iterable[Path], text: str) -> list[Path] | None:
+def holding(known: Any, digests: Mapping[str, str], files: Iterable[Path], text: str) -> list[Path] | None:
     """The files that may hold a claim that contains ``text``; None where nothing is known of them."""
     chosen, wanted = [], text.lower()
     if not isinstance(known, dict) or not wanted:

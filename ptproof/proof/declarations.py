@@ -14,9 +14,13 @@ import sympy as sp
 from sympy.core.assumptions import StdFactKB
 from sympy.core.function import AppliedUndef
 
+from ptproof.proof.relation import RelationSign
+
 Letter: TypeAlias = sp.Symbol | AppliedUndef
 # Only a sign may be shown otherwise than by SymPy, of what SymPy knows to be real.
 SIGNS = ("positive", "nonnegative", "negative", "nonpositive", "nonzero")
+SAYS: Mapping[str, RelationSign] = dict(zip(SIGNS, (">", ">=", "<", "<=", "!="), strict=True))
+"""The relation of a value to 0 that each of these words says."""
 _WORDS = (
     "real", *SIGNS, "zero", "integer", "noninteger", "rational", "irrational", "even", "odd", "prime", "composite",
     "imaginary",

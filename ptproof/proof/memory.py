@@ -76,7 +76,7 @@ class Memory:
         key = self._contents_key()
         files, known = files_of(self._paths), None if self._fresh else self._cache.read(key)
         with self.loading():
-            few = contents.needed(known, self._before, files, select)
+            few = contents.holding(known, self._before, files, select) or None
             derivation = load(self._paths, few)
             if few is not None and known is not None and contents.doubtful(known, few, derivation):
                 few, derivation = None, load(self._paths)
@@ -92,7 +92,7 @@ class Memory:
         from ptproof.proof.load import files_of
 
         known = None if self._fresh else self._cache.read(self._contents_key())
-        return contents.lacking(known, hashes.of_derivation(self._paths), files_of(self._paths), select)
+        return contents.holding(known, hashes.of_derivation(self._paths), files_of(self._paths), select) == []
 
     def run(self, select: str) -> dict[str, Any] | None:
         """What :meth:`keep_run` kept of this very run, if every file is as it was; nothing has to be loaded for it."""

@@ -139,12 +139,17 @@ def _sign_of_rational(expression: sp.Expr, h: sp.Symbol) -> tuple[int, bool] | N
     """The sign of the quotient of the lowest terms."""
     signs = 1
     for part in sp.fraction(sp.cancel(sp.together(expression))):
-        terms = [sp.factor(coefficient) for _, coefficient in sorted(sp.Poly(part, h).terms())]
-        first = next((entry for entry in terms if not entry.is_zero), sp.S.Zero)
+        _, first = _lowest(part, h)
         if not (first.is_positive or first.is_negative):
             return None
         signs *= 1 if first.is_positive else -1
     return signs, True
+
+
+def _lowest(part: sp.Expr, h: sp.Symbol) -> tuple[int, sp.Expr]:
+    """The lowest power of h in a polynomial, and its coefficient, which may vanish for some values of its symbols."""
+    terms = ((power, sp.factor(coefficient)) for (power,), coefficient in sorted(sp.Poly(part, h).terms()))
+    return next(((power, coefficient) for power, coefficient in terms if not coefficient.is_zero), (0, sp.S.Zero))
 
 
 def _at_zero(expression: sp.Expr, h: sp.Symbol) -> sp.Expr | None:
@@ -179,18 +184,9 @@ def _at_zero(expression: sp.Expr, h: sp.Symbol) -> sp.Expr | None:
 
 def _rational(expression: sp.Expr, h: sp.Symbol) -> sp.Expr | None:
     """Compare the lowest powers of h in numerator and denominator."""
-    numerator, denominator = (sp.Poly(part, h) for part in sp.fraction(sp.cancel(sp.together(expression))))
-    if numerator.is_zero:
+    (p, a), (q, b) = (_lowest(part, h) for part in sp.fraction(sp.cancel(sp.together(expression))))
+    if a.is_zero:
         return sp.S.Zero
-    lowest = []
-    for polynomial in (numerator, denominator):
-        for (power,), coefficient in sorted(polynomial.terms()):
-            coefficient = sp.factor(coefficient)
-            if coefficient.is_zero:
-                continue
-            lowest.append((power, coefficient))
-            break
-    (p, a), (q, b) = lowest
     # A leading coefficient that may vanish leaves the order open.
     if not _nonzero(b) or (p < q and not _nonzero(a)):
         return None

@@ -21,7 +21,7 @@ from ptproof.balls.ball import enclose, enclosure_text
 from ptproof.errors import InputError
 from ptproof.proof.claim import Goal, engine
 from ptproof.proof.declarations import admissible
-from ptproof.proof.definedness import Obligation, obligations
+from ptproof.proof.definedness import obligations
 from ptproof.proof.engines.evaluation import carried_out
 from ptproof.proof.engines.partial import values_where_used
 from ptproof.proof.engines.reals import follows
@@ -126,14 +126,9 @@ def _at(relation: Relation, values: Substitution) -> Relation | None:
 
 def _may_be_defined(side: sp.Expr) -> bool:
     """False where a derivative is taken at a kink, an integral over a pole: SymPy would give it a value."""
-    return all(
-        need.settled or need.given or _holds_exactly(need)
-        for need in obligations(side, side.atoms(sp.Limit, sp.Integral))
-    )
-
-
-def _holds_exactly(need: Obligation) -> bool:
-    return need.relation is not None and (bool(need.relation.free_symbols) or holds(need.relation))
+    needs = (need for need in obligations(side, side.atoms(sp.Limit, sp.Integral)) if not need.settled)
+    asked = (need.relation for need in needs if not need.given)
+    return all(item is not None and (item.free_symbols or holds(item)) for item in asked)
 
 
 def _holds(assumption: Assumption, values: Substitution) -> bool:
