@@ -42,7 +42,7 @@ def available(kernel: bool, keep: Path | None) -> None:
 def confirmed(verification: Verification, jobs: int | None, keep: Path | None) -> Verification:
     """The same with the evidence of Coq's kernel; what it did not confirm is said on standard error."""
     from ptproof.commands.terminal import progress
-    from ptproof.proof.kernel.evidence import second_opinion
+    from ptproof.proof.kernel.check import second_opinion
     from ptproof.proof.verdict import Verdict
 
     proved = sum(result.verdict is Verdict.PROVED for result in verification.results)

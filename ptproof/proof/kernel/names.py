@@ -28,7 +28,7 @@ def identifiers(items: Iterable[Any], taken: Iterable[str] = ()) -> dict[Any, st
     used = {*WORDS, *_GRAMMAR, *taken}
     names: dict[Any, str] = {}
     for item in items:
-        base = plain(called(item))
+        base = as_identifier(called(item))
         name, count = base, 1
         while name in used:
             count += 1
@@ -43,10 +43,10 @@ def called(item: Any) -> str:
     return str(item.name if hasattr(item, "name") else item.__name__)
 
 
-def plain(text: str) -> str:
+def as_identifier(text: str) -> str:
     """``text`` in letters, digits and underscores of ASCII, as an identifier that begins with a letter.
 
-    >>> plain("x'"), plain("1/nu"), plain("")
+    >>> as_identifier("x'"), as_identifier("1/nu"), as_identifier("")
     ('x_', 'v_1_nu', 'v_')
     """
     name = re.sub(r"[^A-Za-z0-9_]", "_", text)

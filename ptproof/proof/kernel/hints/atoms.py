@@ -15,12 +15,8 @@ from ptproof.proof.kernel.terms import term
 class Atoms:
     """Turns expressions into rational ones in symbols that stand for everything else; collects how Coq follows.
 
-    Attributes
-    ----------
-    names
-        The identifiers of the claim's symbols, and those of the atoms made so far.
-    lines
-        Tactics, in order: equations between powers of one base, then one line an atom.
+    ``names`` are the identifiers of the claim's symbols and of the atoms made so far. ``lines`` are tactics, in order:
+    equations between powers of one base, then one line an atom.
     """
 
     names: dict[sp.Basic, str]

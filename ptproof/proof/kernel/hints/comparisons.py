@@ -17,7 +17,7 @@ from ptproof.proof.kernel.hints.certificates import certificate
 from ptproof.proof.kernel.hints.views import view
 from ptproof.proof.kernel.names import Names
 from ptproof.proof.kernel.terms import NoTranslation, term
-from ptproof.proof.statement import ForAll, Relation, expressions_of
+from ptproof.proof.statement import ForAll, Relation, expressions_of, plain
 
 Compared = tuple[Relation, str]
 
@@ -70,8 +70,7 @@ def compared(claim: Claim, known: Sequence[Relation], names: Names) -> Iterator[
             continue
         if not isinstance(relation.left.expr, AppliedUndef) or relation.right.has(sp.Derivative, sp.Integral):
             continue
-        domain = tuple(part for given in item.domain for part in given.components())
-        rate = Rate(relation.left.expr, time, relation.right, domain, tuple(known), said, names)
+        rate = Rate(relation.left.expr, time, relation.right, plain(item.domain), tuple(known), said, names)
         for start, end in _times(rate):
             for way in (_integral, _decay, _bernoulli):
                 try:

@@ -19,7 +19,8 @@ def squared_symbols(goal: Goal) -> tuple[list[str], Goal]:
     symbols = dict.fromkeys(root.base for root in roots if root.base.is_Symbol and root.base.is_nonnegative)
     for symbol in symbols:
         name = fresh("r_" + goal.names[symbol], goal.names)
-        kind = "positive" if symbol.is_positive or _is_positive(symbol, goal) else "nonnegative"
+        known = any(item.standard() == Relation(sp.Integer(0), "<", symbol) for item in goal.known)
+        kind = "positive" if symbol.is_positive or known else "nonnegative"
         root = sp.Symbol(name, **{kind: True})
         number = next((n for n in numbers if _together(goal, symbol, n)), None)
         old = goal.names[symbol]
@@ -28,10 +29,6 @@ def squared_symbols(goal: Goal) -> tuple[list[str], Goal]:
         names = {**goal.names, root: name}
         goal = goal.replaced(symbol, square, names)
     return (lines if symbols else []), goal
-
-
-def _is_positive(symbol: sp.Symbol, goal: Goal) -> bool:
-    return any(item.standard() == Relation(sp.Integer(0), "<", symbol) for item in goal.known)
 
 
 def _together(goal: Goal, symbol: sp.Symbol, number: sp.Integer) -> bool:

@@ -13,16 +13,9 @@ from ptproof.proof.statement import Relation
 
 @dataclass(frozen=True)
 class View:
-    """What was replaced.
+    """What was replaced: what symbols are in the view (``there``), and what the new symbols are outside (``back``).
 
-    Attributes
-    ----------
-    there
-        The symbols, and what they are in the view.
-    back
-        The new symbols, and what they are outside.
-    equal
-        The symbols that are replaced by what they are said to be.
+    ``equal`` are the symbols that are replaced by what they are said to be.
     """
 
     there: dict[sp.Symbol, sp.Expr]
