@@ -12,6 +12,9 @@ from ptproof.proof.mutation.mutant import Candidate, Mutant, Place
 from ptproof.proof.mutation.statements import changed_statements
 
 PER_CLAIM = 21
+_NOT_BUILT = (
+    ArithmeticError, AttributeError, IndexError, NotImplementedError, TypeError, ValueError, InputError
+)  # fmt: skip
 
 
 def mutants(claim: Claim, others: Sequence[Claim] = (), *, count: int = PER_CLAIM, seed: int = 0) -> list[Mutant]:
@@ -63,21 +66,16 @@ class _Choice:
         while candidates:
             place = next((i for i, item in enumerate(candidates) if item.row not in self.rows), 0)
             candidate = candidates.pop(place)
-            changed = _made(candidate)
-            if changed is None or changed.content in self._seen:
+            try:
+                changed = candidate.make()
+            except _NOT_BUILT:
+                continue  # SymPy cannot build its expressions, or they are no expressions any more
+            if changed.content in self._seen:
                 continue
             self._seen.add(changed.content)
             self.rows.add(candidate.row)
             self.made.append(Mutant(changed, self.claim, candidate.kind, candidate.words()))
             return
-
-
-def _made(candidate: Candidate[Claim]) -> Claim | None:
-    """The changed claim, or None where SymPy cannot build its expressions or they are no expressions any more."""
-    try:
-        return candidate.make()
-    except (ArithmeticError, AttributeError, IndexError, NotImplementedError, TypeError, ValueError, InputError):
-        return None
 
 
 def neighbours(claims: Sequence[Claim]) -> Iterator[tuple[Claim, tuple[Claim, ...]]]:
