@@ -51,13 +51,10 @@ def files_below(folder: Path) -> Iterator[Path]:
 @cache
 def environment() -> str:
     """The hash of all that decides a claim besides the claim: the files of ptproof, Python, and the libraries."""
-    own = [f"{file.relative_to(_PACKAGE)}\0{of_file(file)}" for file in files_below(_PACKAGE) if _matters(file)]
-    return of_texts([sys.version, platform.machine(), *sorted(_installed()), *own])
-
-
-def _matters(file: Path) -> bool:
     # The derivations that ship in the package count as what they are: derivations.
-    return file.relative_to(_PACKAGE).parts[0] != "_derivations"
+    files = (file for file in files_below(_PACKAGE) if file.relative_to(_PACKAGE).parts[0] != "_derivations")
+    own = [f"{file.relative_to(_PACKAGE)}\0{of_file(file)}" for file in files]
+    return of_texts([sys.version, platform.machine(), *sorted(_installed()), *own])
 
 
 def _installed() -> Iterator[str]:

@@ -74,7 +74,7 @@ def _work(channel: Any, memory: int, failed: BaseException | None) -> NoReturn:
         signal.signal(signal.SIGINT, signal.default_int_handler)
         own, keeper, last = os.getpid(), os.getppid(), False
         while not last:
-            payload = _next(channel)
+            payload = _exactly(channel, HEAD.unpack(_exactly(channel, HEAD.size))[0])
             seed()
             before = State.now()
             answer, last = _answer(payload, memory, failed)
@@ -97,11 +97,6 @@ def _changed(before: State) -> bool:
     with contextlib.suppress(Exception):
         before.restore()
     return bool(before.changed())
-
-
-def _next(channel: Any) -> bytes:
-    size = HEAD.unpack(_exactly(channel, HEAD.size))[0]
-    return _exactly(channel, size)
 
 
 def _exactly(channel: Any, size: int) -> bytes:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from abc import abstractmethod
 from collections.abc import Sequence
 from typing import Any
 
@@ -18,15 +17,6 @@ from ptproof.reading.latex.values import entrywise, integral
 
 class Calculus(Letters):
     """The part of the grammar that knows of derivatives; sums and products are given by ``Grammar``."""
-
-    @abstractmethod
-    def factor(self) -> Any: ...
-
-    @abstractmethod
-    def base(self) -> Any: ...
-
-    @abstractmethod
-    def product(self) -> Any: ...
 
     def derivative(self, above: list[Token], below: list[Token], at: Token) -> Any:
         """The derivative that a fraction of differentials writes, its orders above and below the same."""

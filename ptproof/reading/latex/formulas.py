@@ -32,25 +32,12 @@ _NESTED = re.compile(r"\\(?:begin|end)\s*\{[^{}]*\}|\\\\(?:\*?\[[^\]]*\])?|(?<!\
 
 @dataclass(frozen=True)
 class Formula:
-    """A formula of the paper.
+    """A formula of the paper as it is written, with the ``line`` of the source on which it begins.
 
-    Attributes
-    ----------
-    place
-        Its first label, or the section and its number among the formulas displayed there; in running text, among the
-        relations in its running text.
-    labels
-        Its own labels and those of the group of equations in which it stands.
-    line
-        The line of the source on which it begins.
-    text
-        The formula as it is written.
-    displayed
-        Whether it is displayed; otherwise it stands in running text.
-    broken
-        Why it cannot be read, where its end is missing.
-    around
-        What stands in its sentence before it and behind it; no part of what makes two formulas equal.
+    ``place`` is its first label, or the section and its number among the formulas displayed there (in running text,
+    among the relations there); ``labels`` are its own and those of the group of equations in which it stands.
+    ``broken`` says why it cannot be read, where its end is missing. ``around`` is what stands in its sentence before it
+    and behind it; no part of what makes two formulas equal.
     """
 
     place: str
@@ -82,7 +69,6 @@ class _Place:
     section: int = 0
     subsection: int = 0
     appendix: bool = False
-    starred: int = 0
     number: int = 0
     relations: int = 0
 

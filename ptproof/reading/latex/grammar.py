@@ -13,6 +13,8 @@ import sympy as sp
 
 from ptproof.reading.guards import arguments_refused
 from ptproof.reading.latex.cursor import CLOSING, OTHER_RELATIONS, RELATIONS
+from ptproof.reading.latex.letters import script
+from ptproof.reading.latex.notation import spelling
 from ptproof.reading.latex.sets import CASES, Sets
 from ptproof.reading.latex.tokens import Token
 from ptproof.reading.latex.values import NORMS, add, multiply, negate, norm, power
@@ -174,7 +176,7 @@ class Grammar(Sets):
         if self.text == "_":
             self.take()
             low = self.argument(opened)
-        named = self.named_norm(inside, low)
+        named = self.notation.norms.get(spelling([*inside, *script("_", low)]))
         if named is None:
             self.position = start
         return named
@@ -238,11 +240,7 @@ class Grammar(Sets):
     def stacked(self, rows: list[list[Any]], at: Token) -> Any:
         """A matrix of entries that may be columns themselves."""
         try:
-            return sp.ImmutableDenseMatrix(
-                sp.Matrix([list(row) for row in rows])
-                if not any(isinstance(entry, sp.MatrixBase) for row in rows for entry in row)
-                else sp.Matrix.vstack(*(sp.Matrix.hstack(*map(_block, row)) for row in rows))
-            )
+            return sp.ImmutableDenseMatrix(sp.Matrix.vstack(*(sp.Matrix.hstack(*map(_block, row)) for row in rows)))
         except (ValueError, sp.ShapeError):
             raise self.refuse("matrix", "the rows of a matrix are not of one length", at) from None
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from abc import abstractmethod
 from collections.abc import Sequence
 from typing import Any
 
@@ -39,15 +38,6 @@ class Letters(Cursor):
         plain = bool(tokens) and tokens[0].text == "d" and "d" in {*self.notation.letters, *self.notation.functions}
         return None if plain else differential(tokens)
 
-    @abstractmethod
-    def inner(self, tokens: Sequence[Token]) -> Any: ...
-
-    @abstractmethod
-    def expression(self) -> Any: ...
-
-    @abstractmethod
-    def raised(self, value: Any, exponent: list[Token], at: Token) -> Any: ...
-
     def named(self) -> list[Token]:
         """The tokens of a letter with its accents, without index and exponent."""
         token = self.take()
@@ -67,7 +57,7 @@ class Letters(Cursor):
     def looked_up(self, base: list[Token], start: Token) -> Any:
         low, high = self.scripts(start)
         for index, exponent, rest in ((low, high, []), (low, [], high)):
-            key = spelling([*base, *_script("_", index), *_script("^", exponent)])
+            key = spelling([*base, *script("_", index), *script("^", exponent)])
             if (value := self.at_arguments(key)) is not None:
                 return self.raised(value, rest, start) if rest else value
             if key in self.notation.functions and (self.text == "(" or key not in self.notation.letters):
@@ -77,7 +67,7 @@ class Letters(Cursor):
                 return self.raised(value, rest, start) if rest else value
         if written(base) in _UPRIGHT_E and not low and high:
             return self.raised(sp.E, high, start)
-        key = spelling([*base, *_script("_", low)])
+        key = spelling([*base, *script("_", low)])
         raise self.refuse(*self.unknown(base, key, start), start)
 
     def unknown(self, base: list[Token], key: str, start: Token) -> tuple[str, str]:
@@ -129,17 +119,14 @@ class Letters(Cursor):
     def dotted(self, tokens: list[Token], at: Token) -> tuple[Any, list[Token]]:
         """What a dot stands over: a letter, with the index and the arguments behind it; and the exponent there."""
         low, high = self.scripts(at)
-        key = spelling([*tokens, *_script("_", low)])
+        key = spelling([*tokens, *script("_", low)])
         if key in self.notation.functions and (self.text == "(" or key not in self.notation.letters):
             return self.applied(key, [], at), high
-        return self.inner([*tokens, *_script("_", low)]), high
-
-    def named_norm(self, inside: list[Token], low: list[Token]) -> sp.Expr | None:
-        """The norm of which the notation says what it means."""
-        return self.notation.norms.get(spelling([*inside, *_script("_", low)]))
+        return self.inner([*tokens, *script("_", low)]), high
 
 
-def _script(sign: str, tokens: list[Token]) -> list[Token]:
+def script(sign: str, tokens: list[Token]) -> list[Token]:
+    """The tokens as an index or an exponent, in braces; nothing where there are none."""
     if not tokens:
         return []
     line = tokens[0].line

@@ -198,13 +198,10 @@ def context(table: Table, place: str) -> tuple[int, ...]:
 def notation(table: Table, names: Vocabulary, place: str, where: str) -> Notation:
     """What letters mean in the formula at ``place``."""
     here = [table.where[number] for number in context(table, place)]
-    letters = dict(table.letters)
-    functions = dict(table.functions)
-    counts = dict(table.counts)
-    for item in here:
-        letters |= item.letters
-        functions |= item.functions
-        counts |= item.counts
+    letters, functions, counts = (
+        {key: value for item in (table, *here) for key, value in getattr(item, kind).items()}
+        for kind in ("letters", "functions", "counts")
+    )
     return Notation(
         {spelled(key, where): _value(value, names, f"{where}, {key}") for key, value in letters.items()},
         {spelled(key, where): _names(value) for key, value in functions.items()},
