@@ -16,21 +16,11 @@ _NOT_SMOOTH = frozenset({"sat", "sgn", "sign", "sig", "dz"})
 
 @dataclass(frozen=True)
 class Occurrence:
-    """One letter of a formula.
+    """One letter of a formula, spelled with accents and index, and with an exponent that is part of the name (a star).
 
-    Attributes
-    ----------
-    key
-        Its spelling, with accents and index, and with an exponent that is part of the name (a star).
-    arguments
-        The spelling of each of its arguments where it stands before parentheses: empty for one that is no letter and
-        no number, + for a sum; None where it stands alone.
-    sums
-        The letters in its arguments that are sums.
-    along
-        The spelling of the time along which a rate of it is taken.
-    line
-        Where in the source.
+    ``arguments`` has the spelling of each argument where it stands before parentheses (empty for one that is no letter
+    and no number, + for a sum), None where it stands alone; ``sums`` the letters in its arguments that are sums.
+    ``along`` is the time along which a rate of it is taken.
     """
 
     key: str
@@ -81,7 +71,8 @@ def _walk(tokens: list[Token], integral: bool, along: str = "") -> Iterator[Occu
                 position = yield from _word(tokens, position)
             elif (named := name_at(tokens, position)) is not None:
                 key, after, base = named
-                if _is_differential(tokens, position, integral) or _is_exponential(base, tokens, position):
+                exponential = base == "e" and position + 1 < len(tokens) and tokens[position + 1].text == "^"
+                if exponential or (integral and text == "d" and name_at(tokens, position + 1) is not None):
                     position += 1
                     continue
                 arguments, end = arguments_at(tokens, after)
@@ -131,11 +122,3 @@ def _behind(tokens: Sequence[Token], position: int) -> int:
     while position + 1 < len(tokens) and tokens[position].text == "_":
         _, position = argument(tokens, position + 1, tokens[position])
     return arguments_at(tokens, position)[1]
-
-
-def _is_differential(tokens: Sequence[Token], position: int, integral: bool) -> bool:
-    return integral and tokens[position].text == "d" and name_at(tokens, position + 1) is not None
-
-
-def _is_exponential(base: str, tokens: Sequence[Token], position: int) -> bool:
-    return base == "e" and position + 1 < len(tokens) and tokens[position + 1].text == "^"

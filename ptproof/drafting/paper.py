@@ -10,7 +10,7 @@ from typing import Any
 
 import sympy as sp
 
-from ptproof.drafting.guess import Declared, Guess, guess
+from ptproof.drafting.guess import Declared, Guess
 from ptproof.drafting.headings import Outline, outline
 from ptproof.drafting.letters import Letters
 from ptproof.drafting.occurrences import Scanned, scan
@@ -25,7 +25,7 @@ from ptproof.reading.latex.grammar import Grammar
 from ptproof.reading.latex.notation import Notation, meanings, notation, read_table, vocabulary
 from ptproof.reading.latex.rewrite import Rules
 from ptproof.reading.latex.statements import read_formula
-from ptproof.reading.latex.tokens import Macro, NotUnderstood, Token, argument, read
+from ptproof.reading.latex.tokens import Macro, NotUnderstood, Token, argument, nesting, read
 
 _ROUNDS = 4
 _TABLE = "notation.toml"
@@ -35,24 +35,11 @@ _E_TWICE = "two readings", "e stands alone elsewhere, so that e with an exponent
 
 @dataclass(frozen=True)
 class Paper:
-    """A paper as it was read.
+    """A paper as it was read: what became of each displayed formula, and the relations in running text.
 
-    Attributes
-    ----------
-    said
-        What became of each displayed formula, in the order of the text.
-    running
-        The relations in running text.
-    declared
-        Every name of the derivation: letters, functions, and the rates of what moves.
-    rates
-        For the name of each rate what it stands for, as the table of notation has it.
-    moved
-        For each name of a rate the moved expression and the time.
-    generic
-        For each function the names at which it is written most often.
-    conditions
-        What the paper says of its letters alone.
+    ``declared`` are all names of the derivation: letters, functions, and the rates of what moves. ``rates`` has what
+    the table of notation says for the name of each rate, ``moved`` the moved expression and the time, and
+    ``conditions`` what the paper says of its letters alone.
     """
 
     outline: Outline
@@ -61,7 +48,6 @@ class Paper:
     declared: Mapping[str, Declared]
     rates: Mapping[str, str]
     moved: Mapping[str, tuple[sp.Expr, sp.Symbol]]
-    generic: Mapping[str, tuple[str, ...]]
     states: frozenset[str]
     table: Mapping[str, Any]
     conditions: Conditions
@@ -74,7 +60,7 @@ def read_with_guesses(source: str) -> Paper:
     tokens = {id(item): _tokens(item, formulas.macros) for item in every}
     letters = Letters.of(_scanned(tokens[id(item)]) for item in every)
     for _ in range(_ROUNDS):
-        guessed, before = guess(letters), dict(letters.shapes)
+        guessed, before = Guess(letters), dict(letters.shapes)
         reader = _Reader(guessed, letters)
         for item in every:
             letters.shapes |= {**reader.shapes(tokens[id(item)]), **letters.forms_shaped()}
@@ -88,7 +74,7 @@ def read_with_guesses(source: str) -> Paper:
     stated = conditions(beside, said, lambda item: reader.said(item, formulas.macros), guessed)
     return Paper(
         outline(source), translated, formulas.running, {**guessed.declared, **named.declared}, named.rates,
-        named.moved, guessed.generic, guessed.states, guessed.table(named.rates), stated,
+        named.moved, frozenset(guessed.states), guessed.table(named.rates), stated,
     )  # fmt: skip
 
 
@@ -173,9 +159,7 @@ def _chains(tokens: Sequence[Token]) -> Iterator[list[list[Token]]]:
     depth = 0
     for token in tokens:
         text = token.text
-        depth += (text in ("{", "(", "[") or text.startswith(r"\begin{")) - (
-            text in ("}", ")", "]") or text.startswith(r"\end{")
-        )
+        depth += nesting(text)
         if depth == 0 and text in RELATIONS:
             chain.append([])
         elif depth == 0 and text in ("\\\\", ",", ";", ".") and len(chain) > 1:

@@ -6,12 +6,11 @@ from collections.abc import Sequence
 
 from ptproof.reading.latex.letters import ACCENTS, low_letter
 from ptproof.reading.latex.notation import spelling
-from ptproof.reading.latex.tokens import Token, argument, written
+from ptproof.reading.latex.tokens import Token, argument, nesting, written
 
 _ACCENTS = ACCENTS - {r"\mathbb", r"\text"}
 _IN_NAME = frozenset({"*", "+", r"\star", r"\ast", r"\dagger"})
 TRANSPOSE = frozenset({"T", r"\top", r"\intercal", r"\text"})
-_CLOSED = {"(": ")", "[": "]", "{": "}"}
 
 
 def name_at(tokens: Sequence[Token], position: int) -> tuple[str, int, str] | None:
@@ -54,10 +53,7 @@ def arguments_at(tokens: Sequence[Token], position: int) -> tuple[tuple[str, ...
     depth, parts = 0, [[]]  # type: ignore[var-annotated]
     for end in range(position, len(tokens)):
         text = tokens[end].text
-        if text in _CLOSED:
-            depth += 1
-        elif text in _CLOSED.values():
-            depth -= 1
+        depth += nesting(text)
         if depth == 0:
             return tuple(spelled(part) for part in parts), end + 1
         if depth == 1 and text == ",":
@@ -75,9 +71,7 @@ def spelled(part: list[Token]) -> str:
         return named[0]
     depth = 0
     for place, token in enumerate(part):
-        depth += (token.text in _CLOSED or token.text.startswith(r"\begin")) - (
-            token.text in _CLOSED.values() or token.text.startswith(r"\end")
-        )
+        depth += nesting(token.text)
         if depth == 0 and place and token.text in ("+", "-"):
             return "+"
     return ""
