@@ -76,9 +76,10 @@ def assert_gain_condition(data: GainData | Problem, condition: str, *, seconds: 
 def _decide(asked: GainData | Problem, condition: str, left: str, symbol: str, right: str) -> str | None:
     from ptproof.gains.numbers import sign
 
+    undecided = f"the condition {condition} could not be decided: undecided"
     answer, open_question, doubt = _answer(asked)
     if answer is None:
-        return lines(f"the condition {condition} could not be decided: undecided", [("reason", open_question)])
+        return lines(undecided, [("reason", open_question)])
     data = answer.data
     keys: dict[str, sp.Expr] = {}
     for section, name in _KEY.findall(condition):
@@ -92,8 +93,7 @@ def _decide(asked: GainData | Problem, condition: str, left: str, symbol: str, r
         elif key in answer.unlimited:
             keys[key] = sp.oo
         else:
-            return lines(f"the condition {condition} could not be decided: undecided",
-                         [(key, f"does not apply: {answer.why[key]}")])  # fmt: skip
+            return lines(undecided, [(key, f"does not apply: {answer.why[key]}")])
     sides = [_value(text, data, keys) for text in (left, right)]
     for text, value in zip((left, right), sides, strict=True):
         if value.free_symbols:
@@ -103,11 +103,11 @@ def _decide(asked: GainData | Problem, condition: str, left: str, symbol: str, r
             order = (1 if sides[0] is sp.oo else 0) - (1 if sides[1] is sp.oo else 0)
         else:
             order = sign(sides[0] - sides[1])
-    except InputError as undecided:
-        return lines(f"the condition {condition} could not be decided: undecided", [("reason", str(undecided))])
+    except InputError as error:
+        return lines(undecided, [("reason", str(error))])
     if {"<": order < 0, "<=": order <= 0, ">": order > 0, ">=": order >= 0}[symbol]:
         open_ones = [(key, reason) for key in keys if (reason := doubt(key)) is not None]
-        return lines(f"the condition {condition} could not be decided: undecided", open_ones) if open_ones else None
+        return lines(undecided, open_ones) if open_ones else None
     gap = sides[0] - sides[1]
     return lines(f"the condition {condition} does not hold: refuted", [
         (left.strip(), _shown(sides[0])), (right.strip(), _shown(sides[1])),
