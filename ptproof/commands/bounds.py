@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ptproof.commands import options
+from ptproof.errors import InputError
 
 if TYPE_CHECKING:
     from ptproof.certify import FieldCertificate
@@ -81,7 +82,6 @@ def bounds(
 
 def _certificate(seconds: float, *data: Any) -> FieldCertificate:
     """The certificate of a field given as text, from a process that is ended when it takes much longer."""
-    from ptproof.errors import InputError
     from ptproof.reading.limits import Answered, Unanswered, Why, apart, check_seconds
 
     check_seconds(seconds, "--timeout")
@@ -103,7 +103,6 @@ def _certify(
     import sympy as sp
 
     from ptproof.certify import certify_field
-    from ptproof.errors import InputError
     from ptproof.reading.expressions import parse
     from ptproof.reading.tables import RESERVED, declared, split_list
 
@@ -125,7 +124,6 @@ def _certify(
 
 
 def _draw(certificate: FieldCertificate, path: str) -> None:
-    from ptproof.errors import InputError
 
     try:
         certificate.plot(path)
