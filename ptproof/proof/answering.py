@@ -25,16 +25,9 @@ CRASH, TIME = "crash", "time limit"
 
 @dataclass(frozen=True)
 class Decided:
-    """What a worker says of a claim.
+    """What a worker says of a claim: the hash of what the claim says there, and what its proof says.
 
-    Attributes
-    ----------
-    content
-        What the claim says there, as a hash.
-    evidence
-        What its proof says.
-    files
-        What the proof has read besides the files of Python, the libraries and ptproof.
+    ``files`` are what the proof has read besides the files of Python, the libraries and ptproof.
     """
 
     content: str

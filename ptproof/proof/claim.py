@@ -246,7 +246,7 @@ def facts_of(used: Claim) -> tuple[Fact, ...]:
         return ()
     said = (Implication(plain(used.assumptions), part, source=used.id) for part in relations_of(used.statement))
     limited = (guarded(says) if used.where_defined else says for says in said)
-    return tuple(from_claim(used, says) for says in limited if says is not None)
+    return tuple(from_claim(used.content, says) for says in limited if says is not None)
 
 
 _SEAL = object()

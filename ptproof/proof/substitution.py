@@ -29,10 +29,6 @@ class NotOfKind(InputError):
     """A value is not known to be what the letter stands for."""
 
 
-def _never(value: sp.Expr, sign: str) -> bool:
-    return False
-
-
 def _real_where_defined(value: sp.Expr) -> bool:
     """What is asked of the value goes along as the substitution's domain."""
     return all(need.relation is not None for need in obligations(value))
@@ -68,7 +64,7 @@ class Substitution:
     """
 
     values: Mapping[Any, Any]
-    has_sign: Callable[[sp.Expr, str], bool] = field(default=_never, repr=False, compare=False)
+    has_sign: Callable[[sp.Expr, str], bool] = field(default=lambda value, sign: False, repr=False, compare=False)
     elsewhere: Collection[Any] = ()
 
     def __post_init__(self) -> None:

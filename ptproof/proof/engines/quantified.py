@@ -132,11 +132,9 @@ def specialise(
     claims = [used.content] if along is None else [other.content for other in goal.uses]
     found = []
     for part in relations_of(used.statement):
-        says: Implication | None = Implication(tuple(hypotheses), there.relation(part), source=used.id)
-        if used.where_defined and says is not None:
-            says = guarded(says)
-        if says is not None:
-            found.append(resting_on(goal, says, claims, *facts))
+        says = Implication(tuple(hypotheses), there.relation(part), source=used.id)
+        if (limited := guarded(says) if used.where_defined else says) is not None:
+            found.append(resting_on(goal, limited, claims, *facts))
     return found
 
 

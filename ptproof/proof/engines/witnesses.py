@@ -89,9 +89,8 @@ def at_example(goal: Goal, values: Mapping[Any, Any]) -> tuple[bool, str]:
     witness, _ = check_witness(goal, values)
     if witness is not None:
         return False, f"the statement fails at the example: {witness.left} against {witness.right}"
-    return True, "the assumptions hold at the example, " + ", ".join(
-        f"{key} = {value}" for key, value in values.items()
-    )
+    said = ", ".join(f"{key} = {value}" for key, value in values.items())
+    return True, f"the assumptions hold at the example, {said}"
 
 
 def satisfiable(assumptions: Sequence[Relation], seconds: float = 2.0) -> bool:
@@ -152,11 +151,8 @@ def _only_value(quantified: ForAll) -> sp.Expr | None:
     """The one value that the domain leaves to the variable: it is between a number and the same number."""
     if len(quantified.variables) != 1:
         return None
-    variable = quantified.variables[0]
-    low, high = (
-        {part.right for part in quantified.domain if (part.left, part.sign) == (variable, sign)}
-        for sign in (">=", "<=")
-    )
+    ends = [(part.sign, part.right) for part in quantified.domain if part.left == quantified.variables[0]]
+    low, high = ({right for sign, right in ends if sign == wanted} for wanted in (">=", "<="))
     return next((value for value in low & high if value.is_number and value.is_real), None)
 
 
