@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING
 import sympy as sp
 
 from ptproof.errors import InputError
-from ptproof.reading.limits import OutOfTime, within
-from ptproof.testing.failure import assertion
+from ptproof.testing.failure import SECONDS, assertion, in_time
 from ptproof.testing.wording import lines
 
 if TYPE_CHECKING:
@@ -19,7 +18,6 @@ if TYPE_CHECKING:
     from ptproof.problem import Problem
 
 __unittest = True
-SECONDS = 60.0
 _RELATION = re.compile(r"^([^<>=]+)(<=|>=|<|>)([^<>=]+)$")
 _KEY = re.compile(r"\b([a-z_]+)\.([A-Za-z]\w*)")
 
@@ -67,10 +65,7 @@ def assert_gain_condition(data: GainData | Problem, condition: str, *, seconds: 
     match = _RELATION.match(condition.strip())
     if match is None:
         raise InputError(f"condition: {condition!r} is not one of <, <=, > or >= between two expressions")
-    try:
-        return within(seconds, lambda: _decide(data, condition, *match.groups()))
-    except OutOfTime:
-        return f"the condition {condition} could not be decided: no answer in {seconds:g} s"
+    return in_time(seconds, f"the condition {condition}", lambda: _decide(data, condition, *match.groups()))
 
 
 def _decide(asked: GainData | Problem, condition: str, left: str, symbol: str, right: str) -> str | None:
