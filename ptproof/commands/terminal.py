@@ -17,7 +17,6 @@ from ptproof.commands.shown import Shown
 
 if TYPE_CHECKING:
     from ptproof.proof.claim import Claim as DecidedClaim
-    from ptproof.proof.result import Verification
     from ptproof.proof.verdict import Evidence
 
 Claim: TypeAlias = Mapping[str, Any]  # as it stands in the JSON
@@ -82,9 +81,8 @@ def verification_tables(found: Mapping[str, Shown]) -> None:
         console.print(line)
 
 
-def verification_table(verification: Verification | Shown) -> None:
+def verification_table(shown: Shown) -> None:
     """The claims with their verdicts, grouped by section, then the witnesses of what is false."""
-    shown = verification if isinstance(verification, Shown) else Shown.of(verification)
     console = output(highlight=False)
     for claim in shown.claims:
         for item in claim["evidence"]:

@@ -46,9 +46,9 @@ def is_plainly_real(symbol: sp.Symbol) -> bool:
     return declared(symbol) == {"real": True}
 
 
-def like(symbol: sp.Symbol, name: str = "") -> sp.Symbol:
+def like(symbol: sp.Symbol) -> sp.Symbol:
     """A fresh symbol of the same kind: nothing that is known of another symbol is known of it."""
-    return sp.Dummy(name or symbol.name, **symbol._assumptions_orig)
+    return sp.Dummy(symbol.name, **symbol._assumptions_orig)
 
 
 def admissible(letter: Letter, value: Any) -> bool:

@@ -33,6 +33,7 @@ from ptproof.system import differentiated
 
 DIFFER = "the two sides differ at exact values"
 _TRIES = 3000
+_SECONDS = 2.0
 _PLAIN_TRIES = 40
 
 
@@ -93,11 +94,11 @@ def at_example(goal: Goal, values: Mapping[Any, Any]) -> tuple[bool, str]:
     return True, f"the assumptions hold at the example, {said}"
 
 
-def satisfiable(assumptions: Sequence[Relation], seconds: float = 2.0) -> bool:
+def satisfiable(assumptions: Sequence[Relation]) -> bool:
     """Whether exact values are found at which all the assumptions hold."""
     if not assumptions:
         return True
-    end = time.monotonic() + seconds
+    end = time.monotonic() + _SECONDS
     goal = Goal("satisfiable", All(tuple(assumptions)), tuple(assumptions))
     for values in candidates(goal):
         if time.monotonic() > end:
@@ -143,7 +144,7 @@ def _holds(assumption: Assumption, values: Substitution) -> bool:
             if only is not None:
                 numbers = _at(there.relation, Substitution({there.variables[0]: only}))
                 return numbers is not None and holds(numbers)
-            return follows(there.relation.map(differentiated), there.domain, seconds=2.0).shown
+            return follows(there.relation.map(differentiated), there.domain, seconds=_SECONDS).shown
     return False
 
 

@@ -160,16 +160,14 @@ def _theorem(said: Proposition, name: str, effort: Effort) -> coq.Theorem:
 
 
 def second_opinion(
-    results: Sequence[Result], *, workers: int | None = None, timeout: float | None = None, keep: Path | None = None,
-    progress: Progress | None = None,
+    results: Sequence[Result], *, workers: int | None = None, keep: Path | None = None, progress: Progress | None = None
 ) -> tuple[tuple[Result, ...], Mapping[str, Confirmation]]:  # fmt: skip
     """The results, with the evidence ``coq`` where the kernel confirmed a proved claim, and all that it said.
 
     The parameters are those of :func:`check`.
     """
     proved = [result.claim for result in results if result.verdict is Verdict.PROVED]
-    seconds = SECONDS_PER_CLAIM if timeout is None else timeout
-    said = check(proved, workers=workers, keep=keep, progress=progress, timeout=seconds)
+    said = check(proved, workers=workers, keep=keep, progress=progress)
     return tuple(_with(result, said.get(result.claim.id)) for result in results), said
 
 

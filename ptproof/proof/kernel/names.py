@@ -20,12 +20,12 @@ _GRAMMAR = frozenset(re.findall(r"\S+", """
 """))  # fmt: skip
 
 
-def identifiers(items: Iterable[Any], taken: Iterable[str] = ()) -> dict[Any, str]:
+def identifiers(items: Iterable[Any]) -> dict[Any, str]:
     """An identifier for each symbol or function, in a fixed order; no two are the same, and none means anything to Coq.
 
     Symbols that differ only in their assumptions, or a symbol and a function of one name, get different identifiers.
     """
-    used = {*WORDS, *_GRAMMAR, *taken}
+    used = {*WORDS, *_GRAMMAR}
     names: dict[Any, str] = {}
     for item in items:
         base = as_identifier(called(item))
