@@ -6,6 +6,7 @@ p <= q of the domain at which the claim speaks of U.
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
@@ -73,10 +74,8 @@ def compared(claim: Claim, known: Sequence[Relation], names: Names) -> Iterator[
         rate = Rate(relation.left.expr, time, relation.right, plain(item.domain), tuple(known), said, names)
         for start, end in _times(rate):
             for way in (_integral, _decay, _bernoulli):
-                try:
+                with contextlib.suppress(NoTranslation, sp.PolynomialError):
                     yield from way(rate, start, end)
-                except (NoTranslation, sp.PolynomialError):
-                    continue
 
 
 def _times(rate: Rate) -> Iterator[tuple[sp.Expr, sp.Expr]]:
