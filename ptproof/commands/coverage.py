@@ -87,8 +87,8 @@ def own(papers: Sequence[Opened], labels: Set[str], tex: str) -> tuple[str, Deri
     """The derivation that names most of the labels, with its name; if there is but one, that one."""
 
     derivations = {paper.name: paper.derivation for paper in papers if paper.derivation is not None}
-    named = {name: len({label for item in found.items for label in item.labels} & labels)
-             for name, found in derivations.items()}  # fmt: skip
+    spoken = {name: {label for item in found.items for label in item.labels} for name, found in derivations.items()}
+    named = {name: len(labels & found) for name, found in spoken.items()}
     best = [name for name, number in named.items() if number == max(named.values())]
     if len(best) > 1:
         raise InputError(f"{tex}: {', '.join(best)} name as many of its labels; name the folder that is about it")

@@ -133,22 +133,42 @@ def eq(left: Any, right: Any) -> Relation:
 
 
 def le(left: Any, right: Any) -> Relation:
-    """left ≤ right."""
+    """left ≤ right.
+
+    >>> x = sp.Symbol("x", real=True)
+    >>> print(le(x**2, x))
+    x**2 <= x
+    """
     return Relation(left, "<=", right)
 
 
 def lt(left: Any, right: Any) -> Relation:
-    """left < right."""
+    """left < right.
+
+    >>> x = sp.Symbol("x", real=True)
+    >>> print(lt(x**2, x))
+    x**2 < x
+    """
     return Relation(left, "<", right)
 
 
 def ge(left: Any, right: Any) -> Relation:
-    """left ≥ right."""
+    """left ≥ right.
+
+    >>> x = sp.Symbol("x", real=True)
+    >>> print(ge(x**2, x))
+    x**2 >= x
+    """
     return Relation(left, ">=", right)
 
 
 def gt(left: Any, right: Any) -> Relation:
-    """left > right."""
+    """left > right.
+
+    >>> x = sp.Symbol("x", real=True)
+    >>> print(gt(x**2, x))
+    x**2 > x
+    """
     return Relation(left, ">", right)
 
 

@@ -16,8 +16,18 @@ from pathlib import Path
 from typing import Any
 
 # A verdict may depend on each of these; what else is installed does not matter.
-LIBRARIES = ("sympy", "z3-solver", "python-flint", "mpmath", "numpy", "scipy", "casadi", "heyoka", "control",
-             "networkx")  # fmt: skip
+LIBRARIES = (
+    "sympy",
+    "z3-solver",
+    "python-flint",
+    "mpmath",
+    "numpy",
+    "scipy",
+    "casadi",
+    "heyoka",
+    "control",
+    "networkx",
+)
 REPORT = ".ptproof-report.json"  # stands in the folder of a report
 _SIZE, _FILES = 2**27, 2000
 _PACKAGE = Path(__file__).resolve().parents[1]

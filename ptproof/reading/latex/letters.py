@@ -138,4 +138,5 @@ def low_letter(text: str) -> bool:
     return text[1:].lower() in _GREEK
 
 
-_GREEK = {*greeks, "lambda", "varepsilon", "vartheta", "varpi", "varrho", "varsigma", "varphi", "ell"} - {"omicron"}
+_VARIANTS = {"varepsilon", "vartheta", "varpi", "varrho", "varsigma", "varphi", "ell"}
+_GREEK = _VARIANTS | {name.replace("lamda", "lambda") for name in greeks if name != "omicron"}

@@ -50,10 +50,12 @@ class Reading:
 
     def map(self, change: Callable[[sp.Expr], sp.Expr]) -> Reading:
         """The same with every side changed."""
-        names = ("pairs", "conditions", "braces")
-        parts = {name: tuple(replace(p, left=change(p.left), right=change(p.right)) for p in getattr(self, name))
-                 for name in names}  # fmt: skip
-        return replace(self, **parts)
+
+        def changed(pairs: tuple[Pair, ...]) -> tuple[Pair, ...]:
+            return tuple(replace(pair, left=change(pair.left), right=change(pair.right)) for pair in pairs)
+
+        parts = changed(self.pairs), changed(self.conditions), changed(self.braces)
+        return Reading(*parts, self.unread)
 
 
 def read_formula(formula: Formula, macros: Mapping[str, Macro], notation: Notation) -> Reading:

@@ -150,8 +150,10 @@ def _directly(goal: Goal) -> Iterator[str]:
             facts.append(item.standard().map(atoms))
     moved, lines = slack(facts, atoms)
     gap = sp.factor(sp.together((wanted.right - wanted.left).xreplace(moved)))
-    last = f"nonzero_as {term(-gap, atoms.names)}" if relation.sign == "!=" else (
-        f"difference_as {term(upright(gap), atoms.names)}")  # fmt: skip
+    if relation.sign == "!=":
+        last = f"nonzero_as {term(-gap, atoms.names)}"
+    else:
+        last = f"difference_as {term(upright(gap), atoms.names)}"
     yield "; ".join([*atoms.lines, *lines, last])
     if relation.sign == "!=" or gap.is_positive or (gap.is_nonnegative and relation.sign in ("<=", ">=")):
         return
