@@ -8,9 +8,7 @@ from ptproof.drafting.spelled import TRANSPOSE, name_at, spelled
 from ptproof.reading.latex.cursor import RELATIONS
 from ptproof.reading.latex.tokens import Token, argument
 
-_CLOSING = {
-    "[": "]", "(": ")", r"\begin{bmatrix}": r"\end{bmatrix}", r"\begin{pmatrix}": r"\end{pmatrix}"
-}  # fmt: skip
+_CLOSING = {"[": "]", "(": ")", r"\begin{bmatrix}": r"\end{bmatrix}", r"\begin{pmatrix}": r"\end{pmatrix}"}
 
 
 def transposed(tokens: Sequence[Token]) -> tuple[frozenset[str], tuple[tuple[str, str, str], ...]]:

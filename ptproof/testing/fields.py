@@ -66,9 +66,11 @@ def assert_field_bounds(
     at = [read(value, f"source[{i}]") for i, value in enumerate(source)]
     ball, ring = _end(radius), None if annulus is None else (_end(annulus[0]), _end(annulus[1]))
     certificate = in_time(
-        seconds, "the bounds of the field", spare=5.0,
+        seconds,
+        "the bounds of the field",
+        spare=5.0,
         work=lambda: certify_field(F, variables, at, kappa, rtol=rtol, seconds=seconds, radius=ball, annulus=ring),
-    )  # fmt: skip
+    )
     return certificate if isinstance(certificate, str) else _complaint(certificate, constants, rtol, seconds)
 
 

@@ -175,10 +175,16 @@ def functions(expression: sp.Expr, _: Letters) -> Iterator[Edit]:
 
 
 _OTHERS: dict[type, Callable[..., sp.Expr]] = {
-    sp.sin: sp.cos, sp.cos: sp.sin, sp.Max: sp.Min, sp.Min: sp.Max, sp.Abs: lambda value: value,
-    sp.exp: lambda value: 1 + value, sp.log: lambda value: value - 1, sp.atan: lambda value: value,
+    sp.sin: sp.cos,
+    sp.cos: sp.sin,
+    sp.Max: sp.Min,
+    sp.Min: sp.Max,
+    sp.Abs: lambda value: value,
+    sp.exp: lambda value: 1 + value,
+    sp.log: lambda value: value - 1,
+    sp.atan: lambda value: value,
     sp.tan: lambda value: value,
-}  # fmt: skip
+}
 
 
 def orders(expression: sp.Expr, _: Letters) -> Iterator[Edit]:

@@ -12,9 +12,7 @@ from ptproof.proof.mutation.mutant import Candidate, Mutant, Place
 from ptproof.proof.mutation.statements import changed_statements
 
 PER_CLAIM = 21
-_NOT_BUILT = (
-    ArithmeticError, AttributeError, IndexError, NotImplementedError, TypeError, ValueError, InputError
-)  # fmt: skip
+_NOT_BUILT = (ArithmeticError, AttributeError, IndexError, NotImplementedError, TypeError, ValueError, InputError)
 
 
 def mutants(claim: Claim, others: Sequence[Claim] = (), *, count: int = PER_CLAIM, seed: int = 0) -> list[Mutant]:

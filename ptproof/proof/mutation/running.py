@@ -83,8 +83,9 @@ def mutate(
     else:
         answers = (
             (claim, place, judge(mutant, Patience(timeout)))
-            for claim, others in neighbours(chosen) for place, mutant in enumerate(_made(claim, others, setting))
-        )  # fmt: skip
+            for claim, others in neighbours(chosen)
+            for place, mutant in enumerate(_made(claim, others, setting))
+        )
     found: dict[str, list[tuple[int, Outcome]]] = {item.id: [] for item in chosen}
     for claim, place, outcome in answers:
         found[claim.id].append((place, outcome))
