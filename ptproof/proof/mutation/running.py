@@ -81,11 +81,7 @@ def mutate(
     if isinstance(claims, Derivation):
         answers = _in_workers(chosen, claims, workers or os.cpu_count() or 1, setting)
     else:
-        answers = (
-            (claim, place, judge(mutant, Patience(timeout)))
-            for claim, others in neighbours(chosen)
-            for place, mutant in enumerate(_made(claim, others, setting))
-        )
+        answers = _here(chosen, setting)
     found: dict[str, list[tuple[int, Outcome]]] = {item.id: [] for item in chosen}
     for claim, place, outcome in answers:
         found[claim.id].append((place, outcome))
@@ -115,6 +111,12 @@ def corruptible(claims: Iterable[Claim], select: str = "") -> tuple[Claim, ...]:
 
 def _made(claim: Claim, others: Sequence[Claim], setting: Setting) -> list[Mutant]:
     return mutants(claim, others, count=setting.count, seed=setting.seed)
+
+
+def _here(claims: Sequence[Claim], setting: Setting) -> Iterator[tuple[Claim, int, Outcome]]:
+    for claim, others in neighbours(claims):
+        for place, mutant in enumerate(_made(claim, others, setting)):
+            yield claim, place, judge(mutant, Patience(setting.timeout))
 
 
 def _in_workers(
