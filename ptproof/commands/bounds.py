@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ptproof.commands import options
+from ptproof.errors import InputError
 
 if TYPE_CHECKING:
     from ptproof.certify import FieldCertificate
@@ -81,7 +82,6 @@ def bounds(
 
 def _certificate(seconds: float, *data: Any) -> FieldCertificate:
     """The certificate of a field given as text, from a process that is ended when it takes much longer."""
-    from ptproof.errors import InputError
     from ptproof.reading.limits import Answered, Unanswered, Why, apart, check_seconds
 
     check_seconds(seconds, "--timeout")
@@ -103,9 +103,8 @@ def _certify(
     import sympy as sp
 
     from ptproof.certify import certify_field
-    from ptproof.errors import InputError
     from ptproof.reading.expressions import parse
-    from ptproof.reading.tables import RESERVED, declared
+    from ptproof.reading.tables import RESERVED, declared, split_list
 
     variables = [sp.Symbol(name, real=True) for name in declared(split_list(names), "--vars", RESERVED)]
     at = ["0"] * len(variables) if source is None else split_list(source)
@@ -124,20 +123,7 @@ def _certify(
     )
 
 
-def split_list(text: str) -> list[str]:
-    """The entries of a list, separated by the commas outside of parentheses."""
-    entries, depth = [""], 0
-    for character in text:
-        depth += (character == "(") - (character == ")")
-        if character == "," and depth == 0:
-            entries.append("")
-        else:
-            entries[-1] += character
-    return [entry.strip() for entry in entries]
-
-
 def _draw(certificate: FieldCertificate, path: str) -> None:
-    from ptproof.errors import InputError
 
     try:
         certificate.plot(path)

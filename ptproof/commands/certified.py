@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
+from ptproof.commands.enclosing import check_absent
 from ptproof.errors import InputError
 
 if TYPE_CHECKING:
@@ -20,13 +21,10 @@ def check(ensemble: int | None, how: Mapping[str, Any]) -> None:
         raise InputError("--certify: stands beside one run; leave out --ensemble")
     if how["seeker"] != "pt" or how["model"] != "closed loop":
         raise InputError("--certify: a certificate is for the closed loop of the seeker pt")
-    for name in _OTHER:
-        if how.get(name) is not None:
-            option = name.replace("_", "-")
-            raise InputError(f"--certify: is about the closed loop itself, up to T; leave out --{option}")
+    check_absent(how, _OTHER, "--certify: is about the closed loop itself, up to T")
 
 
-def certified(problem: Problem) -> LoopCertificate:
+def found(problem: Problem, _: bool, how: dict[str, Any]) -> LoopCertificate:
     """The certificate for every start that is as near as the problem's."""
     from ptproof.certify import certify_loop
 
@@ -45,13 +43,29 @@ def words(certificate: LoopCertificate) -> list[str]:
 
 def draw(figure: Any, certificate: LoopCertificate) -> None:
     """The bound over the distance, in the picture of a run."""
-    import numpy as np
-
     from ptproof.simulation.drawing import RED
 
     if certificate.final is None:
         return
     axes = figure.axes[2]
-    grid = np.unique(np.append(np.linspace(certificate.times[0], certificate.times[-1], 1001), certificate.times))
+    grid = instants(certificate)
     axes.plot(grid, certificate.bound(grid), color=RED, lw=1.2, label="certified for every such vehicle")
     axes.legend(fontsize=7)
+
+
+def instants(certificate: LoopCertificate) -> Any:
+    """Times close enough to show the steps of the bound."""
+    import numpy as np
+
+    return np.unique(np.append(np.linspace(certificate.times[0], certificate.times[-1], 1001), certificate.times))
+
+
+def problem_for_pt(command: str, name: str, seeker: str | None, otherwise: str) -> Problem:
+    """The example or the problem file of that name, refused where it is meant for a seeker without certificates."""
+    from ptproof.problem import EXAMPLES, example, load
+
+    target = example(name) if name in EXAMPLES else load(name)
+    if (meant := seeker or target.default_seeker) != "pt":
+        why = f"a certificate is for the seeker pt, and {name} is meant for {meant}"
+        raise InputError(f"{command}: {why}; with --seeker pt {otherwise}")
+    return target

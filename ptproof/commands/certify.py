@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ptproof.commands import options
-from ptproof.errors import InputError
+from ptproof.commands import certified, options
 
 if TYPE_CHECKING:
     from ptproof.certify import LoopCertificate
@@ -62,16 +61,10 @@ def certify(
     """
     from ptproof.certify import certify_loop
     from ptproof.commands import frontier
-    from ptproof.problem import EXAMPLES, example, load
     from ptproof.proof.verdict import Verdict
     from ptproof.reading.expressions import parse
 
-    target = example(problem) if problem in EXAMPLES else load(problem)
-    if (seeker or target.default_seeker) != "pt":
-        raise InputError(
-            f"certify: a certificate is for the seeker pt, and {problem} is meant for "
-            f"{seeker or target.default_seeker}; with --seeker pt its loop without that is certified"
-        )
+    target = certified.problem_for_pt("certify", problem, seeker, "its loop without that is certified")
     target = retuned(target, numbers)
     start = None if radius is None else parse(radius, where="--radius")
     gap = parse(filter_gap, where="--filter-gap")
@@ -155,16 +148,9 @@ def _figure(found: LoopCertificate, times: Any, worst: Any, distances: Any, outs
     axes.plot(
         times, worst, color="tab:blue", label=f"the farthest of {len(distances)} simulated vehicles, {outside} outside"
     )
-    grid = _grid(found)
+    grid = certified.instants(found)
     axes.plot(grid, found.bound(grid), color="tab:red", label="proved bound for the vehicle")
     axes.set(xlabel="t", ylabel="distance from the source", title=f"ω = {found.omega:g}, μ = {found.mu:.4g}")
     axes.set_ylim(bottom=0)
     axes.legend()
     return figure
-
-
-def _grid(found: LoopCertificate) -> Any:
-    """Times close enough to show the steps of the bound."""
-    import numpy as np
-
-    return np.unique(np.concatenate([np.linspace(found.times[0], found.times[-1], 1001), found.times]))

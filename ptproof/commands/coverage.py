@@ -10,9 +10,9 @@ import click
 
 from ptproof.commands import options
 from ptproof.commands.papers import Opened, opened
+from ptproof.errors import InputError
 
 if TYPE_CHECKING:
-    from ptproof.proof.claim import Claim, Definition
     from ptproof.proof.load import Derivation
     from ptproof.report.coverage import Coverage
     from ptproof.report.printed import Compared
@@ -39,7 +39,6 @@ def coverage(paper: str, paths: tuple[str, ...], as_json: bool, keep: bool) -> i
     Exit status 1 if a label of an equation is not covered, a claim or the table names a label or a place that the paper
     does not have, or a formula that was read is different from what is claimed.
     """
-    from ptproof.errors import InputError
     from ptproof.reading.latex.formulas import find_formulas
     from ptproof.reading.latex.source import read_paper
     from ptproof.report.coverage import coverage as match
@@ -55,7 +54,7 @@ def coverage(paper: str, paths: tuple[str, ...], as_json: bool, keep: bool) -> i
         raise InputError(rf"{paper}: no \label stands in an equation; name the LaTeX source of the paper")
     with opened(paths) as papers:
         name, derivation = own(papers, {*labels, *all_labels(source)}, paper)
-        found = match(labels, [*derivation.claims, *derivation.definitions], all_labels(source))
+        found = match(labels, derivation.items, all_labels(source))
         for label, ids in found.stale:
             click.echo(f"ptproof: {paper} has no label {label}, which is named by {', '.join(ids)}", err=True)
         notation = printed(derivation)
@@ -86,19 +85,14 @@ def coverage(paper: str, paths: tuple[str, ...], as_json: bool, keep: bool) -> i
 
 def own(papers: Sequence[Opened], labels: Set[str], tex: str) -> tuple[str, Derivation]:
     """The derivation that names most of the labels, with its name; if there is but one, that one."""
-    from ptproof.errors import InputError
 
     derivations = {paper.name: paper.derivation for paper in papers if paper.derivation is not None}
-    named = {name: len(labels & _labels(found)) for name, found in derivations.items()}
+    spoken = {name: {label for item in found.items for label in item.labels} for name, found in derivations.items()}
+    named = {name: len(labels & found) for name, found in spoken.items()}
     best = [name for name, number in named.items() if number == max(named.values())]
     if len(best) > 1:
         raise InputError(f"{tex}: {', '.join(best)} name as many of its labels; name the folder that is about it")
     return best[0], derivations[best[0]]
-
-
-def _labels(derivation: Derivation) -> set[str]:
-    items: list[Claim | Definition] = [*derivation.claims, *derivation.definitions]
-    return {label for item in items for label in item.labels}
 
 
 def _show(found: Coverage) -> None:

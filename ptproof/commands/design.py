@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from ptproof.commands import options
+from ptproof.commands import certified, options
 from ptproof.errors import InputError
 
 if TYPE_CHECKING:
@@ -47,18 +47,13 @@ def design(
     from ptproof.commands.terminal import progress
     from ptproof.design import Limits
     from ptproof.design import design as search
-    from ptproof.problem import EXAMPLES, example, load
     from ptproof.reading.expressions import parse
 
     def exact(text: str | None, where: str) -> object:
         return None if text is None else parse(text, where=f"--{where}")
 
-    target = example(problem) if problem in EXAMPLES else load(problem)
-    if (meant := seeker or target.default_seeker) != "pt":
-        raise InputError(
-            f"design: a certificate is for the seeker pt, and {problem} is meant for {meant}; with --seeker pt numbers "
-            f"for its loop without that are looked for"
-        )
+    otherwise = "numbers for its loop without that are looked for"
+    target = certified.problem_for_pt("design", problem, seeker, otherwise)
     names = [name.strip() for name in free.split(",") if name.strip()]
     limits = Limits(exact(u1_max, "u1-max"), exact(u2_max, "u2-max"))
     start, gap = exact(radius, "radius"), exact(filter_gap, "filter-gap")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from ptproof.errors import InputError
@@ -19,15 +19,17 @@ def check(ensemble: int | None, how: Mapping[str, Any]) -> None:
     """Refuse what is no single run of the closed loop itself."""
     if ensemble is not None:
         raise InputError("--enclose: is about one run; leave out --ensemble")
-    for name in _NOT_SMOOTH:
+    check_absent(how, _NOT_SMOOTH, "--enclose: is about the closed loop itself, as the problem states it")
+
+
+def check_absent(how: Mapping[str, Any], names: Iterable[str], why: str) -> None:
+    """Refuse options of a run of which nothing is proved."""
+    for name in names:
         if how.get(name) is not None:
-            option = name.replace("_", "-")
-            raise InputError(
-                f"--enclose: is about the closed loop itself, as the problem states it; leave out --{option}"
-            )
+            raise InputError(f"{why}; leave out --{name.replace('_', '-')}")
 
 
-def enclosed(problem: Problem, width: str, how: dict[str, Any]) -> Enclosure:
+def found(problem: Problem, width: str, how: dict[str, Any]) -> Enclosure:
     """Enclose the run that the options describe, with a bar of what is done."""
     from ptproof.certify.trajectory import enclose
     from ptproof.commands.terminal import progress

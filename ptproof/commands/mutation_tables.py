@@ -10,7 +10,7 @@ from rich.console import Console
 from rich.padding import Padding
 from rich.text import Text
 
-from ptproof.commands.terminal import COLOURS, output, plain_table, progress, where
+from ptproof.commands.terminal import COLOURS, output, plain_table, print_sides, progress
 
 if TYPE_CHECKING:
     from ptproof.proof.claim import Claim
@@ -62,9 +62,7 @@ def _print_alarm(console: Console, claim: Claim, outcome: Outcome) -> None:
     console.print(Text(f"✗ false, and proved: {claim.id}: {outcome.change}", style="bold red"))
     console.print(Padding(Text(outcome.statement), (0, 0, 0, 4)))
     if outcome.witness is not None:
-        console.print(Padding(Text(where(outcome.witness.values)), (0, 0, 0, 4)))
-        console.print(Padding(Text(f"left side   {outcome.witness.left}"), (0, 0, 0, 4)))
-        console.print(Padding(Text(f"right side  {outcome.witness.right}"), (0, 0, 0, 4)))
+        print_sides(console, **outcome.witness.to_json())
     console.print()
 
 

@@ -33,15 +33,16 @@ def available(kernel: bool, keep: Path | None) -> None:
     if keep is not None and not kernel:
         raise InputError("--keep: names a folder for the files of --kernel, which is not asked for")
     if kernel:
-        from ptproof.proof.kernel.evidence import available as installed
+        from ptproof.proof.kernel import missing
 
-        installed()
+        if lacking := missing():
+            raise InputError(f"--kernel: {lacking}")
 
 
 def confirmed(verification: Verification, jobs: int | None, keep: Path | None) -> Verification:
     """The same with the evidence of Coq's kernel; what it did not confirm is said on standard error."""
     from ptproof.commands.terminal import progress
-    from ptproof.proof.kernel.evidence import second_opinion
+    from ptproof.proof.kernel.check import second_opinion
     from ptproof.proof.verdict import Verdict
 
     proved = sum(result.verdict is Verdict.PROVED for result in verification.results)

@@ -236,10 +236,8 @@ def _text(data: dict[str, Any], result: Any) -> str:
         spread = ", ".join(f"{name} {value:.6g}" for name, value in data["distance"].items() if value is not None)
         return f"{head}\n{data['N']} trajectories: {counts}\nfinal distance from the source: {spread}"
     final = data["final"]
-    rows = [
-        head,
-        f"{f'stopped by {limit}' if (limit := data['limit']) else data['outcome']} at t = {_shown(final['t'])}",
-    ]
+    ended = f"stopped by {limit}" if (limit := data["limit"]) else data["outcome"]
+    rows = [head, f"{ended} at t = {_shown(final['t'])}"]
     if data["message"]:
         rows.append(data["message"])
     vehicle = "vehicle" if result.settings.get("model") == "closed loop" else result.settings.get("model")
@@ -248,11 +246,8 @@ def _text(data: dict[str, Any], result: Any) -> str:
         rows.append(f"the source has moved to ({', '.join(map(_shown, data['source']))})")
     rows.append(f"{vehicle}: field {_shown(final['field'])}, distance from the source {_shown(final['distance'])}")
     if (average := data["average"]) is not None:
-        at = (
-            ""
-            if average["outcome"] == str(result.outcome)
-            else f" ({average['outcome']} at t = {_shown(average['t'])})"
-        )
+        alike = average["outcome"] == str(result.outcome)
+        at = "" if alike else f" ({average['outcome']} at t = {_shown(average['t'])})"
         rows.append(f"its average (not the vehicle): distance from the source {_shown(average['distance'])}{at}")
     elif vehicle == "vehicle":
         rows.append(f"no average stands beside it: the {data['seeker']} seeker's heading has dynamics of its own")

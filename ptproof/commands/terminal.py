@@ -17,7 +17,6 @@ from ptproof.commands.shown import Shown
 
 if TYPE_CHECKING:
     from ptproof.proof.claim import Claim as DecidedClaim
-    from ptproof.proof.result import Verification
     from ptproof.proof.verdict import Evidence
 
 Claim: TypeAlias = Mapping[str, Any]  # as it stands in the JSON
@@ -82,9 +81,8 @@ def verification_tables(found: Mapping[str, Shown]) -> None:
         console.print(line)
 
 
-def verification_table(verification: Verification | Shown) -> None:
+def verification_table(shown: Shown) -> None:
     """The claims with their verdicts, grouped by section, then the witnesses of what is false."""
-    shown = verification if isinstance(verification, Shown) else Shown.of(verification)
     console = output(highlight=False)
     for claim in shown.claims:
         for item in claim["evidence"]:
@@ -128,14 +126,18 @@ def _print_witness(console: Console, claim: Claim) -> None:
     if (witness := claim["witness"]) is not None:
         heading = Text("✗ ", style="red").append(claim["title"], style="red")
         console.print(heading.append(f" ({claim['id']})", style="dim"))
-        console.print(Padding(Text(where(witness["values"])), (0, 0, 0, 4)))
-        console.print(Padding(Text(f"left side   {witness['left']}"), (0, 0, 0, 4)))
-        console.print(Padding(Text(f"right side  {witness['right']}"), (0, 0, 0, 4)))
+        print_sides(console, **witness)
         console.print()
     elif claim["verdict"] == "undecided" != claim["expected"]:
         for item in claim["evidence"]:
             console.print(Text("? ", style="yellow").append(f"{claim['id']}: {item['detail']}", style="yellow"))
             console.print()
+
+
+def print_sides(console: Console, values: Mapping[str, str], left: str, right: str) -> None:
+    """Where something is false, and what the two sides are there."""
+    for line in (where(values), f"left side   {left}", f"right side  {right}"):
+        console.print(Padding(Text(line), (0, 0, 0, 4)))
 
 
 def where(values: Mapping[str, str]) -> str:

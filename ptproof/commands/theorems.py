@@ -2,63 +2,59 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 from ptproof.commands import certified, enclosing
 
 if TYPE_CHECKING:
-    from ptproof.certify import LoopCertificate
-    from ptproof.certify.trajectory import Enclosure
     from ptproof.problem import Problem
+
+
+_KINDS: Mapping[str, Any] = {"enclosure": enclosing, "certificate": certified}
 
 
 @dataclass(frozen=True)
 class Theorems:
-    """What is asked to be proved beside a run, and then what was: its enclosure, and a bound for every such vehicle."""
+    """What is asked to be proved beside a run, by kind, and then what was ``found``.
 
-    width: str | None = None
-    certifying: bool = False
-    enclosure: Enclosure | None = None
-    certificate: LoopCertificate | None = None
+    The kinds are the enclosure of the run and a bound for every such vehicle; what belongs to each is a module.
+    """
+
+    wanted: Mapping[str, Any]
+    found: dict[str, Any] = field(default_factory=dict)
 
     @staticmethod
     def asked(width: str | None, certifying: bool, ensemble: int | None, how: dict[str, Any]) -> Theorems:
         """What the options ask for, refused where it does not fit the run."""
-        if width is not None:
-            enclosing.check(ensemble, how)
-        if certifying:
-            certified.check(ensemble, how)
-        return Theorems(width, certifying)
+        options = {"enclosure": width, "certificate": certifying or None}
+        wanted = {kind: asked for kind, asked in options.items() if asked is not None}
+        for kind in wanted:
+            _KINDS[kind].check(ensemble, how)
+        return Theorems(wanted)
 
     def about(self, target: Problem, how: dict[str, Any]) -> Theorems:
         """With what was found."""
-        return replace(
-            self, enclosure=None if self.width is None else enclosing.enclosed(target, self.width, how),
-            certificate=certified.certified(target) if self.certifying else None,
-        )  # fmt: skip
+        found = {kind: _KINDS[kind].found(target, asked, how) for kind, asked in self.wanted.items()}
+        return replace(self, found=found)
 
     @property
     def proved(self) -> bool:
         """Whether all of it is."""
-        found = (item for item in (self.enclosure, self.certificate) if item is not None)
-        return all(str(item.verdict) == "proved" for item in found)
+        return all(str(item.verdict) == "proved" for item in self.found.values())
 
     @property
     def data(self) -> dict[str, Any]:
         """As JSON."""
-        found = {"enclosure": self.enclosure, "certificate": self.certificate}
-        return {name: item.to_json() for name, item in found.items() if item is not None}
+        return {kind: item.to_json() for kind, item in self.found.items()}
 
     @property
     def words(self) -> list[str]:
-        """The lines for people."""
-        rows = [] if self.enclosure is None else enclosing.words(self.enclosure)
-        return rows if self.certificate is None else [*certified.words(self.certificate), *rows]
+        """The lines for people, those about every vehicle first."""
+        return [line for kind, item in reversed(self.found.items()) for line in _KINDS[kind].words(item)]
 
     def draw(self, figure: Any) -> None:
         """Into the picture of the run."""
-        if self.enclosure is not None:
-            enclosing.draw(figure, self.enclosure)
-        if self.certificate is not None:
-            certified.draw(figure, self.certificate)
+        for kind, item in self.found.items():
+            _KINDS[kind].draw(figure, item)

@@ -19,12 +19,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 from ptproof.drafting.letters import Letters
 from ptproof.drafting.names import python_name, unused
+from ptproof.reading.latex.notation import flat
 
 
 @dataclass(frozen=True)
@@ -37,42 +38,13 @@ class Declared:
     function: bool = False
 
 
-@dataclass(frozen=True)
 class Guess:
-    """A table of notation that is guessed, and the names that it declares.
+    """A table of notation that is guessed by the rules of this module, and the names that it ``declared``.
 
     ``generic`` are the arguments at which functions stand most often, ``valued`` letters of which the paper has values
     only, such as V(0), and does not say of what they are functions.
     """
 
-    declared: Mapping[str, Declared]
-    letters: Mapping[str, Any]
-    functions: Mapping[str, Any]
-    means: Mapping[str, str]
-    times: tuple[str, ...]
-    states: frozenset[str]
-    generic: Mapping[str, tuple[str, ...]]
-    valued: frozenset[str] = frozenset()
-
-    def table(self, rates: Mapping[str, str] | None = None) -> dict[str, Any]:
-        """The table as TOML has it; ``rates`` says what the names of rates stand for."""
-        table: dict[str, Any] = {"times": list(self.times)}
-        if self.times:
-            table["dot"] = self.times[0]
-        return {
-            **table,
-            "letters": dict(self.letters),
-            "functions": dict(self.functions),
-            "means": {**self.means, **(rates or {})},
-        }
-
-
-def guess(letters: Letters) -> Guess:
-    """What the letters mean by the rules of this module."""
-    return _Guessing(letters).done()
-
-
-class _Guessing:
     def __init__(self, found: Letters) -> None:
         self.found = found
         self.declared: dict[str, Declared] = {}
@@ -83,24 +55,24 @@ class _Guessing:
         self.states: set[str] = set()
         self.generic: dict[str, tuple[str, ...]] = {}
         self.valued: set[str] = set()
-
-    def done(self) -> Guess:
-        keys = dict(self.found.keys)
-        for key in self.found.times:
-            keys.setdefault(key, 0)
-        times = tuple(self.name(key) for key in self.found.times)
+        self.times = tuple(self.name(key) for key in found.times)
+        keys = dict.fromkeys([*found.keys, *found.times])
         for key in keys:
-            if key in self.found.moving or key not in self.found.applied:
+            if key in found.moving or key not in found.applied:
                 self.letters[key] = self.value(key)
-            if key in self.found.moving:
-                self.move(key, times)
+            if key in found.moving:
+                self.move(key)
         for key in keys:
-            if key in self.found.applied and key not in self.found.moving:
+            if key in found.applied and key not in found.moving:
                 self.apply(key)
-        return Guess(
-            self.declared, self.letters, self.functions, self.means, times, frozenset(self.states), self.generic,
-            frozenset(self.valued),
-        )  # fmt: skip
+
+    def table(self, rates: Mapping[str, str] | None = None) -> dict[str, Any]:
+        """The table as TOML has it; ``rates`` says what the names of rates stand for."""
+        table: dict[str, Any] = {"times": list(self.times)}
+        if self.times:
+            table["dot"] = self.times[0]
+        means = {**self.means, **(rates or {})}
+        return {**table, "letters": dict(self.letters), "functions": dict(self.functions), "means": means}
 
     def name(self, key: str, function: bool = False, column: str = "") -> str:
         """The name of a letter or function, declared with its first use, or that of its column."""
@@ -123,13 +95,13 @@ class _Guessing:
             return [self.name(own[i] if own else _entry(key, str(i + 1)), function, key) for i in range(rows)]
         return [[self.name(_entry(key, f"{i + 1}{j + 1}"), function, key) for j in range(columns)] for i in range(rows)]
 
-    def move(self, key: str, times: Sequence[str]) -> None:
+    def move(self, key: str) -> None:
         """A letter that moves is the same with and without its time."""
-        flat = list(_flat(self.letters[key]))
-        self.states.update(flat)
+        names = list(flat(self.letters[key]))
+        self.states.update(names)
         if key in self.found.applied and key not in self.found.factors:
             self.functions[key] = self.letters[key]
-            self.means.update({f"{name}({time})": name for name in flat for time in times})
+            self.means.update({f"{name}({time})": name for name in names for time in self.times})
 
     def apply(self, key: str) -> None:
         """A function, and what its letter alone stands for."""
@@ -140,10 +112,10 @@ class _Guessing:
         value = self.functions[key] = self.value(key, function=True)
         if at is None:
             return
-        arguments = [name for x in at for name in _flat(self.letters[x])]
+        arguments = [name for x in at for name in flat(self.letters[x])]
         if len(set(arguments)) < len(arguments):
             return
-        for name in _flat(value):
+        for name in flat(value):
             self.generic[name] = tuple(arguments)
         spoken = f"({', '.join(arguments)})"
         self.letters[key] = _mapped(value, lambda name: name + spoken)
@@ -165,14 +137,6 @@ def _entry(key: str, index: str) -> str:
     both = f"{low.strip('{}')},{index}" if low else index
     script = f"_{both}" if len(both) == 1 else f"_{{{both}}}"
     return base + script + star + high
-
-
-def _flat(value: Any) -> Iterable[str]:
-    if isinstance(value, list):
-        for entry in value:
-            yield from _flat(entry)
-    else:
-        yield str(value)
 
 
 def _mapped(value: Any, change: Any) -> Any:

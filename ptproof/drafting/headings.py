@@ -83,16 +83,14 @@ def _named(found: Sequence[tuple[str, str, int]]) -> tuple[Heading, ...]:
     headings: list[Heading] = []
     last, behind = 0, 0
     for number, title, line in found:
+        mark, name = "", title
         if number.isdigit():
             last, behind = int(number), 0
-            place = f"section{last:0{width}d}"
         else:
-            place = f"section{last:0{width}d}{'z' * (behind // 26)}{chr(ord('a') + behind % 26)}"
+            mark = "z" * (behind // 26) + chr(ord("a") + behind % 26)
+            name = f"appendix {number} {title}" if number else title
             behind += 1
-            title_in_name = f"appendix {number} {title}" if number else title
-            headings.append(Heading(number, title, line, f"{place}_{slug(title_in_name)}"))
-            continue
-        headings.append(Heading(number, title, line, f"{place}_{slug(title)}"))
+        headings.append(Heading(number, title, line, f"section{last:0{width}d}{mark}_{slug(name)}"))
     return tuple(headings)
 
 

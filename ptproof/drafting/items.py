@@ -45,22 +45,11 @@ from ptproof.reading.latex.statements import Pair
 class Item:
     """One entry of a section file.
 
-    Attributes
-    ----------
-    facts
-        The equations of a definition that stand under a name of their own; those of another entry are ``known``.
-    others
-        Its other relations.
-    givens
-        What a claim is under.
-    again
-        Those of these whose letter is the left side of the claim: what the paper says of it a second time.
-    stated
-        What the paper says of its letters alone.
-    puts
-        For each relation of a claim, and each that it is under, the definitions of the functions that occur in it.
-    rules
-        What the chain rule says of the rates that occur, where that is not said before.
+    ``facts`` are the equations of a definition that stand under a name of their own, ``known`` those of another entry,
+    and ``others`` its other relations. A claim is under the ``givens``; ``again`` are those whose letter is its left
+    side, which is what the paper says of it a second time, and ``stated`` is what the paper says of its letters alone.
+    ``puts`` has for each of these relations the definitions of the functions that occur in it, and ``rules`` what the
+    chain rule says of the rates that occur, where that is not said before.
     """
 
     kind: str

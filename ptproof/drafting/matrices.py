@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from ptproof.drafting.spelled import name_at, spelled
+from ptproof.drafting.spelled import TRANSPOSE, name_at, spelled
 from ptproof.reading.latex.cursor import RELATIONS
 from ptproof.reading.latex.tokens import Token, argument
 
-_TRANSPOSE = frozenset({"T", r"\top", r"\intercal", r"\text"})
+_CLOSING = {"[": "]", "(": ")", r"\begin{bmatrix}": r"\end{bmatrix}", r"\begin{pmatrix}": r"\end{pmatrix}"}
 
 
 def transposed(tokens: Sequence[Token]) -> tuple[frozenset[str], tuple[tuple[str, str, str], ...]]:
@@ -22,7 +22,7 @@ def transposed(tokens: Sequence[Token]) -> tuple[frozenset[str], tuple[tuple[str
         if named is None or position + 1 >= len(tokens) or tokens[position].text != "^":
             continue
         above, after = argument(tokens, position + 1, tokens[position])
-        if len(above) == 1 and above[0].text in (r"\top", "T", r"\intercal"):
+        if len(above) == 1 and above[0].text in TRANSPOSE - {r"\text"}:
             letters.add(named[0])
             middle = name_at(tokens, after)
             last = name_at(tokens, middle[1]) if middle else None
@@ -86,19 +86,11 @@ def _last_name(tokens: Sequence[Token]) -> str:
 def _entries(tokens: Sequence[Token], position: int) -> list[str]:
     texts = [token.text for token in tokens]
     opening = texts[position] if position < len(texts) else ""
-    if opening in ("[", "("):
-        closing = "]" if opening == "[" else ")"
-        if closing not in texts[position:]:
-            return []
-        end, mark = texts.index(closing, position), ","
-        if texts[end + 1 : end + 2] != ["^"] or not _TRANSPOSE & set(texts[end + 2 : end + 4]):
-            return []
-    elif opening in (r"\begin{bmatrix}", r"\begin{pmatrix}"):
-        closing = opening.replace(r"\begin", r"\end")
-        if closing not in texts[position:]:
-            return []
-        end, mark = texts.index(closing, position), "\\\\"
-    else:
+    closing = _CLOSING.get(opening, "")
+    if closing not in texts[position:]:
+        return []
+    end, mark = texts.index(closing, position), "," if opening in ("[", "(") else "\\\\"
+    if mark == "," and (texts[end + 1 : end + 2] != ["^"] or not TRANSPOSE & set(texts[end + 2 : end + 4])):
         return []
     parts: list[list[Token]] = [[]]
     for item in tokens[position + 1 : end]:

@@ -32,9 +32,8 @@ def python_name(key: str, taken: Iterable[str] = ()) -> str:
             accents.append({"widetilde": "tilde", "overline": "bar", "mathcal": "cal", "mathfrak": "frak"}.get(
                 match[1], match[1]))  # fmt: skip
         text = text[: match.start()] + text[match.end() :].replace("}", "", 1)
-    base, mark, scripts = _split(text)
-    base = _words(base)
-    scripts = _words(scripts)
+    stem, mark, rest = [*re.split(r"([_^])", text, maxsplit=1), "", ""][:3]
+    base, scripts = _words(stem), _words(rest)
     if mark == "_" and not accents and len(base) == 1 and scripts.isdigit():
         name = base + scripts
     else:
@@ -52,11 +51,6 @@ def unused(name: str, taken: Iterable[str]) -> str:
         number += 1
         name = f"{wanted.rstrip('_')}_{number}"
     return name
-
-
-def _split(text: str) -> tuple[str, str, str]:
-    place = re.search(r"[_^]", text)
-    return (text, "", "") if place is None else (text[: place.start()], text[place.start()], text[place.end() :])
 
 
 def _words(text: str) -> str:

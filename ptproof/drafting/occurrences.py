@@ -6,32 +6,21 @@ from collections.abc import Generator, Iterator, Sequence
 from dataclasses import dataclass
 
 from ptproof.drafting.matrices import columns, members, transposed
-from ptproof.drafting.spelled import arguments_at, name_at
+from ptproof.drafting.spelled import TRANSPOSE, arguments_at, name_at
 from ptproof.reading.latex.cursor import differential
 from ptproof.reading.latex.notation import spelling
 from ptproof.reading.latex.tokens import NotUnderstood, Token, argument
 
-_TRANSPOSE = frozenset({"T", r"\top", r"\intercal", r"\text"})
 _NOT_SMOOTH = frozenset({"sat", "sgn", "sign", "sig", "dz"})
 
 
 @dataclass(frozen=True)
 class Occurrence:
-    """One letter of a formula.
+    """One letter of a formula, spelled with accents and index, and with an exponent that is part of the name (a star).
 
-    Attributes
-    ----------
-    key
-        Its spelling, with accents and index, and with an exponent that is part of the name (a star).
-    arguments
-        The spelling of each of its arguments where it stands before parentheses: empty for one that is no letter and
-        no number, + for a sum; None where it stands alone.
-    sums
-        The letters in its arguments that are sums.
-    along
-        The spelling of the time along which a rate of it is taken.
-    line
-        Where in the source.
+    ``arguments`` has the spelling of each argument where it stands before parentheses (empty for one that is no letter
+    and no number, + for a sum), None where it stands alone; ``sums`` the letters in its arguments that are sums.
+    ``along`` is the time along which a rate of it is taken.
     """
 
     key: str
@@ -74,17 +63,16 @@ def _walk(tokens: list[Token], integral: bool, along: str = "") -> Iterator[Occu
                 yield from _quotient(above, below, tokens, after, integral)
                 position = after
             elif text in (r"\dot", r"\ddot"):
-                inside, after = argument(tokens, position + 1, token)
-                after = _behind(tokens, after)
-                yield from _walk(
-                    [*inside, *tokens[position + 1 + _length(tokens, position + 1) : after]], integral, "t"
-                )
+                inside, end = argument(tokens, position + 1, token)
+                after = _behind(tokens, end)
+                yield from _walk([*inside, *tokens[end:after]], integral, "t")
                 position = after
-            elif text in (r"\text", r"\mathbb", r"\begin{array}") or text in (r"\label", r"\tag"):
+            elif text in (r"\text", r"\mathbb", r"\begin{array}", r"\label", r"\tag"):
                 position = yield from _word(tokens, position)
             elif (named := name_at(tokens, position)) is not None:
                 key, after, base = named
-                if _is_differential(tokens, position, integral) or _is_exponential(base, tokens, position):
+                exponential = base == "e" and position + 1 < len(tokens) and tokens[position + 1].text == "^"
+                if exponential or (integral and text == "d" and name_at(tokens, position + 1) is not None):
                     position += 1
                     continue
                 arguments, end = arguments_at(tokens, after)
@@ -93,7 +81,7 @@ def _walk(tokens: list[Token], integral: bool, along: str = "") -> Iterator[Occu
                 along, position = "", after
             else:
                 position += 1
-                if text == "^" and position < len(tokens) and tokens[position].text in _TRANSPOSE:
+                if text == "^" and position < len(tokens) and tokens[position].text in TRANSPOSE:
                     position += 1
         except NotUnderstood:
             position += 1
@@ -134,15 +122,3 @@ def _behind(tokens: Sequence[Token], position: int) -> int:
     while position + 1 < len(tokens) and tokens[position].text == "_":
         _, position = argument(tokens, position + 1, tokens[position])
     return arguments_at(tokens, position)[1]
-
-
-def _length(tokens: Sequence[Token], position: int) -> int:
-    return argument(tokens, position, tokens[position])[1] - position
-
-
-def _is_differential(tokens: Sequence[Token], position: int, integral: bool) -> bool:
-    return integral and tokens[position].text == "d" and name_at(tokens, position + 1) is not None
-
-
-def _is_exponential(base: str, tokens: Sequence[Token], position: int) -> bool:
-    return base == "e" and position + 1 < len(tokens) and tokens[position + 1].text == "^"

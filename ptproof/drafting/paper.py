@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
 from typing import Any
 
 import sympy as sp
 
-from ptproof.drafting.guess import Declared, Guess, guess
+from ptproof.drafting.guess import Declared, Guess
 from ptproof.drafting.headings import Outline, outline
 from ptproof.drafting.letters import Letters
 from ptproof.drafting.occurrences import Scanned, scan
@@ -25,7 +25,7 @@ from ptproof.reading.latex.grammar import Grammar
 from ptproof.reading.latex.notation import Notation, meanings, notation, read_table, vocabulary
 from ptproof.reading.latex.rewrite import Rules
 from ptproof.reading.latex.statements import read_formula
-from ptproof.reading.latex.tokens import Macro, NotUnderstood, Token, argument, read
+from ptproof.reading.latex.tokens import Macro, NotUnderstood, Token, argument, nesting, read
 
 _ROUNDS = 4
 _TABLE = "notation.toml"
@@ -35,24 +35,11 @@ _E_TWICE = "two readings", "e stands alone elsewhere, so that e with an exponent
 
 @dataclass(frozen=True)
 class Paper:
-    """A paper as it was read.
+    """A paper as it was read: what became of each displayed formula, and the relations in running text.
 
-    Attributes
-    ----------
-    said
-        What became of each displayed formula, in the order of the text.
-    running
-        The relations in running text.
-    declared
-        Every name of the derivation: letters, functions, and the rates of what moves.
-    rates
-        For the name of each rate what it stands for, as the table of notation has it.
-    moved
-        For each name of a rate the moved expression and the time.
-    generic
-        For each function the names at which it is written most often.
-    conditions
-        What the paper says of its letters alone.
+    ``declared`` are all names of the derivation: letters, functions, and the rates of what moves. ``rates`` has what
+    the table of notation says for the name of each rate, ``moved`` the moved expression and the time, and
+    ``conditions`` what the paper says of its letters alone.
     """
 
     outline: Outline
@@ -61,7 +48,6 @@ class Paper:
     declared: Mapping[str, Declared]
     rates: Mapping[str, str]
     moved: Mapping[str, tuple[sp.Expr, sp.Symbol]]
-    generic: Mapping[str, tuple[str, ...]]
     states: frozenset[str]
     table: Mapping[str, Any]
     conditions: Conditions
@@ -74,10 +60,10 @@ def read_with_guesses(source: str) -> Paper:
     tokens = {id(item): _tokens(item, formulas.macros) for item in every}
     letters = Letters.of(_scanned(tokens[id(item)]) for item in every)
     for _ in range(_ROUNDS):
-        guessed, before = guess(letters), dict(letters.shapes)
+        guessed, before = Guess(letters), dict(letters.shapes)
         reader = _Reader(guessed, letters)
         for item in every:
-            letters.shapes |= {**reader.shapes(tokens[id(item)], letters), **letters.forms_shaped()}
+            letters.shapes |= {**reader.shapes(tokens[id(item)]), **letters.forms_shaped()}
         if letters.shapes == before:
             break
     said = [reader.said(item, formulas.macros) for item in formulas.displayed]
@@ -88,7 +74,7 @@ def read_with_guesses(source: str) -> Paper:
     stated = conditions(beside, said, lambda item: reader.said(item, formulas.macros), guessed)
     return Paper(
         outline(source), translated, formulas.running, {**guessed.declared, **named.declared}, named.rates,
-        named.moved, guessed.generic, guessed.states, guessed.table(named.rates), stated,
+        named.moved, frozenset(guessed.states), guessed.table(named.rates), stated,
     )  # fmt: skip
 
 
@@ -126,12 +112,7 @@ class _Reader:
         """What the formula says in the names of the derivation, states without their time."""
         try:
             self.refuse_two_readings(_tokens(formula, macros), formula.line)
-            reading, meaning = read_formula(formula, macros, self.notation), self.meaning
-            parts = {
-                name: tuple(replace(p, left=meaning(p.left), right=meaning(p.right)) for p in getattr(reading, name))
-                for name in ("pairs", "conditions", "braces")
-            }
-            return Said(formula, replace(reading, **parts))
+            return Said(formula, read_formula(formula, macros, self.notation).map(self.meaning))
         except NotUnderstood as error:
             return Said(formula, None, str(error))
         except (InputError, TypeError, ValueError, AttributeError, ArithmeticError, RecursionError) as error:
@@ -152,14 +133,12 @@ class _Reader:
             if not self.letters.is_sized(item.key):
                 raise NotUnderstood("matrix", f"nothing tells of what size {item.key} is", item.line)
 
-    def shapes(self, tokens: Sequence[Token], letters: Letters) -> dict[str, tuple[int, int]]:
+    def shapes(self, tokens: Sequence[Token]) -> dict[str, tuple[int, int]]:
         """The shapes of letters that stand alone beside a column or a matrix."""
         found: dict[str, tuple[int, int]] = {}
         for chain in _chains(tokens):
             alone = [(_alone(side), i) for i, side in enumerate(chain)]
-            unknown = [(key, i) for key, i in alone if key and letters.shape(key) is None]
-            if not unknown or len(chain) < 2:
-                continue
+            unknown = [(key, i) for key, i in alone if key and self.letters.shape(key) is None]
             for key, place in unknown:
                 for beside in (place + 1, place - 1):
                     value = self.value(chain[beside]) if 0 <= beside < len(chain) else None
@@ -180,9 +159,7 @@ def _chains(tokens: Sequence[Token]) -> Iterator[list[list[Token]]]:
     depth = 0
     for token in tokens:
         text = token.text
-        depth += (text in ("{", "(", "[") or text.startswith(r"\begin{")) - (
-            text in ("}", ")", "]") or text.startswith(r"\end{")
-        )
+        depth += nesting(text)
         if depth == 0 and text in RELATIONS:
             chain.append([])
         elif depth == 0 and text in ("\\\\", ",", ";", ".") and len(chain) > 1:
@@ -206,9 +183,7 @@ def _alone(side: Sequence[Token]) -> str:
     if named is None:
         return ""
     rest = [token.text for token in tokens[named[1] :]]
-    return (
-        named[0] if not rest or (rest[0] == "(" and rest.index(")") == len(rest) - 1 if ")" in rest else False) else ""
-    )
+    return named[0] if not rest or (rest[0] == "(" and rest[-1] == ")" and rest.count(")") == 1) else ""
 
 
 def _has_power_of_e(tokens: Sequence[Token]) -> bool:

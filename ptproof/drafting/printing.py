@@ -15,7 +15,7 @@ _KNOWN = (
     sp.Tuple, sp.Abs, sp.Max, sp.Min, sp.sin, sp.cos, sp.tan, sp.exp, sp.log, sp.sinh, sp.cosh, sp.tanh, sp.atan,
     sp.asin, sp.acos, sp.sign, sp.Piecewise,
 )  # fmt: skip
-_CONSTANTS = (sp.pi, sp.E, sp.oo, -sp.oo)
+_CONSTANTS = {sp.pi: "sp.pi", sp.E: "sp.E", sp.oo: "sp.oo", -sp.oo: "-sp.oo"}
 
 
 class _Printer(StrPrinter):
@@ -54,18 +54,10 @@ class _Printer(StrPrinter):
         body, variables, point = expr.args
         return f"sp.Subs({', '.join(map(self._print, (body, variables, point)))})"
 
-    def _print_Exp1(self, expr: sp.Expr) -> str:
-        return "sp.E"
+    def _print_constant(self, expr: sp.Expr) -> str:
+        return _CONSTANTS[expr]
 
-    def _print_Pi(self, expr: sp.Expr) -> str:
-        return "sp.pi"
-
-    def _print_Infinity(self, expr: sp.Expr) -> str:
-        return "sp.oo"
-
-    def _print_NegativeInfinity(self, expr: sp.Expr) -> str:
-        return "-sp.oo"
-
+    _print_Exp1 = _print_Pi = _print_Infinity = _print_NegativeInfinity = _print_constant
     _print_Abs = _print_Max = _print_Min = _print_Piecewise = _print_Function
     _print_LatticeOp = _print_Function
 

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
-from typing import Any
+from dataclasses import dataclass
 
 import sympy as sp
 
@@ -38,19 +37,16 @@ class Rates:
         """The formula with a name for each rate; one that has none, such as that of a sum, makes it a gap."""
         if said.reading is None:
             return said
-        parts = {}
-        for name in ("pairs", "conditions", "braces"):
-            pairs = getattr(said.reading, name)
-            parts[name] = tuple(replace(p, left=self.named(p.left), right=self.named(p.right)) for p in pairs)
-        everything = [side for pairs in parts.values() for p in pairs for side in (p.left, p.right)]
+        reading = said.reading.map(self.named)
+        pairs = (*reading.pairs, *reading.conditions, *reading.braces)
+        everything = [side for pair in pairs for side in (pair.left, pair.right)]
         for side in everything:
             if nodes := side.atoms(RATE):
-                return Said(
-                    said.formula, None, f"line {said.formula.line}: the rate of {_first(nodes).args[0]} has no name yet"
-                )
+                why = f"the rate of {min(nodes, key=str).args[0]} has no name yet"
+                return Said(said.formula, None, f"line {said.formula.line}: {why}")
             if why := self.elsewhere(side, len(everything)):
                 return Said(said.formula, None, f"line {said.formula.line}: {why}")
-        return Said(said.formula, replace(said.reading, **parts))
+        return Said(said.formula, reading)
 
     def elsewhere(self, side: sp.Expr, sides: int) -> str:
         """Why a side cannot be a claim: what moves is taken at an instant of its own, or a name is no name."""
@@ -108,7 +104,3 @@ class Rates:
 
     def glyph(self, name: str) -> str:
         return self.guessed.declared[name].glyph if name in self.guessed.declared else name
-
-
-def _first(nodes: Any) -> Any:
-    return min(nodes, key=str)

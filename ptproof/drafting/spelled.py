@@ -4,18 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ptproof.reading.latex.letters import low_letter
+from ptproof.reading.latex.letters import ACCENTS, low_letter
 from ptproof.reading.latex.notation import spelling
-from ptproof.reading.latex.tokens import Token, argument, written
+from ptproof.reading.latex.tokens import Token, argument, nesting, written
 
-_ACCENTS = frozenset(
-    rf"\{name}" for name in (
-        "bar", "tilde", "hat", "check", "vec", "mathbf", "mathcal", "mathfrak", "boldsymbol", "widetilde", "overline",
-    )
-)  # fmt: skip
+_ACCENTS = ACCENTS - {r"\mathbb", r"\text"}
 _IN_NAME = frozenset({"*", "+", r"\star", r"\ast", r"\dagger"})
-_TRANSPOSE = frozenset({"T", r"\top", r"\intercal", r"\text"})
-_CLOSED = {"(": ")", "[": "]", "{": "}"}
+TRANSPOSE = frozenset({"T", r"\top", r"\intercal", r"\text"})
 
 
 def name_at(tokens: Sequence[Token], position: int) -> tuple[str, int, str] | None:
@@ -50,7 +45,7 @@ def arguments_at(tokens: Sequence[Token], position: int) -> tuple[tuple[str, ...
     """The spelling of each argument in the parentheses that open here, behind a transpose at most."""
     if position < len(tokens) and tokens[position].text == "^":
         above, behind = argument(tokens, position + 1, tokens[position])
-        if len(above) != 1 or above[0].text not in _TRANSPOSE:
+        if len(above) != 1 or above[0].text not in TRANSPOSE:
             return None, position
         return arguments_at(tokens, behind) if behind < len(tokens) and tokens[behind].text == "(" else (None, position)
     if position >= len(tokens) or tokens[position].text != "(":
@@ -58,10 +53,7 @@ def arguments_at(tokens: Sequence[Token], position: int) -> tuple[tuple[str, ...
     depth, parts = 0, [[]]  # type: ignore[var-annotated]
     for end in range(position, len(tokens)):
         text = tokens[end].text
-        if text in _CLOSED:
-            depth += 1
-        elif text in _CLOSED.values():
-            depth -= 1
+        depth += nesting(text)
         if depth == 0:
             return tuple(spelled(part) for part in parts), end + 1
         if depth == 1 and text == ",":
@@ -79,9 +71,7 @@ def spelled(part: list[Token]) -> str:
         return named[0]
     depth = 0
     for place, token in enumerate(part):
-        depth += (token.text in _CLOSED or token.text.startswith(r"\begin")) - (
-            token.text in _CLOSED.values() or token.text.startswith(r"\end")
-        )
+        depth += nesting(token.text)
         if depth == 0 and place and token.text in ("+", "-"):
             return "+"
     return ""

@@ -20,6 +20,7 @@ from ptproof.drafting.names import unused
 from ptproof.drafting.rates import Said
 from ptproof.reading.latex.formulas import Formula
 from ptproof.reading.latex.statements import Pair
+from ptproof.reading.tables import split_list
 
 _FLIPPED = {"<": ">", "<=": ">=", ">": "<", ">=": "<=", "=": "=", "!=": "!="}
 _LOCAL = re.compile(
@@ -60,12 +61,7 @@ class Conditions:
     def of(self, letters: Iterable[sp.Basic]) -> tuple[Stated, ...]:
         """What is taken of these letters, and of those by which they are bounded."""
         known = set(letters)
-        while (
-            more := {
-                symbol for item in self.taken if item.pair.left in known for symbol in item.pair.right.free_symbols
-            }
-            - known
-        ):
+        while more := set().union(*(i.pair.right.free_symbols for i in self.taken if i.pair.left in known)) - known:
             known |= more
         return tuple(item for item in self.taken if item.pair.left in known)
 
@@ -116,13 +112,8 @@ def _local(formula: Formula, pair: Pair) -> str:
 def _turned(pair: Pair, known: set[str]) -> Pair | None:
     """The relation with its letter on the left, if it is one of a letter to a sum of letters and numbers."""
     for left, sign, right in ((pair.left, pair.sign, pair.right), (pair.right, _FLIPPED.get(pair.sign, ""), pair.left)):
-        if (
-            left.is_Symbol
-            and left.name in known
-            and sign
-            and left not in right.free_symbols
-            and _is_bound(right, known)
-        ):
+        named = left.is_Symbol and left.name in known and left not in right.free_symbols
+        if named and sign and _is_bound(right, known):
             return Pair(left, sign, right)
     return None
 
@@ -146,15 +137,8 @@ def _split(formula: Formula, sets: dict[str, str]) -> Iterator[Formula]:
     if not sign:
         yield formula
         return
-    depth, names = 0, [""]
-    for mark in before:
-        depth += (mark in "{([") - (mark in "})]")
-        if mark == "," and depth == 0:
-            names.append("")
-        else:
-            names[-1] += mark
-    for name in names:
-        yield replace(formula, text=f"{name.strip()} {sign} {behind.strip()}")
+    for name in split_list(before):
+        yield replace(formula, text=f"{name} {sign} {behind.strip()}")
 
 
 def _sorted(found: Sequence[tuple[Stated, str]], known: Iterable[str]) -> Conditions:
@@ -178,10 +162,11 @@ def _sorted(found: Sequence[tuple[Stated, str]], known: Iterable[str]) -> Condit
 
 
 def _named(taken: Sequence[Stated], known: Iterable[str]) -> tuple[Stated, ...]:
-    names: list[str] = []
+    named: list[Stated] = []
     for item in taken:
-        names.append(unused(f"{item.pair.left.name}_stated", [*names, *known]))
-    return tuple(replace(item, name=name) for item, name in zip(taken, names, strict=True))
+        name = unused(f"{item.pair.left.name}_stated", [*(other.name for other in named), *known])
+        named.append(replace(item, name=name))
+    return tuple(named)
 
 
 def _way(item: Stated) -> str:

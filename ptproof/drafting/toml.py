@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 _SECTIONS = {
@@ -22,13 +22,9 @@ def toml(table: Mapping[str, Any], head: str) -> str:
     ]
     for name, entries in table.items():
         if isinstance(entries, dict) and entries:
-            lines += ["", f"[{name}]".ljust(34) + f" # {_SECTIONS[name]}", *_entries(entries)]
+            lines += ["", f"[{name}]".ljust(34) + f" # {_SECTIONS[name]}"]
+            lines += [f"{_key(key)} = {_value(value)}" for key, value in entries.items()]
     return "\n".join(lines) + "\n"
-
-
-def _entries(entries: Mapping[str, Any]) -> Iterator[str]:
-    for key, value in entries.items():
-        yield f"{_key(key)} = {_value(value)}"
 
 
 def _key(key: str) -> str:

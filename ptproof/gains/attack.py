@@ -48,7 +48,10 @@ def attack_curve(problem: Problem, curve: BoundCurve, *, starts: int = 6, seed: 
     count = 0
     for direction in _directions(problem, starts, seed):
         start = [middle + float(curve.initial) * part for middle, part in zip(source, direction, strict=True)]
-        for t, distance, limit in _along(rate, start, source, curve):
+        for t, x in _run(rate, start, curve.times):
+            distance, limit = math.dist(x, source), curve.distances[curve.times.index(t)]
+            if not math.isfinite(limit):  # as at the last instant where the gain grows without bound
+                continue
             count += 1
             if distance > limit * (1 + _SLACK) + _SLACK * float(curve.initial):
                 where = ", ".join(f"{value:.6g}" for value in start)
@@ -57,16 +60,6 @@ def attack_curve(problem: Problem, curve: BoundCurve, *, starts: int = 6, seed: 
                     f"from ({where}) it is {distance:.9g}",
                 )
     return count
-
-
-def _along(
-    rate: Rate, start: Sequence[float], source: Sequence[float], curve: BoundCurve
-) -> Iterator[tuple[float, float, float]]:
-    """(t, distance, bound) along one run; the last instant is left out where the gain grows without bound there."""
-    for t, x in _run(rate, start, curve.times):
-        limit = curve.distances[curve.times.index(t)]
-        if math.isfinite(limit):
-            yield t, math.dist(x, source), limit
 
 
 def _run(rate: Rate, start: Sequence[float], times: Sequence[float]) -> Iterator[tuple[float, Sequence[float]]]:

@@ -83,16 +83,12 @@ def _higher(data: GainData, chain: Chain, *, threshold: bool = False) -> None:
     if data.bounds.kappa == 1 and not (threshold and chain == "split" and data.level is not None):
         unlimited = threshold and data.level is None and (chain == "split" or data.unit.is_printed)
         raise (Unlimited if unlimited else NotApplicable)("for kappa = 1 the bound is finite for every V0 and T")
-    _known_chain(data, chain)
-
-
-def _known_chain(data: GainData, chain: Chain) -> None:
     if chain == "printed":
         data.unit.only_printed()
 
 
 def _overshoot(data: GainData) -> sp.Expr:
-    _known_chain(data, "printed")
+    data.unit.only_printed()
     if data.norm == 0:
         return sp.sqrt(data.bounds.a1 / data.bounds.a2)
     return vanishing.overshoot(data.bounds, data.norm, *data.known("T"))
@@ -161,10 +157,6 @@ def _last_rate(data: GainData) -> sp.Expr:
     return sp.S.One if data.nu_min is None else data.unit.cap
 
 
-def _ultimate(data: GainData, k: sp.Expr, _: sp.Expr) -> sp.Expr:
-    return nonvanishing.ultimate_bound(data.bounds, k, data.everlasting_drift, _last_rate(data))
-
-
 def _ultimate_printed(data: GainData, k: sp.Expr, _: sp.Expr) -> sp.Expr:
     level = nonvanishing.input_factor(data.bounds) * data.everlasting_drift / _last_rate(data)
     return nonvanishing.input_gain_printed(data.bounds, k, level)
@@ -185,7 +177,8 @@ def _u2_peak(data: GainData, omega: sp.Expr, _: sp.Expr, k: sp.Expr, distance: s
 
 def _residual(data: GainData, chain: Chain) -> sp.Expr:
     _, T, _ = data.known("k", "T", "nu_min")
-    _known_chain(data, chain)
+    if chain == "printed":
+        data.unit.only_printed()
     _one_drift(data)
     if data.drift_bound is not None:
         if chain == "printed":
@@ -195,15 +188,6 @@ def _residual(data: GainData, chain: Chain) -> sp.Expr:
     if value is None:
         raise NotApplicable("the bound escapes before t0 + T: V0 is too large for this T, k and drift")
     return value
-
-
-def _hover(data: GainData, omega: sp.Expr) -> sp.Expr:
-    """1/√ω: how far the vehicle circles around its average, to leading order.
-
-    It is the length of the first correction of the average, (sin θ, −cos θ)/√ω, whatever the field and the gain are
-    (:func:`ptproof.simulation.order.hover_radius` has the derivation).
-    """
-    return 1 / sp.sqrt(omega)
 
 
 def _nu_min_for_residual(data: GainData, residual: sp.Expr) -> sp.Expr:
@@ -248,7 +232,10 @@ _TABLE: Mapping[str, Entry] = {
         "γ(h₂d), as printed",
         lambda data, k, d: nonvanishing.input_gain_printed(data.bounds, k, nonvanishing.input_factor(data.bounds) * d),
         ("k", "drift_bound"), _one_drift),
-    "nonvanishing.ultimate_bound": Entry("ultimate distance", _ultimate, ("k", "drift_bound"), _lasting),
+    "nonvanishing.ultimate_bound": Entry(
+        "ultimate distance",
+        lambda data, k, _: nonvanishing.ultimate_bound(data.bounds, k, data.everlasting_drift, _last_rate(data)),
+        ("k", "drift_bound"), _lasting),
     "nonvanishing.ultimate_bound_printed": Entry(
         "ultimate distance, printed γ", _ultimate_printed, ("k", "drift_bound"), _lasting),
     "nonvanishing.exact_bound": Entry(
@@ -268,7 +255,9 @@ _TABLE: Mapping[str, Entry] = {
     "clip.residual_bound_printed": Entry("at t₀ + T within, as printed", partial(_residual, chain="printed")),
     "clip.nu_min_for_residual": Entry(
         "largest ν_min for the residual", _nu_min_for_residual, ("residual",)),
-    "vehicle.hover_radius": Entry("circles at 1/√ω, to leading order", _hover, ("omega",), about="vehicle"),
+    # The length of the average's first correction, whatever the field and the gain (simulation/order.py derives it).
+    "vehicle.hover_radius": Entry(
+        "circles at 1/√ω, to leading order", lambda data, omega: 1 / sp.sqrt(omega), ("omega",), about="vehicle"),
     "vehicle.omega_for_residual": Entry(
         "least ω with 1/√ω within the residual", lambda data, residual: 1 / residual**2, ("residual",),
         about="vehicle"),

@@ -11,6 +11,7 @@ import sympy as sp
 from ptproof.balls.ball import enclose, precision, separated
 from ptproof.errors import InputError
 from ptproof.proof.signs import sign_of
+from ptproof.reading.guards import short as short
 
 _BITS = (64, 256, 1024)
 
@@ -63,12 +64,6 @@ def times_exponential(factor: sp.Expr, exponent: sp.Expr) -> sp.Expr:
     if exponent.has(sp.log):
         return sp.Mul(factor, sp.exp(exponent, evaluate=False), evaluate=False)
     return factor * sp.exp(exponent)
-
-
-def short(expression: Any) -> str:
-    """The text of an expression, cut to 60 characters."""
-    text = str(expression)
-    return text if len(text) <= 60 else text[:57] + "..."
 
 
 @dataclass(frozen=True)

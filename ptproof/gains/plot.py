@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -89,10 +90,12 @@ def closed_form_curves(data: GainData, points: int = 41) -> dict[str, list[tuple
     for i in range(points + 1):
         e = T * sp.Rational(i, points)
         for name, chain in _chains(data):
-            try:
-                bound = _distance_bound(data, e, chain)
-            except NotApplicable:
-                continue
+            bound = None
+            with suppress(NotApplicable):
+                if data.drift_bound is None:
+                    bound = vanishing.distance_bound(data, e, chain)
+                elif chain == "split":
+                    bound = nonvanishing.distance_bound(data, e)
             if bound is not None:
                 curves.setdefault(name, []).append((float(data.t0 + e), float(bound)))
     return curves
@@ -101,12 +104,6 @@ def closed_form_curves(data: GainData, points: int = 41) -> dict[str, list[tuple
 def _chains(data: GainData) -> Sequence[tuple[str, Chain]]:
     split: list[tuple[str, Chain]] = [("closed form", "split")]
     return [("printed", "printed"), *split] if data.unit.is_printed else split
-
-
-def _distance_bound(data: GainData, elapsed: sp.Expr, chain: Chain) -> sp.Expr | None:
-    if data.drift_bound is None:
-        return vanishing.distance_bound(data, elapsed, chain)
-    return nonvanishing.distance_bound(data, elapsed) if chain == "split" else None
 
 
 def _critical(axes: Any, data: GainData) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass, fields
 from functools import lru_cache
 from typing import Any
@@ -18,9 +19,10 @@ from ptproof.certify import FieldCertificate, certify_field
 from ptproof.errors import InputError
 from ptproof.gains.answer import Gains, gains
 from ptproof.gains.data import GainData
-from ptproof.gains.numbers import sign
+from ptproof.gains.numbers import Quantity, sign
 from ptproof.gains.tight import BoundCurve, distance_from_source, tight_bound
 from ptproof.problem import Problem
+from ptproof.problem.drift import Drift
 from ptproof.problem.field import Field, FieldBounds
 from ptproof.problem.model import TIME
 from ptproof.proof.verdict import Verdict
@@ -90,26 +92,25 @@ class Study:
         return f"the constants hold {self.condition}, and later times are not shown to keep it there"
 
     @property
+    def _closed(self) -> dict[str, Quantity | None]:
+        keys = {"printed": "clip.residual_bound_printed", "closed_form": "clip.residual_bound"}
+        return {name: None if self.answer is None else self.answer[key] for name, key in keys.items()}
+
+    @property
     def bounds_at_end(self) -> Mapping[str, float | None]:
         """The averaged distance at t₀ + T: ``printed``, ``closed_form`` and ``tight``, None where there is none."""
-        keys = {"printed": "clip.residual_bound_printed", "closed_form": "clip.residual_bound"}
-        found = {name: None if self.answer is None else self.answer[key] for name, key in keys.items()}
         proved = self.curve.evidence.verdict is Verdict.PROVED and self.problem.tuning.nu_min is not None
-        return {
-            **{name: None if quantity is None else quantity.value for name, quantity in found.items()},
-            "tight": self.curve.final if proved else None,
-        }
+        closed = {name: None if quantity is None else quantity.value for name, quantity in self._closed.items()}
+        return {**closed, "tight": self.curve.final if proved else None}
 
     @property
     def exact_bounds_at_end(self) -> tuple[sp.Expr, ...]:
         """Those of them that certainly hold, exact; the tight one is a float that is rounded up."""
         if not self.applies:
             return ()
-        keys = ("clip.residual_bound_printed", "clip.residual_bound")
-        quantities = () if self.answer is None else (self.answer[key] for key in keys)
+        closed = tuple(quantity.exact for quantity in self._closed.values() if quantity is not None)
         tight = self.bounds_at_end["tight"]
-        closed = (quantity.exact for quantity in quantities if quantity is not None)
-        return (*closed, *(() if tight is None else (sp.Rational(tight),)))
+        return closed if tight is None else (*closed, sp.Rational(tight))
 
     def looseness(self, worst: float) -> dict[str, float | None]:
         """Each of :attr:`bounds_at_end` divided by the worst simulated distance."""
@@ -229,34 +230,29 @@ def largest_drift(problem: Problem, radius: sp.Expr | None) -> sp.Rational:
     if radius is not None and radius.is_finite:
         reach = ball_from(radius)
         inside = {v: ball_from(c) + interval(-reach, reach) for v, c in zip(field.variables, field.source, strict=True)}
-    norm = sp.sqrt(sp.Add(*(entry**2 for entry in drift.rate)))
-    for candidate in (norm, drift.bound):
-        if candidate is None:
-            continue
-        try:
-            return _rounded_up(largest_along(candidate, inside, TIME, (tuning.t0, tuning.t0 + tuning.T), _INTERVALS))
-        except Undefined:
-            continue
+    for size in _sizes(drift):
+        with suppress(Undefined):
+            return _rounded_up(largest_along(size, inside, TIME, (tuning.t0, tuning.t0 + tuning.T), _INTERVALS))
     raise InputError(f"{problem.name}: the drift has no finite enclosure; give its bound")
 
 
 def lasting_drift(problem: Problem, radius: sp.Expr | None) -> sp.Rational | None:
     """A rational upper bound of ‖f‖ for all time and ‖x − x*‖ ≤ radius, None where the whole line gives none."""
-    names = (TIME, *problem.field.variables)
-    norm = sp.sqrt(sp.Add(*(entry**2 for entry in problem.drift.rate)))
     whole = arb(0, math.inf)
     reach = whole if radius is None else interval(-ball_from(radius), ball_from(radius))
-    for candidate in (norm, problem.drift.bound):
-        if candidate is None:
-            continue
-        try:
-            tape = compile_tape([candidate], names)
+    for size in _sizes(problem.drift):
+        with suppress(Undefined):
+            tape = compile_tape([size], (TIME, *problem.field.variables))
             (value,) = tape.run([whole, *(ball_from(c) + reach for c in problem.source)], BALLS)
-        except Undefined:
-            continue
-        if value.is_finite():
-            return _rounded_up(up(value))
+            if value.is_finite():
+                return _rounded_up(up(value))
     return None
+
+
+def _sizes(drift: Drift) -> list[sp.Expr]:
+    """What ‖f‖ is at most: itself, and the bound that is declared, where one is."""
+    norm = sp.sqrt(sp.Add(*(entry**2 for entry in drift.rate)))
+    return [norm] if drift.bound is None else [norm, drift.bound]
 
 
 def _rounded_up(value: float) -> sp.Rational:

@@ -25,16 +25,9 @@ CRASH, TIME = "crash", "time limit"
 
 @dataclass(frozen=True)
 class Decided:
-    """What a worker says of a claim.
+    """What a worker says of a claim: the hash of what the claim says there, and what its proof says.
 
-    Attributes
-    ----------
-    content
-        What the claim says there, as a hash.
-    evidence
-        What its proof says.
-    files
-        What the proof has read besides the files of Python, the libraries and ptproof.
+    ``files`` are what the proof has read besides the files of Python, the libraries and ptproof.
     """
 
     content: str
@@ -118,13 +111,13 @@ def evidence_of(outcome: Unanswered, timeout: float) -> Evidence:
     return Evidence(CRASH, Verdict.UNDECIDED, outcome.reason.replace("the work ", "the proof ", 1))
 
 
-_read: dict[str, Claim] = {}
+READ: dict[str, Claim] = {}  # in a worker
 _one_at_a_time = threading.Lock()
 
 
 def read(files: Sequence[str]) -> None:
     """In a worker: the claims of these files, so that they can be asked for by their ids."""
-    _read.update(claims_in(files))
+    READ.update(claims_in(files))
 
 
 def import_apart(path: str) -> None:
@@ -135,7 +128,7 @@ def import_apart(path: str) -> None:
 
 def run_by_id(id: str) -> Decided:
     """In a worker: what a claim that was read says, and what its proof says."""
-    claim = _read[id]
+    claim = READ[id]
     says = claim.content
     with opened() as files:
         evidence = _contained(claim)
@@ -146,8 +139,8 @@ def run_by_id(id: str) -> Decided:
 
 def _on_worker(files: Sequence[str], id: str, timeout: float) -> Decided:
     with _one_at_a_time:  # a worker of a cluster may have threads, and z3 works with one
-        if id not in _read:
+        if id not in READ:
             read(files)
         with opened() as found:
-            evidence = run_here(_read[id], timeout)
-        return Decided(_read[id].content, evidence, foreign(found))
+            evidence = run_here(READ[id], timeout)
+        return Decided(READ[id].content, evidence, foreign(found))

@@ -154,6 +154,10 @@ class Claim:
         used = tuple(used.content for used in self.uses)
         return digest(self.statement, self.assumptions, self.where_defined, used)
 
+    def contains(self, text: str) -> bool:
+        """Whether the text stands in its id, title, section or labels, in small or large letters."""
+        return any(text.lower() in word.lower() for word in (self.id, self.title, self.section, *self.labels))
+
     def goal(self) -> Goal:
         """What the proof receives."""
         return Goal(self.id, self.statement, self.assumptions, self.uses, self.where_defined, self.example)
@@ -242,7 +246,7 @@ def facts_of(used: Claim) -> tuple[Fact, ...]:
         return ()
     said = (Implication(plain(used.assumptions), part, source=used.id) for part in relations_of(used.statement))
     limited = (guarded(says) if used.where_defined else says for says in said)
-    return tuple(from_claim(used, says) for says in limited if says is not None)
+    return tuple(from_claim(used.content, says) for says in limited if says is not None)
 
 
 _SEAL = object()

@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING, Any
 from ptproof.reading.hashes import of_file
 
 if TYPE_CHECKING:
-    from ptproof.proof.claim import Claim, Definition
     from ptproof.proof.load import Derivation
 
 # With these a module may read others in ways that its imports do not show.
@@ -26,8 +25,7 @@ def said(derivation: Derivation, digests: Mapping[str, str], files: Sequence[Pat
     here = {str(file.resolve()): file.resolve() for file in files}
     words: dict[str, list[str]] = {name: [] for name in here}
     ids: dict[str, list[str]] = {name: [] for name in here}
-    items: list[Claim | Definition] = [*derivation.claims, *derivation.definitions]
-    for item in items:
+    for item in derivation.items:
         if (home := derivation.homes.get(item.id)) in here:
             ids[home].append(item.id)
             words[home] += [item.id, item.title, item.section, *item.labels]
@@ -44,17 +42,7 @@ def said(derivation: Derivation, digests: Mapping[str, str], files: Sequence[Pat
     }
 
 
-def needed(known: Any, digests: Mapping[str, str], files: Iterable[Path], text: str) -> list[Path] | None:
-    """Those of the files that may hold a claim that contains ``text``; None where they have to be loaded all."""
-    return _holding(known, digests, files, text) or None
-
-
-def lacking(known: Any, digests: Mapping[str, str], files: Iterable[Path], text: str) -> bool:
-    """Whether none of the files holds a claim that contains ``text``, for certain."""
-    return _holding(known, digests, files, text) == []
-
-
-def _holding(known: Any, digests: Mapping[str, str], files: Iterable[Path], text: str) -> list[Path] | None:
+def holding(known: Any, digests: Mapping[str, str], files: Iterable[Path], text: str) -> list[Path] | None:
     """The files that may hold a claim that contains ``text``; None where nothing is known of them."""
     chosen, wanted = [], text.lower()
     if not isinstance(known, dict) or not wanted:
@@ -73,8 +61,7 @@ def _holding(known: Any, digests: Mapping[str, str], files: Iterable[Path], text
 def doubtful(known: Mapping[str, Any], few: Sequence[Path], derivation: Derivation) -> bool:
     """Whether an id of what was loaded stands in a file that was not, so that all of them have to be looked at."""
     loaded = {*map(str, few), *derivation.homes.values()}
-    items: list[Claim | Definition] = [*derivation.claims, *derivation.definitions]
-    ids = {item.id for item in items}
+    ids = {item.id for item in derivation.items}
     return any(ids.intersection(entry["ids"]) for name, entry in known.items() if name not in loaded)
 
 

@@ -14,9 +14,13 @@ import sympy as sp
 from sympy.core.assumptions import StdFactKB
 from sympy.core.function import AppliedUndef
 
+from ptproof.proof.relation import RelationSign
+
 Letter: TypeAlias = sp.Symbol | AppliedUndef
 # Only a sign may be shown otherwise than by SymPy, of what SymPy knows to be real.
 SIGNS = ("positive", "nonnegative", "negative", "nonpositive", "nonzero")
+SAYS: Mapping[str, RelationSign] = dict(zip(SIGNS, (">", ">=", "<", "<=", "!="), strict=True))
+"""The relation of a value to 0 that each of these words says."""
 _WORDS = (
     "real", *SIGNS, "zero", "integer", "noninteger", "rational", "irrational", "even", "odd", "prime", "composite",
     "imaginary",
@@ -42,9 +46,9 @@ def is_plainly_real(symbol: sp.Symbol) -> bool:
     return declared(symbol) == {"real": True}
 
 
-def like(symbol: sp.Symbol, name: str = "") -> sp.Symbol:
+def like(symbol: sp.Symbol) -> sp.Symbol:
     """A fresh symbol of the same kind: nothing that is known of another symbol is known of it."""
-    return sp.Dummy(name or symbol.name, **symbol._assumptions_orig)
+    return sp.Dummy(symbol.name, **symbol._assumptions_orig)
 
 
 def admissible(letter: Letter, value: Any) -> bool:

@@ -46,16 +46,9 @@ _WORDS = {
 
 @dataclass(frozen=True)
 class Erratum:
-    """What the author of a derivation says of a printed claim that is refuted.
+    """What the author of a derivation says of a printed claim that is refuted: how grave that is, and two sentences.
 
-    Attributes
-    ----------
-    grade
-        Of :class:`Grade`.
-    wrong
-        One sentence in words: what is wrong.
-    survives
-        One sentence: what becomes of the results that rest on it.
+    ``wrong`` says what is wrong, and ``survives`` what becomes of the results that rest on it.
     """
 
     grade: Grade

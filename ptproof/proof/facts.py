@@ -22,11 +22,6 @@ _SEAL = object()
 _LIBRARY = "ptproof.proof."
 
 
-class _Used(Protocol):
-    @property
-    def content(self) -> str: ...
-
-
 class Goal(Protocol):
     """What facts are used for: a goal with its assumptions and the claims that it may use."""
 
@@ -98,10 +93,10 @@ def resting_on(goal: Goal, says: Implication, claims: Iterable[str] = (), *other
     return Fact(says, rests, assumed, seal=_SEAL)
 
 
-def from_claim(used: _Used, says: Implication) -> Fact:
-    """A fact that a used claim states at its own symbols."""
+def from_claim(content: str, says: Implication) -> Fact:
+    """A fact that the claim of this content states at its own symbols."""
     _made_here(says)
-    return Fact(says, frozenset([used.content]), seal=_SEAL)
+    return Fact(says, frozenset([content]), seal=_SEAL)
 
 
 def usable(goal: Goal, facts: Iterable[Any]) -> tuple[Implication, ...]:

@@ -46,21 +46,21 @@ class Derivation:
 
     def __post_init__(self) -> None:
         seen: dict[str, Claim | Definition] = {}
-        everything: list[Claim | Definition] = [*self.claims, *self.definitions]
-        for item in everything:
+        for item in self.items:
             if item.id in seen:
                 raise twice(seen[item.id], item)
             seen[item.id] = item
+
+    @property
+    def items(self) -> tuple[Claim | Definition, ...]:
+        """The claims, then the definitions."""
+        return (*self.claims, *self.definitions)
 
     def select(self, text: str) -> tuple[Claim, ...]:
         """The claims whose id, title, section or labels contain ``text``, and all that they use."""
         if not text:
             return self.claims
-        chosen = [
-            item for item in self.claims
-            if any(text.lower() in word.lower() for word in (item.id, item.title, item.section, *item.labels))
-        ]  # fmt: skip
-        wanted = {item.id for item in with_ancestors(chosen)}
+        wanted = {item.id for item in with_ancestors(item for item in self.claims if item.contains(text))}
         return tuple(item for item in self.claims if item.id in wanted)
 
 
@@ -120,16 +120,11 @@ def load(paths: Sequence[str | Path] = (), only: Collection[Path] | None = None)
     if not found and not gaps:
         raise NoClaims(f"{', '.join(map(str, chosen))}: no claims found")
     missing = {used.id: used for used in with_ancestors(claims) if used.id not in found}
-    definitions = (item for item in found.values() if isinstance(item, Definition))
+    definitions = tuple(item for item in found.values() if isinstance(item, Definition))
     packages = dict.fromkeys(module.__name__.partition(".")[0] for module in modules)
-    return Derivation(
-        (*claims, *missing.values()),
-        tuple(definitions),
-        tuple(map(str, chosen)),
-        tuple(sys.modules[p] for p in packages),
-        homes,
-        tuple(gaps.values()),
-    )
+    every = (*claims, *missing.values())
+    modules = [sys.modules[name] for name in packages]
+    return Derivation(every, definitions, tuple(map(str, chosen)), tuple(modules), homes, tuple(gaps.values()))
 
 
 def _distrust_compiled(folders: Iterable[Path]) -> None:

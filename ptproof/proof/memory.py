@@ -11,7 +11,7 @@ from __future__ import annotations
 import contextlib
 import time
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import fields
+from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -73,10 +73,10 @@ class Memory:
         from ptproof.proof import contents
         from ptproof.proof.load import files_of, load
 
-        key = self._contents_key()
+        key = self._key_of("contents")
         files, known = files_of(self._paths), None if self._fresh else self._cache.read(key)
         with self.loading():
-            few = contents.needed(known, self._before, files, select)
+            few = contents.holding(known, self._before, files, select) or None
             derivation = load(self._paths, few)
             if few is not None and known is not None and contents.doubtful(known, few, derivation):
                 few, derivation = None, load(self._paths)
@@ -91,14 +91,14 @@ class Memory:
         from ptproof.proof import contents
         from ptproof.proof.load import files_of
 
-        known = None if self._fresh else self._cache.read(self._contents_key())
-        return contents.lacking(known, hashes.of_derivation(self._paths), files_of(self._paths), select)
+        known = None if self._fresh else self._cache.read(self._key_of("contents"))
+        return contents.holding(known, hashes.of_derivation(self._paths), files_of(self._paths), select) == []
 
     def run(self, select: str) -> dict[str, Any] | None:
         """What :meth:`keep_run` kept of this very run, if every file is as it was; nothing has to be loaded for it."""
         if self._fresh:
             return None
-        match self._cache.read(self._run_key(select)):
+        match self._cache.read(self._key_of("run", select)):
             case {"files": dict(files), "data": dict(data)} if files:
                 same = all(hashes.of_file(file) == digest for file, digest in files.items())
                 if same and set(hashes.of_derivation(self._paths)) <= set(files):
@@ -108,7 +108,7 @@ class Memory:
     def keep_run(self, select: str, data: dict[str, Any], lasting: bool) -> None:
         """Keep the whole outcome, if it is ``lasting``: see :meth:`lasts`."""
         if lasting and self._unchanged():
-            self._cache.write(self._run_key(select), {"files": self._files, "data": data})
+            self._cache.write(self._key_of("run", select), {"files": self._files, "data": data})
         self._cache.tidy()
 
     def lasts(self, verification: Verification) -> bool:
@@ -131,9 +131,8 @@ class Memory:
 
     def value(self, name: str, make: Callable[[], Any]) -> Any:
         """What ``make`` says of this state of every file, as plain data: from an earlier run where that is known."""
-        key = hashes.of_texts(
-            [name, self._environment, *(f"{file} {self._files[file]}" for file in sorted(self._files))]
-        )
+        files = (f"{file} {digest}" for file, digest in sorted(self._files.items()))
+        key = hashes.of_texts([name, self._environment, *files])
         known = None if self._fresh or not self._open else self._cache.read(key)
         if known is None:
             known = make()
@@ -153,11 +152,8 @@ class Memory:
         files = (f"{Path(file).name} {digest}" for file, digest in sorted(self._files.items()))
         return hashes.of_texts([self._environment, claim.id, claim.content, *files])
 
-    def _contents_key(self) -> str:
-        return hashes.of_texts(["contents", self._environment, *map(str, self._paths)])
-
-    def _run_key(self, select: str) -> str:
-        return hashes.of_texts(["run", self._environment, select, *map(str, self._paths)])
+    def _key_of(self, *what: str) -> str:
+        return hashes.of_texts([*what, self._environment, *map(str, self._paths)])
 
 
 def _lasting(claim: Claim, evidence: Evidence, *others: Evidence) -> bool:
@@ -172,19 +168,13 @@ def _lasting(claim: Claim, evidence: Evidence, *others: Evidence) -> bool:
 
 def written_evidence(evidence: Evidence) -> dict[str, Any]:
     """Evidence as plain data, with nothing that only its proof needed."""
-    from ptproof.proof.verdict import Evidence, Witness
+    from ptproof.proof.verdict import Verdict
 
-    data: dict[str, Any] = {}
-    for entry in fields(Evidence):
-        value = getattr(evidence, entry.name)
-        if entry.name in ("found", "suspect", "certifies"):
-            continue
-        if isinstance(value, Witness):
-            value = value.to_json()
-        elif isinstance(value, tuple):
-            value = [written_evidence(item) for item in value]
-        data[entry.name] = str(value) if entry.name == "verdict" else value
-    return data
+    def kept(items: list[tuple[str, Any]]) -> dict[str, Any]:
+        plain = {name: str(value) if isinstance(value, Verdict) else value for name, value in items}
+        return {name: value for name, value in plain.items() if name not in ("found", "suspect", "certifies")}
+
+    return asdict(evidence, dict_factory=kept)
 
 
 def read_evidence(data: Any) -> Evidence | None:

@@ -9,6 +9,17 @@ import sympy as sp
 
 from ptproof.proof.statement import Relation
 
+_ENOUGH = {
+    "!=": ("nonzero", "positive", "negative"), ">": ("positive",), ">=": ("nonnegative", "positive"),
+    "<": ("negative",), "<=": ("nonpositive", "negative"), "=": ("zero",),
+}  # fmt: skip
+
+
+def is_declared(relation: Relation) -> bool:
+    """Whether what the symbols are declared to be is enough for the relation."""
+    difference = relation.left - relation.right
+    return any(getattr(difference, f"is_{word}") for word in _ENOUGH[relation.sign])
+
 
 @dataclass(frozen=True)
 class Obligation:
@@ -42,14 +53,7 @@ class Obligation:
     @cached_property
     def settled(self) -> bool:
         """Whether what the symbols are declared to be is enough."""
-        if self.relation is None:
-            return False
-        difference = self.relation.left - self.relation.right
-        words = {
-            "!=": ("nonzero", "positive", "negative"), ">": ("positive",), ">=": ("nonnegative", "positive"),
-            "<": ("negative",), "<=": ("nonpositive", "negative"), "=": ("zero",),
-        }[self.relation.sign]  # fmt: skip
-        return any(getattr(difference, f"is_{word}") for word in words)
+        return self.relation is not None and is_declared(self.relation)
 
     def __str__(self) -> str:
         if self.relation is None:

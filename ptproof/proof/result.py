@@ -23,9 +23,8 @@ class Result:
     def hit(self) -> Evidence | None:
         """The attack that met an exact point at which something false was shown, by nothing but what is fully proved:
         an error of ptproof."""
-        return next(
-            (item for item in self.evidence if (item.engine, item.verdict) == ("attack", Verdict.REFUTED)), None
-        )
+        hits = (item for item in self.evidence if (item.engine, item.verdict) == ("attack", Verdict.REFUTED))
+        return next(hits, None)
 
     @property
     def as_expected(self) -> bool:

@@ -68,11 +68,8 @@ def _concluded(claim: Claim, own: Evidence, used: Sequence[Result], others: Sequ
         if reason and (verdict is Verdict.PROVED or (engine == "content" and verdict is not Verdict.UNDECIDED)):
             verdict = Verdict.UNDECIDED
             items.append(Evidence(engine, verdict, reason))
-    open_ones = tuple(
-        dict.fromkeys(
-            name for item in used for name in (() if item.fully_proved else (item.rests_on or (item.claim.id,)))
-        )
-    )
+    unproved = (item for item in used if not item.fully_proved)
+    open_ones = tuple(dict.fromkeys(name for item in unproved for name in item.rests_on or (item.claim.id,)))
     fully = verdict is Verdict.PROVED and not open_ones
     rests = open_ones if verdict is Verdict.PROVED else (claim.id,)
     return Result(claim, verdict, tuple(items), fully, () if fully else rests)
@@ -132,15 +129,8 @@ def verify(
     claims = derivation.select(select)
     if select and not claims:
         raise NothingSelected(f"no claim contains {select!r} in its id, title, section or labels")
-    return _decided(
-        claims,
-        derivation.homes,
-        (os.cpu_count() or 1) if workers is None else workers,
-        client,
-        timeout,
-        progress,
-        memory,
-    )
+    workers = os.cpu_count() or 1 if workers is None else workers
+    return _decided(claims, derivation.homes, workers, client, timeout, progress, memory)
 
 
 def decide(
@@ -167,11 +157,10 @@ def decide(
     {'x': '1'}
     """
     chosen = with_ancestors(claims)
-    ids = [item.id for item in chosen]
     if workers is None and client is None:
         return _decided(chosen, {}, None, None, timeout, progress)
     homes = homes_of(chosen)
-    if homeless := next((id for id in ids if id not in homes), None):
+    if homeless := next((item.id for item in chosen if item.id not in homes), None):
         raise InputError(f"{homeless}: other processes read claims from files, and this one stands in none; "
                          "leave out workers and client")  # fmt: skip
     return _decided(chosen, homes, workers, client, timeout, progress)

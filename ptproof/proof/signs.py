@@ -6,7 +6,7 @@ from typing import Any
 
 import sympy as sp
 
-from ptproof.balls.ball import interval, precision, separated
+from ptproof.balls.ball import ball_from, interval, precision, separated
 from ptproof.proof.algebra import NotAlgebraic, is_zero
 from ptproof.proof.statement import MEANING, Relation
 
@@ -86,15 +86,9 @@ def _sign_by_enclosure(number: sp.Expr) -> int | None:
         radius = sp.Rational(1, 2**bits)
         with precision(2 * bits):
             middles = [root.eval_rational(dx=radius) for root in roots]
-            ends = [[_ball(middle + side * radius) for side in (-1, 1)] for middle in middles]
+            ends = [[ball_from(middle + side * radius) for side in (-1, 1)] for middle in middles]
             values = {name: interval(*pair) for name, pair in zip(names, ends, strict=True)}
         found = separated(masked, 0, values, bits_ladder=(bits,))
         if found is not None:
             return found
     return None
-
-
-def _ball(number: sp.Rational) -> Any:
-    from flint import arb, fmpq
-
-    return arb(fmpq(int(number.p), int(number.q)))

@@ -29,10 +29,6 @@ class NotOfKind(InputError):
     """A value is not known to be what the letter stands for."""
 
 
-def _never(value: sp.Expr, sign: str) -> bool:
-    return False
-
-
 def _real_where_defined(value: sp.Expr) -> bool:
     """What is asked of the value goes along as the substitution's domain."""
     return all(need.relation is not None for need in obligations(value))
@@ -68,17 +64,21 @@ class Substitution:
     """
 
     values: Mapping[Any, Any]
-    has_sign: Callable[[sp.Expr, str], bool] = field(default=_never, repr=False, compare=False)
+    has_sign: Callable[[sp.Expr, str], bool] = field(default=lambda value, sign: False, repr=False, compare=False)
     elsewhere: Collection[Any] = ()
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "values", {key: sp.sympify(value) for key, value in self.values.items()})
         for letter, value in self.values.items():
             if isinstance(letter, AppliedUndef):
-                _check_letter(letter)
+                if len(set(letter.args)) != len(letter.args) or not all(isinstance(x, sp.Symbol) for x in letter.args):
+                    raise InputError(
+                        f"the value of a function is given for it applied to distinct symbols, not for {letter}"
+                    )
                 if letter in self.elsewhere:
                     continue
-                _check_function(letter, value)
+                if any(not need.settled for need in obligations(everywhere(letter, value))):
+                    raise NotOfKind(f"{value} is not known to be defined for all arguments of {letter}")
             if not is_kind(letter, value, self.has_sign, _real_where_defined):
                 raise NotOfKind(f"{value} is not known to be what {letter} stands for")
 
@@ -152,16 +152,6 @@ def replaced(expression: sp.Expr, equal: Mapping[sp.Expr, sp.Expr]) -> sp.Expr:
             traversal.skip()
     outside = expression.xreplace(masks).xreplace(dict(equal))
     return outside.xreplace({mask: _put(node, symbols, {}) for node, mask in masks.items()})
-
-
-def _check_letter(letter: AppliedUndef) -> None:
-    if len(set(letter.args)) != len(letter.args) or not all(isinstance(entry, sp.Symbol) for entry in letter.args):
-        raise InputError(f"the value of a function is given for it applied to distinct symbols, not for {letter}")
-
-
-def _check_function(letter: AppliedUndef, value: sp.Expr) -> None:
-    if any(not need.settled for need in obligations(everywhere(letter, value))):
-        raise NotOfKind(f"{value} is not known to be defined for all arguments of {letter}")
 
 
 Functions = Mapping[Any, tuple[AppliedUndef, sp.Expr]]
@@ -241,11 +231,11 @@ def _put_limits(node: Any, symbols: Mapping[sp.Symbol, sp.Expr], functions: Func
 
 def _put_derivative(node: sp.Derivative, symbols: Mapping[sp.Symbol, sp.Expr], functions: Functions) -> sp.Expr:
     inside, within = node.expr, dict(symbols)
-    names, points = [], []
+    names, points, bodies = [], [], [value for _, value in functions.values()]
     for variable, count in node.variable_count:
         caught = variable in within or variable in _free(within.values(), functions)
         value = within.pop(variable, variable)
-        new = _fresh(variable, [inside, *within.values(), *within, value, *_bodies(functions)]) if caught else variable
+        new = _fresh(variable, [inside, *within.values(), *within, value, *bodies]) if caught else variable
         if caught:
             within[variable] = new
             points.append((new, value))
@@ -271,7 +261,3 @@ def _by_a_letter(node: sp.Derivative) -> sp.Subs:
         raise InputError(f"values cannot be put into {node}, where it may be asked whether {place} varies")
     letter = _fresh(sp.Symbol(place.func.__name__, real=True), [node.expr])
     return sp.Subs(sp.Derivative(node.expr.xreplace({place: letter}), (letter, len(node.variables))), letter, place)
-
-
-def _bodies(functions: Functions) -> list[sp.Expr]:
-    return [value for _, value in functions.values()]

@@ -24,7 +24,7 @@ from typing import Any, TypeVar
 
 from ptproof.reading import nursery
 from ptproof.reading.host import serve
-from ptproof.reading.outcomes import Answered, Unanswered, Why, check_seconds, end_in_words, in_words
+from ptproof.reading.outcomes import Answered, Unanswered, Why, end_in_words, in_words
 
 Key = TypeVar("Key")
 LOADING = 600.0
@@ -72,7 +72,6 @@ class Copies:
         self, seconds: float, work: Callable[..., Any], tasks: Mapping[Key, tuple[Any, ...]]
     ) -> Iterator[tuple[Key, Answered[Any] | Unanswered]]:
         """The key of each task with what came of it, as they end."""
-        check_seconds(seconds)
         keys = dict(enumerate(tasks))
         try:
             connection = self._connected(work)

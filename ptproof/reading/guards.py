@@ -33,8 +33,7 @@ def value_refused(value: Any) -> str:
         return "a value that is not finite"
     # A sum of real numbers is real; to ask it again for each of its parts would take long.
     if isinstance(value, sp.Expr) and not value.is_Add and value.is_number and value.is_real is False:
-        text = str(value)
-        return f"{text if len(text) <= 60 else text[:57] + '...'}, which is not a finite real number,"
+        return f"{short(value)}, which is not a finite real number,"
     return ""
 
 
@@ -77,6 +76,12 @@ def is_deep(value: sp.Basic) -> bool:
         if not level:
             return False
     return True
+
+
+def short(value: Any) -> str:
+    """The value as text, cut to 60 characters."""
+    text = str(value)
+    return text if len(text) <= 60 else f"{text[:57]}..."
 
 
 def _size(number: sp.Expr) -> float:

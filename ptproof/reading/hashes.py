@@ -61,13 +61,10 @@ def files_below(folder: Path) -> Iterator[Path]:
 @cache
 def environment() -> str:
     """The hash of all that decides a claim besides the claim: the files of ptproof, Python, and the libraries."""
-    own = [f"{file.relative_to(_PACKAGE)}\0{of_file(file)}" for file in files_below(_PACKAGE) if _matters(file)]
-    return of_texts([sys.version, platform.machine(), *sorted(_installed()), *own])
-
-
-def _matters(file: Path) -> bool:
     # The derivations that ship in the package count as what they are: derivations.
-    return file.relative_to(_PACKAGE).parts[0] != "_derivations"
+    files = (file for file in files_below(_PACKAGE) if file.relative_to(_PACKAGE).parts[0] != "_derivations")
+    own = [f"{file.relative_to(_PACKAGE)}\0{of_file(file)}" for file in files]
+    return of_texts([sys.version, platform.machine(), *sorted(_installed()), *own])
 
 
 def _installed() -> Iterator[str]:
@@ -136,11 +133,8 @@ def opened() -> Iterator[set[str]]:
         yield found
     finally:
         _opened[:] = [other for other in _opened if other is not found]  # equal ones are others
-        found |= {str(file) for name in set(sys.modules) - before if (file := _file_of(name))}
-
-
-def _file_of(name: str) -> Any:
-    return getattr(sys.modules.get(name), "__file__", None)
+        new = (getattr(sys.modules.get(name), "__file__", None) for name in set(sys.modules) - before)
+        found.update(str(file) for file in new if file)
 
 
 def _note(event: str, arguments: tuple[Any, ...]) -> None:

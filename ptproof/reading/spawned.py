@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any, TypeVar
 
-from ptproof.reading.outcomes import Answered, Unanswered, Why, check_seconds, too_much
+from ptproof.reading.outcomes import Answered, Unanswered, Why, too_much
 from ptproof.reading.system import limit_memory
 
 Key = TypeVar("Key")
@@ -38,7 +38,6 @@ class Spawned:
         """The key of each task with what came of it, as they end."""
         from concurrent.futures import as_completed
 
-        check_seconds(seconds)
         waiting = {
             self._pool.schedule(_call, args=(work, arguments), timeout=seconds): key for key, arguments in tasks.items()
         }

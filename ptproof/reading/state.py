@@ -30,11 +30,6 @@ def _folder() -> str:
         return ""
 
 
-def _go_to(folder: str) -> None:
-    if folder:
-        os.chdir(folder)
-
-
 def _environment(values: dict[str, str]) -> None:
     os.environ.clear()
     os.environ.update(values)
@@ -90,7 +85,7 @@ def _of(module: str, name: str) -> tuple[Callable[[], Any], Callable[[Any], None
 
 
 _SEEN: Mapping[str, tuple[Callable[[], Any], Callable[[Any], Any] | None]] = {
-    "the working folder": (_folder, _go_to),
+    "the working folder": (_folder, lambda folder: os.chdir(folder or ".")),
     "the environment": (lambda: dict(os.environ), _environment),
     "the recursion limit": (sys.getrecursionlimit, sys.setrecursionlimit),
     "the filters of warnings": (lambda: list(warnings.filters), _filters),

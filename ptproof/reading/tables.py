@@ -97,6 +97,18 @@ def listed(value: Any, where: str, length: int | None = None, of: str = "") -> l
     return value
 
 
+def split_list(text: str) -> list[str]:
+    """The entries of a list, separated by the commas outside of parentheses, brackets and braces."""
+    entries, depth = [""], 0
+    for sign in text:
+        depth += (sign in "{([") - (sign in "})]")
+        if sign == "," and depth == 0:
+            entries.append("")
+        else:
+            entries[-1] += sign
+    return [entry.strip() for entry in entries]
+
+
 def hint(word: str, known: Iterable[str]) -> str:
     """The known word that is nearest to ``word``, as a question to end a message with, or nothing.
 

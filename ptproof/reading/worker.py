@@ -24,15 +24,13 @@ def whole(sent: bytearray) -> tuple[bytes, bool] | str | None:
     if len(sent) < HEAD.size:
         return None
     length, digest = HEAD.unpack_from(sent)
-    size = abs(length)
-    if not 0 < size < _MOST or len(sent) > HEAD.size + size:
-        return "the work wrote to the channel of its answer"
-    if len(sent) < HEAD.size + size:
+    fits, missing = 0 < abs(length) < _MOST, abs(length) - (len(sent) - HEAD.size)
+    if fits and missing > 0:
         return None
     payload = bytes(sent[HEAD.size :])
-    return (payload, length < 0) if hashlib.sha256(payload).digest() == digest else (
-        "the work wrote to the channel of its answer"
-    )  # fmt: skip
+    if not fits or missing < 0 or hashlib.sha256(payload).digest() != digest:
+        return "the work wrote to the channel of its answer"
+    return payload, length < 0
 
 
 _HEARD = {signal.SIGCHLD, signal.SIGUSR1}
@@ -76,7 +74,7 @@ def _work(channel: Any, memory: int, failed: BaseException | None) -> NoReturn:
         signal.signal(signal.SIGINT, signal.default_int_handler)
         own, keeper, last = os.getpid(), os.getppid(), False
         while not last:
-            payload = _next(channel)
+            payload = _exactly(channel, HEAD.unpack(_exactly(channel, HEAD.size))[0])
             seed()
             before = State.now()
             answer, last = _answer(payload, memory, failed)
@@ -99,11 +97,6 @@ def _changed(before: State) -> bool:
     with contextlib.suppress(Exception):
         before.restore()
     return bool(before.changed())
-
-
-def _next(channel: Any) -> bytes:
-    size = HEAD.unpack(_exactly(channel, HEAD.size))[0]
-    return _exactly(channel, size)
 
 
 def _exactly(channel: Any, size: int) -> bytes:

@@ -9,14 +9,12 @@ from typing import Any
 import sympy as sp
 
 from ptproof.errors import InputError
-from ptproof.reading.limits import OutOfTime, within
 from ptproof.system import DitherSystem, System
-from ptproof.testing.failure import assertion
+from ptproof.testing.failure import SECONDS, assertion, in_time
 from ptproof.testing.reading import expression
 from ptproof.testing.wording import lines, simplest, witness_text
 
 __unittest = True
-SECONDS = 60.0
 
 
 @assertion
@@ -66,10 +64,7 @@ def assert_average(
     >>> assert_average(System(tau, (x,), (rate,)), ["k/2*Derivative(F(x), x)"], orders={2: [0]}, omega=omega)
     """
     first, higher = _claims(system, expected, orders, omega)
-    try:
-        found = within(seconds, lambda: _studied(system, omega, first, higher))
-    except OutOfTime:
-        return f"the average could not be decided: no answer in {seconds:g} s"
+    found = in_time(seconds, "the average", lambda: _studied(system, omega, first, higher))
     if isinstance(found, str):
         return found
     return _complaint(found, (assuming,) if isinstance(assuming, str) else assuming)

@@ -10,14 +10,13 @@ import sympy as sp
 
 from ptproof.errors import InputError
 from ptproof.system import DitherSystem, System
-from ptproof.testing.failure import assertion
+from ptproof.testing.failure import SECONDS, assertion
 from ptproof.testing.wording import lines
 
 if TYPE_CHECKING:
     from ptproof.simulation.order import GapOrder
 
 __unittest = True
-SECONDS = 60.0
 
 
 @assertion

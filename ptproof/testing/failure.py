@@ -12,12 +12,15 @@ import sys
 import traceback
 from collections.abc import Callable
 from types import TracebackType
-from typing import ParamSpec
+from typing import ParamSpec, TypeVar
 
 from ptproof.errors import InputError
+from ptproof.reading.limits import OutOfTime, within
 
 __unittest = True
+SECONDS = 60.0  # of an assertion, where nothing else is said
 Arguments = ParamSpec("Arguments")
+Answer = TypeVar("Answer")
 _MARK = "_ptproof_ends_in_the_users_line"
 
 
@@ -44,6 +47,14 @@ def assertion(check: Callable[Arguments, str | None]) -> Callable[Arguments, Non
 
     assert_it.__annotations__ = {**check.__annotations__, "return": None}
     return assert_it
+
+
+def in_time(seconds: float, what: str, work: Callable[[], Answer], spare: float = 0.0) -> Answer | str:
+    """What the work gives, or that there is no answer in time; it may take ``spare`` seconds more than is said."""
+    try:
+        return within(seconds + spare, work)
+    except OutOfTime:
+        return f"{what} could not be decided: no answer in {seconds:g} s"
 
 
 def _raised_here(error: TypeError) -> bool:

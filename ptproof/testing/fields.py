@@ -8,13 +8,11 @@ from typing import Any
 import sympy as sp
 
 from ptproof.errors import InputError
-from ptproof.reading.limits import OutOfTime, within
-from ptproof.testing.failure import assertion
+from ptproof.testing.failure import SECONDS, assertion, in_time
 from ptproof.testing.reading import expression as read
 from ptproof.testing.wording import lines
 
 __unittest = True
-SECONDS = 60.0
 # A constant that has to be at least the supremum, or at most the infimum.
 ABOVE = {"a1": True, "a2": False, "b1": False, "b2": True}
 
@@ -67,14 +65,13 @@ def assert_field_bounds(
     constants = {name: _constant(value, name) for name, value in claimed.items() if value is not None}
     at = [read(value, f"source[{i}]") for i, value in enumerate(source)]
     ball, ring = _end(radius), None if annulus is None else (_end(annulus[0]), _end(annulus[1]))
-    try:
-        certificate = within(
-            seconds + 5.0,
-            lambda: certify_field(F, variables, at, kappa, rtol=rtol, seconds=seconds, radius=ball, annulus=ring),
-        )
-    except OutOfTime:
-        return f"the bounds of the field could not be decided: no answer in {seconds:g} s"
-    return _complaint(certificate, constants, rtol, seconds)
+    certificate = in_time(
+        seconds,
+        "the bounds of the field",
+        spare=5.0,
+        work=lambda: certify_field(F, variables, at, kappa, rtol=rtol, seconds=seconds, radius=ball, annulus=ring),
+    )
+    return certificate if isinstance(certificate, str) else _complaint(certificate, constants, rtol, seconds)
 
 
 def _complaint(certificate: Any, constants: Mapping[str, sp.Expr], rtol: float, seconds: float) -> str | None:

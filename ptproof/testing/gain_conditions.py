@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING
 import sympy as sp
 
 from ptproof.errors import InputError
-from ptproof.reading.limits import OutOfTime, within
-from ptproof.testing.failure import assertion
+from ptproof.testing.failure import SECONDS, assertion, in_time
 from ptproof.testing.wording import lines
 
 if TYPE_CHECKING:
@@ -19,7 +18,6 @@ if TYPE_CHECKING:
     from ptproof.problem import Problem
 
 __unittest = True
-SECONDS = 60.0
 _RELATION = re.compile(r"^([^<>=]+)(<=|>=|<|>)([^<>=]+)$")
 _KEY = re.compile(r"\b([a-z_]+)\.([A-Za-z]\w*)")
 
@@ -67,18 +65,16 @@ def assert_gain_condition(data: GainData | Problem, condition: str, *, seconds: 
     match = _RELATION.match(condition.strip())
     if match is None:
         raise InputError(f"condition: {condition!r} is not one of <, <=, > or >= between two expressions")
-    try:
-        return within(seconds, lambda: _decide(data, condition, *match.groups()))
-    except OutOfTime:
-        return f"the condition {condition} could not be decided: no answer in {seconds:g} s"
+    return in_time(seconds, f"the condition {condition}", lambda: _decide(data, condition, *match.groups()))
 
 
 def _decide(asked: GainData | Problem, condition: str, left: str, symbol: str, right: str) -> str | None:
     from ptproof.gains.numbers import sign
 
+    undecided = f"the condition {condition} could not be decided: undecided"
     answer, open_question, doubt = _answer(asked)
     if answer is None:
-        return lines(f"the condition {condition} could not be decided: undecided", [("reason", open_question)])
+        return lines(undecided, [("reason", open_question)])
     data = answer.data
     keys: dict[str, sp.Expr] = {}
     for section, name in _KEY.findall(condition):
@@ -92,8 +88,7 @@ def _decide(asked: GainData | Problem, condition: str, left: str, symbol: str, r
         elif key in answer.unlimited:
             keys[key] = sp.oo
         else:
-            return lines(f"the condition {condition} could not be decided: undecided",
-                         [(key, f"does not apply: {answer.why[key]}")])  # fmt: skip
+            return lines(undecided, [(key, f"does not apply: {answer.why[key]}")])
     sides = [_value(text, data, keys) for text in (left, right)]
     for text, value in zip((left, right), sides, strict=True):
         if value.free_symbols:
@@ -103,11 +98,11 @@ def _decide(asked: GainData | Problem, condition: str, left: str, symbol: str, r
             order = (1 if sides[0] is sp.oo else 0) - (1 if sides[1] is sp.oo else 0)
         else:
             order = sign(sides[0] - sides[1])
-    except InputError as undecided:
-        return lines(f"the condition {condition} could not be decided: undecided", [("reason", str(undecided))])
+    except InputError as error:
+        return lines(undecided, [("reason", str(error))])
     if {"<": order < 0, "<=": order <= 0, ">": order > 0, ">=": order >= 0}[symbol]:
         open_ones = [(key, reason) for key in keys if (reason := doubt(key)) is not None]
-        return lines(f"the condition {condition} could not be decided: undecided", open_ones) if open_ones else None
+        return lines(undecided, open_ones) if open_ones else None
     gap = sides[0] - sides[1]
     return lines(f"the condition {condition} does not hold: refuted", [
         (left.strip(), _shown(sides[0])), (right.strip(), _shown(sides[1])),

@@ -13,12 +13,11 @@ from ptproof.proof.claim import Goal
 from ptproof.proof.statement import Relation, free_symbols, relations_of
 from ptproof.proof.verdict import Evidence, Verdict
 from ptproof.reading.limits import OutOfTime, within
-from ptproof.testing.failure import assertion
+from ptproof.testing.failure import SECONDS, assertion
 from ptproof.testing.reading import assumptions, relation, side
 from ptproof.testing.wording import lines, simplest, witness_text
 
 __unittest = True
-SECONDS = 60.0
 _BINDERS = (sp.Limit, sp.Integral)
 
 

@@ -41,10 +41,10 @@ def simplest(expression: sp.Expr) -> sp.Expr:
 
     def try_all() -> None:
         for attempt in attempts:
-            try:
+            with contextlib.suppress(
+                ValueError, TypeError, NotImplementedError, AttributeError, RecursionError, sp.PolynomialError
+            ):
                 forms.append(attempt(expression))
-            except (ValueError, TypeError, NotImplementedError, AttributeError, RecursionError, sp.PolynomialError):
-                continue
 
     with contextlib.suppress(OutOfTime):
         within(SIMPLIFY_SECONDS, try_all)

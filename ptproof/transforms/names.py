@@ -8,15 +8,14 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from ptproof.errors import InputError
-from ptproof.proof.declarations import SIGNS, is_kind
+from ptproof.proof.declarations import SAYS, is_kind
 from ptproof.proof.definedness import obligations
 from ptproof.proof.engines.reals import follows
 from ptproof.proof.engines.smoothness import smoothness
-from ptproof.proof.statement import Relation, RelationSign
+from ptproof.proof.statement import Relation
 from ptproof.proof.verdict import Verdict
 
 _SECONDS = 2.0
-_SIGN: dict[str, RelationSign] = dict(zip(SIGNS, (">", ">=", "<", "<=", "!="), strict=True))
 # Analytic on every interval on which they are defined and real.
 _ANALYTIC = (
     sp.Symbol, sp.Number, sp.NumberSymbol, sp.Add, sp.Mul, sp.Pow, sp.exp, sp.log, sp.sin, sp.cos, sp.tan, sp.sinh,
@@ -60,7 +59,7 @@ def is_of_kind(symbol: sp.Symbol, value: sp.Expr) -> bool:
     """Whether ``value`` is shown to be of the kind that ``symbol`` is declared to be."""
 
     def has_sign(entry: sp.Expr, word: str) -> bool:
-        return follows(Relation(entry, _SIGN[word], sp.S.Zero), (), seconds=_SECONDS).shown
+        return follows(Relation(entry, SAYS[word], sp.S.Zero), (), seconds=_SECONDS).shown
 
     def is_real(entry: sp.Expr) -> bool:
         return all(need.settled for need in obligations(entry))

@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from ptproof.commands.bounds import bounds, split_list
+from ptproof.commands.bounds import bounds
 from ptproof.errors import InputError
+from ptproof.reading.tables import split_list
 from tests.pictures import shown
 
 KEYS = {"verdict", "domain", "a1", "a2", "b1", "b2", "witness"}

@@ -7,6 +7,7 @@ from dataclasses import replace
 import pytest
 import sympy as sp
 
+from ptproof.commands.shown import Shown
 from ptproof.commands.terminal import verification_table
 from ptproof.proof.claim import Goal, claim
 from ptproof.proof.deciding import run_one
@@ -24,7 +25,7 @@ def _shown(statement: Relation, values: dict[sp.Symbol, int], expected: str, cap
         return refute(goal, values)
 
     item = replace(claim("a/b", "A false statement", statement, expected=expected)(prove), section="One section")
-    verification_table(Verification(conclude([item], {item.id: run_one(item)}), 0.1))
+    verification_table(Shown.of(Verification(conclude([item], {item.id: run_one(item)}), 0.1)))
     return capsys.readouterr().out
 
 

@@ -20,7 +20,8 @@ FILES = ("__init__.py", "notation.py", "claims.py", "test_derivation.py", "dithe
 def write_starter(folder: str | Path) -> tuple[Path, ...]:
     """Write the starter's files into ``folder``, as :func:`write_files` does, and name them."""
     name = Path(folder).resolve().name
-    return write_files(folder, {file: _text(file).replace("@NAME@", name) for file in FILES})
+    texts = {file: resources.files(__name__).joinpath(f"{file}.txt").read_text("utf-8") for file in FILES}
+    return write_files(folder, {file: text.replace("@NAME@", name) for file, text in texts.items()})
 
 
 def write_files(folder: str | Path, contents: Mapping[str, str]) -> tuple[Path, ...]:
@@ -46,10 +47,6 @@ def check(place: Path) -> None:
     """Refuse a folder that is not new or empty, and a name that cannot be that of a package."""
     _check_place(place)
     _check_name(place.resolve())
-
-
-def _text(name: str) -> str:
-    return resources.files("ptproof.commands.starter").joinpath(f"{name}.txt").read_text("utf-8")
 
 
 def _check_place(place: Path) -> None:

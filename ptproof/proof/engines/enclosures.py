@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import sympy as sp
@@ -19,6 +20,7 @@ from ptproof.proof.statement import Relation, ge, le, relations_of
 from ptproof.proof.verdict import Evidence, Verdict
 
 SECONDS = 10.0
+_undecided = partial(Evidence, "ball arithmetic", Verdict.UNDECIDED)
 Box = Mapping[sp.Symbol, tuple[Any, Any]]
 
 
@@ -71,7 +73,3 @@ def _difference(part: Relation) -> sp.Expr:
     if value is None:
         raise NotAlgebraic("an integral, a limit or a sum for which no rule gives a value")
     return value
-
-
-def _undecided(detail: str) -> Evidence:
-    return Evidence("ball arithmetic", Verdict.UNDECIDED, detail)

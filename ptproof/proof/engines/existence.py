@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import sympy as sp
@@ -21,10 +22,7 @@ from ptproof.proof.verdict import Evidence, Verdict, Witness
 @engine
 def exists_by(goal: Goal, choice: Mapping[sp.Symbol, Any], *lemmas: Fact) -> Evidence:
     """Show "there is …" by values, which may depend on the universal symbols; the rest is a real inequality."""
-
-    def undecided(detail: str) -> Evidence:
-        return Evidence("existence", Verdict.UNDECIDED, detail)
-
+    undecided = partial(Evidence, "existence", Verdict.UNDECIDED)
     statement = goal.statement
     if not isinstance(statement, Exists) or set(choice) != set(statement.variables):
         return undecided("the values given are not for the variables that exist")
@@ -54,10 +52,7 @@ def defeats_every_choice(goal: Goal, values: Mapping[sp.Symbol, Any], lemmas: Se
     restrict the x that count, so they are shown to hold for this one; what is assumed of the rest has to hold
     somewhere, at exact values that are named.
     """
-
-    def undecided(detail: str) -> Evidence:
-        return Evidence("counterexample family", Verdict.UNDECIDED, detail)
-
+    undecided = partial(Evidence, "counterexample family", Verdict.UNDECIDED)
     statement = goal.statement
     if not isinstance(statement, Exists) or set(values) != set(statement.over):
         return undecided("values are needed for exactly the symbols after it")
@@ -82,7 +77,8 @@ def defeats_every_choice(goal: Goal, values: Mapping[sp.Symbol, Any], lemmas: Se
     for part in map(there.relation, statement.body):
         fails = follows(part.negation(), given, facts)
         if fails.shown:
-            witness = Witness(_family(statement, values), str(part.left), str(part.right))
+            family = dict.fromkeys(map(str, statement.variables), "any") | {str(s): str(v) for s, v in values.items()}
+            witness = Witness(family, str(part.left), str(part.right))
             detail = f"for every {', '.join(map(str, statement.variables))}: {part.negation()} ({fails.how})"
             return Evidence("counterexample family", Verdict.REFUTED, detail, witness=witness)
         tried.append(f"{part}: {fails.how}")
@@ -93,7 +89,3 @@ def _split(relations: Sequence[Relation], symbols: set[sp.Symbol]) -> tuple[list
     """The relations without and with any of the symbols."""
     about = [item for item in relations if item.free_symbols & symbols]
     return [item for item in relations if item not in about], about
-
-
-def _family(statement: Exists, values: Mapping[sp.Symbol, Any]) -> dict[str, str]:
-    return {str(symbol): "any" for symbol in statement.variables} | {str(s): str(v) for s, v in values.items()}

@@ -30,17 +30,11 @@ def limits(goal: Goal) -> Evidence:
         found = limit_of(expression, variable, point, str(side))
         if found is None:
             return Evidence("limits", Verdict.UNDECIDED, f"no rule gives the limit in {part}")
-        if not _agree(found, part.right):
+        if not (found == part.right if {found, part.right} & {*INFINITE} else vanishes(found - part.right)):
             detail = f"the limit comes out as {found}, not {part.right}"
             return Evidence("limits", Verdict.UNDECIDED, detail, found={part.left: found})
         found_all[part.left] = found
     return Evidence("limits", Verdict.PROVED, "limit theorems, leading terms exact", found=found_all)
-
-
-def _agree(found: sp.Expr, value: sp.Expr) -> bool:
-    if found in INFINITE or value in INFINITE:
-        return bool(found == value)
-    return vanishes(found - value)
 
 
 def limit_of(expression: sp.Expr, variable: sp.Symbol, point: sp.Expr, side: str = "+") -> sp.Expr | None:
@@ -139,12 +133,17 @@ def _sign_of_rational(expression: sp.Expr, h: sp.Symbol) -> tuple[int, bool] | N
     """The sign of the quotient of the lowest terms."""
     signs = 1
     for part in sp.fraction(sp.cancel(sp.together(expression))):
-        terms = [sp.factor(coefficient) for _, coefficient in sorted(sp.Poly(part, h).terms())]
-        first = next((entry for entry in terms if not entry.is_zero), sp.S.Zero)
+        _, first = _lowest(part, h)
         if not (first.is_positive or first.is_negative):
             return None
         signs *= 1 if first.is_positive else -1
     return signs, True
+
+
+def _lowest(part: sp.Expr, h: sp.Symbol) -> tuple[int, sp.Expr]:
+    """The lowest power of h in a polynomial, and its coefficient, which may vanish for some values of its symbols."""
+    terms = ((power, sp.factor(coefficient)) for (power,), coefficient in sorted(sp.Poly(part, h).terms()))
+    return next(((power, coefficient) for power, coefficient in terms if not coefficient.is_zero), (0, sp.S.Zero))
 
 
 def _at_zero(expression: sp.Expr, h: sp.Symbol) -> sp.Expr | None:
@@ -179,18 +178,9 @@ def _at_zero(expression: sp.Expr, h: sp.Symbol) -> sp.Expr | None:
 
 def _rational(expression: sp.Expr, h: sp.Symbol) -> sp.Expr | None:
     """Compare the lowest powers of h in numerator and denominator."""
-    numerator, denominator = (sp.Poly(part, h) for part in sp.fraction(sp.cancel(sp.together(expression))))
-    if numerator.is_zero:
+    (p, a), (q, b) = (_lowest(part, h) for part in sp.fraction(sp.cancel(sp.together(expression))))
+    if a.is_zero:
         return sp.S.Zero
-    lowest = []
-    for polynomial in (numerator, denominator):
-        for (power,), coefficient in sorted(polynomial.terms()):
-            coefficient = sp.factor(coefficient)
-            if coefficient.is_zero:
-                continue
-            lowest.append((power, coefficient))
-            break
-    (p, a), (q, b) = lowest
     # A leading coefficient that may vanish leaves the order open.
     if not _nonzero(b) or (p < q and not _nonzero(a)):
         return None

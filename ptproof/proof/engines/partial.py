@@ -73,7 +73,7 @@ def _unfit(goal: Goal, letter: AppliedUndef, value: sp.Expr, numbers: Mapping[An
         needs = [need for need in obligations(there, moving={place}) if not need.settled]
         if not (answer := are_met(needs, used, seconds=_SECONDS)).shown:
             return answer.how
-        signs.append(_signs(there, used))
+        signs.append({sign for sign in (gt, lt) if follows(sign(there, 0), used, seconds=_SECONDS).shown})
     return _of_another_kind(letter, signs)
 
 
@@ -87,10 +87,6 @@ def _of_another_kind(letter: AppliedUndef, signs: list[set[Any]]) -> str:
         if not any(all(sign in found for found in signs) for sign in _SIGNED[word]):
             return f"it is not shown to be {word} and other than 0 where it is taken"
     return ""
-
-
-def _signs(there: sp.Expr, used: list[Relation]) -> set[Any]:
-    return {sign for sign in (gt, lt) if follows(sign(there, 0), used, seconds=_SECONDS).shown}
 
 
 def _uses(goal: Goal, function: Any, numbers: Mapping[Any, Any], place: sp.Symbol) -> Iterator[list[Relation] | str]:
@@ -138,11 +134,10 @@ def _affine(expression: sp.Expr, variables: tuple[sp.Symbol, ...]) -> bool:
 
 def _is_caught(expression: sp.Expr, function: Any) -> bool:
     """Whether the function is taken at what a limit, an integral or the like gives its value."""
-    return expression.has(sp.Lambda) or any(
-        inner.func == function and inner.free_symbols & set(_bound(node))
-        for node in expression.atoms(*_CATCHING) for inner in node.args[0].atoms(AppliedUndef)
-    )  # fmt: skip
-
-
-def _bound(node: sp.Basic) -> tuple[sp.Symbol, ...]:
-    return (node.args[1],) if isinstance(node, sp.Limit) else tuple(node.bound_symbols)
+    if expression.has(sp.Lambda):
+        return True
+    for node in expression.atoms(*_CATCHING):
+        bound = {node.args[1]} if isinstance(node, sp.Limit) else set(node.bound_symbols)
+        if any(inner.func == function and inner.free_symbols & bound for inner in node.args[0].atoms(AppliedUndef)):
+            return True
+    return False

@@ -15,7 +15,7 @@ import sympy as sp
 
 from ptproof.errors import InputError
 from ptproof.proof.claim import Claim, Goal
-from ptproof.proof.declarations import like
+from ptproof.proof.declarations import SAYS, like
 from ptproof.proof.engines.reals import Answer, are_met, follows
 from ptproof.proof.facts import Fact, guarded, resting_on, usable
 from ptproof.proof.statement import (
@@ -24,7 +24,6 @@ from ptproof.proof.statement import (
     Implication,
     Prose,
     Relation,
-    RelationSign,
     Runs,
     Smooth,
     gt,
@@ -36,9 +35,6 @@ from ptproof.proof.substitution import NotOfKind, Substitution
 Point: TypeAlias = sp.Expr | tuple[sp.Expr, ...]
 Along: TypeAlias = Callable[[Goal, Any], Sequence[Fact]]
 _SECONDS = 4.0
-_SAYS: dict[str, RelationSign] = {
-    "positive": ">", "nonnegative": ">=", "negative": "<", "nonpositive": "<=", "nonzero": "!="
-}  # fmt: skip
 
 
 def at_point(
@@ -136,11 +132,9 @@ def specialise(
     claims = [used.content] if along is None else [other.content for other in goal.uses]
     found = []
     for part in relations_of(used.statement):
-        says: Implication | None = Implication(tuple(hypotheses), there.relation(part), source=used.id)
-        if used.where_defined and says is not None:
-            says = guarded(says)
-        if says is not None:
-            found.append(resting_on(goal, says, claims, *facts))
+        says = Implication(tuple(hypotheses), there.relation(part), source=used.id)
+        if (limited := guarded(says) if used.where_defined else says) is not None:
+            found.append(resting_on(goal, limited, claims, *facts))
     return found
 
 
@@ -150,7 +144,7 @@ def shown_sign(known: Sequence[Relation], facts: Sequence[Implication] = ()) -> 
     def has_sign(value: sp.Expr, sign: str) -> bool:
         if getattr(mask_positive(value, known, facts), f"is_{sign}"):
             return True
-        return follows(Relation(value, _SAYS[sign], sp.S.Zero), known, facts, seconds=_SECONDS).shown
+        return follows(Relation(value, SAYS[sign], sp.S.Zero), known, facts, seconds=_SECONDS).shown
 
     return has_sign
 

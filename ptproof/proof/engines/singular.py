@@ -10,11 +10,11 @@ from dataclasses import dataclass
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ptproof.proof.declarations import admissible, declared
+from ptproof.proof.declarations import SAYS, admissible, declared
 from ptproof.proof.engines.beside import is_analytic, is_not_real, is_pole, one_sided, sign_beside
 from ptproof.proof.kinks import switching
 from ptproof.proof.signs import sign_of
-from ptproof.proof.statement import MEANING, Relation, RelationSign
+from ptproof.proof.statement import MEANING, Relation
 from ptproof.proof.substitution import Substitution, holds_at
 from ptproof.proof.verdict import Witness
 from ptproof.system import substitute
@@ -23,9 +23,7 @@ _OTHERS = (sp.S.Zero, sp.S.One, sp.Rational(-1, 2), sp.Rational(3, 2), sp.Intege
 _MOST = 60
 _DISTANCES = (sp.Rational(1, 8), sp.Rational(1, 1024))
 _NEVER = (sp.Integral, sp.Limit, sp.Sum, sp.Product)
-_SIGN: dict[str, RelationSign] = {
-    "positive": ">", "nonnegative": ">=", "negative": "<", "nonpositive": "<=", "nonzero": "!="
-}  # fmt: skip
+
 Found = tuple[str, Witness]
 
 
@@ -46,7 +44,8 @@ def find_singularity(
     unknown = expression.atoms(AppliedUndef)
     if expression.has(*_NEVER) or not all(map(_has_concrete, unknown)):
         return None
-    names = {str(applied): str(_concrete(applied)) for applied in sorted(_plain(expression), key=str)}
+    plain = (applied for applied in unknown if all(isinstance(argument, sp.Symbol) for argument in applied.args))
+    names = {str(applied): str(_concrete(applied)) for applied in sorted(plain, key=str)}
     here, elsewhere = _connected(expression, [*domain, *_declared_relations(variables)])
     others = _some_values(elsewhere)
     if others is None:
@@ -112,32 +111,20 @@ def _choices(symbols: Sequence[sp.Symbol], most: int) -> Iterator[dict[sp.Symbol
 
 def _declared_relations(variables: Sequence[sp.Symbol]) -> list[Relation]:
     """The declared signs of the variables as relations."""
-    return [
-        Relation(symbol, sign, sp.S.Zero)
-        for symbol in variables
-        for word, sign in _SIGN.items()
-        if declared(symbol).get(word)
-    ]
-
-
-def _plain(expression: sp.Basic) -> set[AppliedUndef]:
-    return {
-        applied
-        for applied in expression.atoms(AppliedUndef)
-        if all(isinstance(argument, sp.Symbol) for argument in applied.args)
-    }
+    said = ((symbol, sign) for symbol in variables for word, sign in SAYS.items() if declared(symbol).get(word))
+    return [Relation(symbol, sign, sp.S.Zero) for symbol, sign in said]
 
 
 def _has_concrete(applied: AppliedUndef) -> bool:
     """Whether the polynomial of :func:`_concrete` is of the function's declared kind."""
-    return set(declared(applied)) <= {"real", *_SIGN} and bool(applied.is_real)
+    return set(declared(applied)) <= {"real", *SAYS} and bool(applied.is_real)
 
 
 def _concrete(expression: sp.Basic) -> sp.Basic:
     """Undefined functions become one fixed polynomial in their arguments, of their declared sign."""
     for applied in sorted(expression.atoms(AppliedUndef), key=str):
         places = [sp.Dummy(f"s{i}", real=True) for i in range(len(applied.args))]
-        power = 2 if set(declared(applied)) & _SIGN.keys() else 1
+        power = 2 if set(declared(applied)) & SAYS.keys() else 1
         polynomial = sp.Integer(2) + sum((i + 1) * place**power for i, place in enumerate(places))
         polynomial = -polynomial if applied.is_nonpositive else polynomial
         (expression,) = substitute([expression], {applied.func(*places): polynomial})

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 
 import sympy as sp
 
@@ -33,10 +34,7 @@ def squeezed(goal: Goal, bound: sp.Expr, near: Sequence[Relation], facts: Callab
     facts
         Given the goal ``v(t) ≤ bound`` at one arbitrary t near the point, the facts that show it over the reals.
     """
-
-    def undecided(reason: str) -> Evidence:
-        return Evidence(ENGINE, Verdict.UNDECIDED, reason)
-
+    undecided = partial(Evidence, ENGINE, Verdict.UNDECIDED)
     statement = goal.statement
     if not (isinstance(statement, Relation) and statement.sign == "=" and isinstance(statement.left, sp.Limit)):
         return undecided("not a limit with its value")

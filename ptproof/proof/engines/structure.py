@@ -17,12 +17,13 @@ import sympy as sp
 from sympy.core.function import AppliedUndef, UndefinedFunction
 from sympy.core.relational import Relational
 
-from ptproof.proof.declarations import SIGNS, declared
+from ptproof.proof.declarations import SAYS, SIGNS, declared
 from ptproof.proof.definedness import obligations
 from ptproof.proof.engines.glued import glued_smoothly
 from ptproof.proof.engines.reals import follows
 from ptproof.proof.kinks import KINKS, switching
-from ptproof.proof.statement import Relation, RelationSign
+from ptproof.proof.obligation import is_declared
+from ptproof.proof.statement import Relation
 
 ZERO = sp.S.Zero
 _SECONDS = 3.0
@@ -31,9 +32,6 @@ _READ = (
     *_ENTIRE, sp.Abs, sp.sign, sp.Heaviside, sp.Max, sp.Min, sp.log, sp.tan, sp.sec, sp.asin, sp.acos, sp.atan2
 )  # fmt: skip
 _COMPARISONS = (sp.Eq, sp.Ne, sp.LessThan, sp.StrictLessThan, sp.GreaterThan, sp.StrictGreaterThan)
-_SIGN: dict[str, RelationSign] = {
-    "positive": ">", "nonnegative": ">=", "negative": "<", "nonpositive": "<=", "nonzero": "!="
-}  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -88,7 +86,7 @@ class Known:
                 yield Need(node, None)
             for word in SIGNS:
                 if words.get(word):
-                    yield Need(node, Relation(argument, _SIGN[word], ZERO), (), everywhere)
+                    yield Need(node, Relation(argument, SAYS[word], ZERO), (), everywhere)
 
 
 @dataclass
@@ -114,12 +112,7 @@ class Examiner:
             free = {symbol: sp.Dummy(symbol.name, real=True) for symbol in self.variables}
             relation = relation.map(lambda side: side.xreplace(free))
             domain = [part for part in domain if not part.free_symbols & self.variables]
-        difference = relation.left - relation.right
-        by_declarations = {
-            "!=": difference.is_nonzero, "<": difference.is_negative, "<=": difference.is_nonpositive,
-            ">": difference.is_positive, ">=": difference.is_nonnegative, "=": difference.is_zero,
-        }[relation.sign]  # fmt: skip
-        return bool(by_declarations) or follows(relation, list(domain), seconds=_SECONDS).shown
+        return is_declared(relation) or follows(relation, list(domain), seconds=_SECONDS).shown
 
     def is_smooth(self, expression: sp.Expr, order: int, beyond: bool = True) -> bool:
         """Whether everything that ``expression`` needs is shown."""

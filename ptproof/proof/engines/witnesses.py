@@ -21,7 +21,7 @@ from ptproof.balls.ball import enclose, enclosure_text
 from ptproof.errors import InputError
 from ptproof.proof.claim import Goal, engine
 from ptproof.proof.declarations import admissible
-from ptproof.proof.definedness import Obligation, obligations
+from ptproof.proof.definedness import obligations
 from ptproof.proof.engines.evaluation import carried_out
 from ptproof.proof.engines.partial import values_where_used
 from ptproof.proof.engines.reals import follows
@@ -33,6 +33,7 @@ from ptproof.system import differentiated
 
 DIFFER = "the two sides differ at exact values"
 _TRIES = 3000
+_SECONDS = 2.0
 _PLAIN_TRIES = 40
 
 
@@ -89,16 +90,15 @@ def at_example(goal: Goal, values: Mapping[Any, Any]) -> tuple[bool, str]:
     witness, _ = check_witness(goal, values)
     if witness is not None:
         return False, f"the statement fails at the example: {witness.left} against {witness.right}"
-    return True, "the assumptions hold at the example, " + ", ".join(
-        f"{key} = {value}" for key, value in values.items()
-    )
+    said = ", ".join(f"{key} = {value}" for key, value in values.items())
+    return True, f"the assumptions hold at the example, {said}"
 
 
-def satisfiable(assumptions: Sequence[Relation], seconds: float = 2.0) -> bool:
+def satisfiable(assumptions: Sequence[Relation]) -> bool:
     """Whether exact values are found at which all the assumptions hold."""
     if not assumptions:
         return True
-    end = time.monotonic() + seconds
+    end = time.monotonic() + _SECONDS
     goal = Goal("satisfiable", All(tuple(assumptions)), tuple(assumptions))
     for values in candidates(goal):
         if time.monotonic() > end:
@@ -126,14 +126,9 @@ def _at(relation: Relation, values: Substitution) -> Relation | None:
 
 def _may_be_defined(side: sp.Expr) -> bool:
     """False where a derivative is taken at a kink, an integral over a pole: SymPy would give it a value."""
-    return all(
-        need.settled or need.given or _holds_exactly(need)
-        for need in obligations(side, side.atoms(sp.Limit, sp.Integral))
-    )
-
-
-def _holds_exactly(need: Obligation) -> bool:
-    return need.relation is not None and (bool(need.relation.free_symbols) or holds(need.relation))
+    needs = (need for need in obligations(side, side.atoms(sp.Limit, sp.Integral)) if not need.settled)
+    asked = (need.relation for need in needs if not need.given)
+    return all(item is not None and (item.free_symbols or holds(item)) for item in asked)
 
 
 def _holds(assumption: Assumption, values: Substitution) -> bool:
@@ -149,7 +144,7 @@ def _holds(assumption: Assumption, values: Substitution) -> bool:
             if only is not None:
                 numbers = _at(there.relation, Substitution({there.variables[0]: only}))
                 return numbers is not None and holds(numbers)
-            return follows(there.relation.map(differentiated), there.domain, seconds=2.0).shown
+            return follows(there.relation.map(differentiated), there.domain, seconds=_SECONDS).shown
     return False
 
 
@@ -157,11 +152,8 @@ def _only_value(quantified: ForAll) -> sp.Expr | None:
     """The one value that the domain leaves to the variable: it is between a number and the same number."""
     if len(quantified.variables) != 1:
         return None
-    variable = quantified.variables[0]
-    low, high = (
-        {part.right for part in quantified.domain if (part.left, part.sign) == (variable, sign)}
-        for sign in (">=", "<=")
-    )
+    ends = [(part.sign, part.right) for part in quantified.domain if part.left == quantified.variables[0]]
+    low, high = ({right for sign, right in ends if sign == wanted} for wanted in (">=", "<="))
     return next((value for value in low & high if value.is_number and value.is_real), None)
 
 

@@ -6,9 +6,9 @@ import os
 import tempfile
 import threading
 import time
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal, TypeAlias
 
@@ -17,6 +17,8 @@ from ptproof.proof.kernel import coq
 from ptproof.proof.kernel.hints.portfolio import script
 from ptproof.proof.kernel.terms import NoTranslation
 from ptproof.proof.kernel.theorem import Proposition, proposition
+from ptproof.proof.result import Result
+from ptproof.proof.verdict import Evidence, Verdict
 
 SECONDS_PER_CLAIM = 40.0
 _IN_A_FILE = 6
@@ -25,18 +27,10 @@ _TO_START = 30.0
 
 @dataclass(frozen=True)
 class Confirmation:
-    """What Coq's kernel says of one claim.
+    """What Coq's kernel says of one claim: whether it has checked a proof of it as restated, and if not, the reason.
 
-    Attributes
-    ----------
-    confirmed
-        Whether the kernel has checked a proof of the claim as restated.
-    reason
-        Why not.
-    proposition
-        The claim in Coq's words, where it has a translation.
-    seconds
-        How long the file took that the claim stood in, shared among its claims. [s]
+    ``proposition`` is the claim in Coq's words, where it has a translation. ``seconds`` is how long the file took that
+    the claim stood in, shared among its claims. [s]
     """
 
     confirmed: bool
@@ -163,3 +157,22 @@ def _theorem(said: Proposition, name: str, effort: Effort) -> coq.Theorem:
         reason = f"{type(error).__name__} in the search for hints: {error}".replace('"', "'")
         tactics = f'fail 0 "at" "{" ".join(reason.split())}"'
     return coq.Theorem(name, said.text, tactics)
+
+
+def second_opinion(
+    results: Sequence[Result], *, workers: int | None = None, keep: Path | None = None, progress: Progress | None = None
+) -> tuple[tuple[Result, ...], Mapping[str, Confirmation]]:  # fmt: skip
+    """The results, with the evidence ``coq`` where the kernel confirmed a proved claim, and all that it said.
+
+    The parameters are those of :func:`check`.
+    """
+    proved = [result.claim for result in results if result.verdict is Verdict.PROVED]
+    said = check(proved, workers=workers, keep=keep, progress=progress)
+    return tuple(_with(result, said.get(result.claim.id)) for result in results), said
+
+
+def _with(result: Result, said: Confirmation | None) -> Result:
+    if said is None or not said.confirmed:
+        return result
+    detail = "restated for Coq with what has to be defined, and its proof checked by Coq's kernel"
+    return replace(result, evidence=(*result.evidence, Evidence("coq", Verdict.PROVED, detail, said.seconds)))

@@ -109,15 +109,10 @@ def _compiled() -> tempfile.TemporaryDirectory[str]:
     for name in LIBRARY:
         text = (Path(__file__).parent / "theory" / f"{name}.v").read_text(encoding="utf-8")
         (folder / f"{name}.v").write_text(text, encoding="utf-8")
-        done = compile_file(folder, f"{name}.v", 300)
+        done = _run(["coqc", *_OPTIONS, f"{name}.v"], folder, None, 300)
         if done.error or done.late:
             raise RuntimeError(f"Coq refuses {name}.v, of the library of tactics: {done.error.strip() or 'time limit'}")
     return made
-
-
-def compile_file(folder: Path, file: str, seconds: float) -> Printed:
-    """Have a file of the library compiled."""
-    return _run(["coqc", *_OPTIONS, file], folder, None, seconds)
 
 
 def ask(folder: Path, file: str, seconds: float) -> Printed:
@@ -214,11 +209,6 @@ def _against(assumed: str) -> str | None:
     if not assumed.startswith("Axioms:"):
         return None
     names = re.findall(r"^([A-Za-z_][\w.']*)\s*:", assumed[len("Axioms:") :], re.MULTILINE)
-    foreign = [name for name in names if name not in AXIOMS and not _MACHINE.fullmatch(name)]
-    return (
-        f"it or another of its file rests on {', '.join(foreign)}"
-        if foreign
-        else ""
-        if names
-        else "its axioms cannot be read"
-    )
+    if foreign := [name for name in names if name not in AXIOMS and not _MACHINE.fullmatch(name)]:
+        return f"it or another of its file rests on {', '.join(foreign)}"
+    return "" if names else "its axioms cannot be read"

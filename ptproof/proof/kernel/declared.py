@@ -51,7 +51,7 @@ def of_functions(applied: Iterable[AppliedUndef], free: set[sp.Symbol], names: N
         seen.add(signature)
         for kind in _strongest(call.func):
             if bare(call):
-                found.append(everywhere(call, kind.format(term(call, names)), names))
+                found.append(for_all(call.args, kind.format(term(call, names)), names))
             elif call.free_symbols <= free:
                 found.append(kind.format(term(call, names)))
     return tuple(dict.fromkeys(found))
@@ -69,7 +69,7 @@ def of_derivatives(derivatives: Iterable[sp.Derivative], names: Names) -> tuple[
                 if variable not in call.args:
                     break
                 name = term(variable, names)
-                found.append(everywhere(call, f"ex_derive (fun {name} => {inner}) {name}", names))
+                found.append(for_all(call.args, f"ex_derive (fun {name} => {inner}) {name}", names))
                 inner = f"(Derive (fun {name} => {inner}) {name})"
     return tuple(dict.fromkeys(found))
 
@@ -79,11 +79,11 @@ def bare(call: AppliedUndef) -> bool:
     return all(item.is_Symbol for item in call.args) and len(set(call.args)) == len(call.args)
 
 
-def everywhere(call: AppliedUndef, proposition: str, names: Names) -> str:
-    """The proposition for all arguments of the kinds that the symbols in ``call`` are declared to be."""
-    variables = " ".join(term(item, names) for item in call.args)
-    kinds = [kind for item in call.args for kind in of_symbol(item, term(item, names))]
-    return f"(forall {variables} : R, {' -> '.join([*kinds, proposition])})"
+def for_all(symbols: Iterable[sp.Symbol], said: str, names: Names, premises: Iterable[str] = ()) -> str:
+    """What is said for all values of the symbols that are what they are declared to be, under the premises."""
+    symbols = list(symbols)
+    kinds = [kind for symbol in symbols for kind in of_symbol(symbol, names[symbol])]
+    return f"(forall {' '.join(names[symbol] for symbol in symbols)} : R, {' -> '.join([*kinds, *premises, said])})"
 
 
 def _strongest(function: Any) -> list[str]:

@@ -20,15 +20,15 @@ _GRAMMAR = frozenset(re.findall(r"\S+", """
 """))  # fmt: skip
 
 
-def identifiers(items: Iterable[Any], taken: Iterable[str] = ()) -> dict[Any, str]:
+def identifiers(items: Iterable[Any]) -> dict[Any, str]:
     """An identifier for each symbol or function, in a fixed order; no two are the same, and none means anything to Coq.
 
     Symbols that differ only in their assumptions, or a symbol and a function of one name, get different identifiers.
     """
-    used = {*WORDS, *_GRAMMAR, *taken}
+    used = {*WORDS, *_GRAMMAR}
     names: dict[Any, str] = {}
     for item in items:
-        base = plain(called(item))
+        base = as_identifier(called(item))
         name, count = base, 1
         while name in used:
             count += 1
@@ -43,10 +43,10 @@ def called(item: Any) -> str:
     return str(item.name if hasattr(item, "name") else item.__name__)
 
 
-def plain(text: str) -> str:
+def as_identifier(text: str) -> str:
     """``text`` in letters, digits and underscores of ASCII, as an identifier that begins with a letter.
 
-    >>> plain("x'"), plain("1/nu"), plain("")
+    >>> as_identifier("x'"), as_identifier("1/nu"), as_identifier("")
     ('x_', 'v_1_nu', 'v_')
     """
     name = re.sub(r"[^A-Za-z0-9_]", "_", text)
@@ -54,3 +54,10 @@ def plain(text: str) -> str:
 
 
 Names = Mapping[Any, str]
+
+
+def fresh(name: str, names: Names) -> str:
+    """The name, with what it takes at its end to be an identifier that nothing else has."""
+    while name in names.values():
+        name += "_"
+    return name

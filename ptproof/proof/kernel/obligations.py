@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 import sympy as sp
 
 from ptproof.proof.kernel.names import Names
-from ptproof.proof.kernel.terms import SIGNS, NoTranslation, positive_base, term
+from ptproof.proof.kernel.terms import NoTranslation, positive_base, term
 from ptproof.proof.statement import Exists, Relation, RelationSign
 
 
@@ -101,7 +101,7 @@ def _branches(expression: sp.Piecewise, names: Names) -> list[Part]:
             own = obligations(value, names)
             test = ""
         else:
-            test = f"{term(condition.lhs, names)} {SIGNS[type(condition)]} {term(condition.rhs, names)}"
+            test = f"{term(condition.lhs, names)} {condition.rel_op} {term(condition.rhs, names)}"
             found += _under(past, [*obligations(condition.lhs, names), *obligations(condition.rhs, names)])
             own = obligations(value, names)
         found += _under([*past, *([test] if test else [])], own)

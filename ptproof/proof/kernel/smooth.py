@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ptproof.proof.kernel.declared import bare, of_symbol
+from ptproof.proof.kernel.declared import bare, for_all
 from ptproof.proof.kernel.names import Names
 from ptproof.proof.kernel.obligations import Part, obligations
 from ptproof.proof.kernel.terms import NoTranslation, term
@@ -68,10 +68,7 @@ def _kinds(symbol: sp.Symbol) -> set[str]:
 
 
 def _assumed(call: AppliedUndef, order: int, names: Names) -> str:
-    variables = [names[symbol] for symbol in call.args]
-    kinds = [kind for symbol in call.args for kind in of_symbol(symbol, names[symbol])]
-    said = _smooth(term(call, names), variables, order, names)
-    return f"(forall {' '.join(variables)} : R, {' -> '.join([*kinds, said])})"
+    return for_all(call.args, _smooth(term(call, names), [names[symbol] for symbol in call.args], order, names), names)
 
 
 def _smooth(text: str, variables: Sequence[str], order: int, names: Names) -> str:

@@ -21,14 +21,11 @@ _FUNCTIONS = {
 _CONSTANTS = {sp.pi: "PI", sp.E: "(exp 1)"}
 DECIDED = {sp.LessThan: "Rle_dec", sp.StrictLessThan: "Rlt_dec", sp.GreaterThan: "Rge_dec",
             sp.StrictGreaterThan: "Rgt_dec"}  # fmt: skip
-SIGNS = {
-    "=": "=", "!=": "<>", "<=": "<=", "<": "<", ">=": ">=", ">": ">",
-    sp.LessThan: "<=", sp.StrictLessThan: "<", sp.GreaterThan: ">=", sp.StrictGreaterThan: ">",
-}  # fmt: skip
+SIGNS = {"=": "=", "!=": "<>", "<=": "<=", "<": "<", ">=": ">=", ">": ">"}
 
 
 def term(expression: sp.Basic, names: Names) -> str:
-    """The expression in the scope of Coq's reals, in brackets where it is not an atom.
+    """The expression in the scope of Coq's reals, in brackets where it is not an atom: one argument of anything.
 
     Coq's functions are total: what they say outside their domain is excluded by
     :func:`ptproof.proof.kernel.obligations.obligations`.

@@ -11,7 +11,7 @@ from sympy.core.function import AppliedUndef
 
 from ptproof.proof.claim import Claim
 from ptproof.proof.kernel import declared, smooth
-from ptproof.proof.kernel.names import Names, called, identifiers, plain
+from ptproof.proof.kernel.names import Names, as_identifier, called, identifiers
 from ptproof.proof.kernel.obligations import Part, obligations
 from ptproof.proof.kernel.terms import SIGNS, NoTranslation, term
 from ptproof.proof.statement import (
@@ -24,6 +24,8 @@ from ptproof.proof.statement import (
     Statement,
     expressions_of,
     free_symbols,
+    plain,
+    relations_of,
     undefined_functions,
 )
 
@@ -32,25 +34,10 @@ from ptproof.proof.statement import (
 class Proposition:
     """A claim in Coq's words.
 
-    Attributes
-    ----------
-    id
-        The claim's.
-    name
-        Its identifier in Coq.
-    text
-        The proposition.
-    names
-        Which symbol or function became which identifier.
-    binders
-        The identifiers of its functions and free symbols, in their order.
-    premises, conclusions
-        Its parts.
-    claim
-        What was translated.
+    ``name`` is its identifier in Coq and ``names`` says which symbol or function became which. ``binders`` are those of
+    its functions and free symbols, in their order; ``premises`` and ``conclusions`` its parts.
     """
 
-    id: str
     name: str
     text: str
     names: Names
@@ -83,13 +70,13 @@ def proposition(claim: Claim) -> Proposition:
     for item in claim.assumptions:
         premises += _given(item, names)
     conclusions, domain = _said(claim.statement, names)
-    if getattr(claim, "where_defined", False):
+    if claim.where_defined:
         premises += domain
     else:
         conclusions = [*domain, *conclusions]
     order = (_sorted(functions), _sorted(free))
     return Proposition(
-        claim.id, f"claim_{plain(claim.id)}", _text(names, *order, applied, premises, conclusions), names,
+        f"claim_{as_identifier(claim.id)}", _text(names, *order, applied, premises, conclusions), names,
         tuple(names[item] for items in order for item in items), tuple(premises), tuple(conclusions), claim,
     )  # fmt: skip
 
@@ -123,11 +110,13 @@ def _free(claim: Claim) -> set[sp.Symbol]:
 
 
 def _bound(statements: Iterable[Statement | Assumption]) -> set[sp.Symbol]:
-    return (
-        {symbol for item in statements if isinstance(item, ForAll | Exists) for symbol in item.variables}
-        | {symbol for item in statements if isinstance(item, Exists) for symbol in item.over}
-        | {symbol for item in statements if isinstance(item, Smooth) for symbol in smooth.symbols(item)}
-    )
+    found: set[sp.Symbol] = set()
+    for item in statements:
+        if isinstance(item, ForAll | Exists):
+            found.update(item.variables, item.over if isinstance(item, Exists) else ())
+        elif isinstance(item, Smooth):
+            found |= smooth.symbols(item)
+    return found
 
 
 def _sorted(items: Iterable[Any]) -> list[Any]:
@@ -151,17 +140,9 @@ def _given(item: Assumption, names: Names) -> list[Part]:
     """The assumption, and that its sides are defined: it allows only such values."""
     if isinstance(item, Relation):
         return [part for relation in item.components() for part in _relation(relation, names)]
-    premises: list[str] = []
-    for symbol in item.variables:
-        premises += declared.of_symbol(symbol, names[symbol])
-    for given in (component for part in item.domain for component in part.components()):
-        premises += [part.text for part in _relation(given, names)]
+    premises = [part.text for given in plain(item.domain) for part in _relation(given, names)]
     said = _conjunction(part for component in item.relation.components() for part in _relation(component, names))
-    return [Part(f"(forall {_variables(item.variables, names)} : R, {' -> '.join([*premises, f'({said})'])})")]
-
-
-def _variables(symbols: Sequence[sp.Symbol], names: Names) -> str:
-    return " ".join(names[symbol] for symbol in symbols)
+    return [Part(declared.for_all(item.variables, f"({said})", names, premises))]
 
 
 def _conjunction(parts: Iterable[Part]) -> str:
@@ -221,29 +202,21 @@ def _improper(integral: sp.Integral, value: sp.Basic, names: Names) -> tuple[tup
 
 def _said(statement: Statement, names: Names) -> tuple[list[Part], list[Part]]:
     """The conclusions, and what has to be defined for them."""
-    match statement:
-        case Relation():
-            parts: Sequence[Relation] = statement.components()
-        case All(every):
-            parts = [component for part in every for component in part.components()]
-        case Exists():
-            return [_exists(statement, names)], []
-        case Smooth():
-            return smooth.conclusions(statement, names), []
-        case _:
-            raise NoTranslation(f"no translation for a statement of the kind {type(statement).__name__.lower()}")
-    said = [_sides(part, names) for part in parts]
-    domain = list(dict.fromkeys(part for parts_of, _ in said for part in parts_of))
-    return [text for _, text in said], domain
+    if isinstance(statement, Exists):
+        return [_exists(statement, names)], []
+    if isinstance(statement, Smooth):
+        return smooth.conclusions(statement, names), []
+    if not isinstance(statement, Relation | All):
+        raise NoTranslation(f"no translation for a statement of the kind {type(statement).__name__.lower()}")
+    said = [_sides(part, names) for part in relations_of(statement)]
+    return [text for _, text in said], list(dict.fromkeys(part for domain, _ in said for part in domain))
 
 
 def _exists(statement: Exists, names: Names) -> Part:
-    relations = (given for item in statement.body for given in item.components())
-    body = {part.text: part for given in relations for part in _relation(given, names)}
+    body = {part.text: part for given in plain(statement.body) for part in _relation(given, names)}
     text = _conjunction(body.values())
     if statement.over:
-        kinds = [kind for symbol in statement.over for kind in declared.of_symbol(symbol, names[symbol])]
-        text = f"(forall {_variables(statement.over, names)} : R, {' -> '.join([*kinds, f'({text})'])})"
+        text = declared.for_all(statement.over, f"({text})", names)
     for symbol in reversed(statement.variables):
         text = " /\\ ".join([*declared.of_symbol(symbol, names[symbol]), text])
         text = f"(exists {names[symbol]} : R, {text})"

@@ -65,6 +65,11 @@ def short(value: Any) -> str:
     return text if len(text) <= _SHOWN else f"{text[: _SHOWN - 1]}…"
 
 
+def with_item(items: Sequence[Any], position: int, *instead: Any) -> tuple[Any, ...]:
+    """The items with others in the place of one of them, or without it."""
+    return (*items[:position], *instead, *items[position + 1 :])
+
+
 def edits(expression: sp.Expr, letters: Letters) -> Iterator[Edit]:
     """Every change of the expression, kind by kind; ``letters`` are the symbols and functions that may come in."""
     for kind in KINDS:
@@ -84,20 +89,16 @@ def parts_of(expression: sp.Expr) -> list[sp.Expr]:
     return list(found)
 
 
-def _edit(kind: str, old: sp.Expr, new: sp.Expr) -> Edit:
-    return Edit(kind, old, new)
-
-
 def coefficients(expression: sp.Expr, _: Letters) -> Iterator[Edit]:
     """A term halved or doubled, the whole doubled, and a number one further."""
     if expression != 0:
-        yield _edit("coefficient", expression, 2 * expression)
+        yield Edit("coefficient", expression, 2 * expression)
     for node, term in _terms(expression):
         yield Edit("coefficient", node, node - term / 2, "the term {} halved", term)
         yield Edit("coefficient", node, node + term, "the term {} doubled", term)
     for node in parts_of(expression):
         if isinstance(node, sp.Mul) and (number := node.args[0]).is_Rational and number not in (-1, _HALF):
-            yield _edit("coefficient", node, node * (number.p + 1) / number.p)
+            yield Edit("coefficient", node, node * (number.p + 1) / number.p)
 
 
 def signs(expression: sp.Expr, _: Letters) -> Iterator[Edit]:
@@ -105,10 +106,10 @@ def signs(expression: sp.Expr, _: Letters) -> Iterator[Edit]:
     for node, term in _terms(expression):
         yield Edit("sign", node, node - 2 * term, "the sign of {}", term)
     if expression != 0:
-        yield _edit("sign", expression, -expression)
+        yield Edit("sign", expression, -expression)
     for node in parts_of(expression):
         if isinstance(node, sp.sin | sp.exp | sp.atan | sp.tan):
-            yield _edit("sign", node, node.func(-node.args[0]))
+            yield Edit("sign", node, node.func(-node.args[0]))
 
 
 def dropped_terms(expression: sp.Expr, _: Letters) -> Iterator[Edit]:
@@ -126,14 +127,14 @@ def exponents(expression: sp.Expr, _: Letters) -> Iterator[Edit]:
     """An exponent one higher or of the other sign, a letter squared, a square root that becomes a cube root."""
     for node in parts_of(expression):
         if isinstance(node, sp.Pow):
-            yield _edit("exponent", node, node.base ** (node.exp + 1))
+            yield Edit("exponent", node, node.base ** (node.exp + 1))
             if node.exp not in (1, -1):
-                yield _edit("exponent", node, node.base ** (node.exp - 1))
-            yield _edit("exponent", node, node.base ** (-node.exp))
+                yield Edit("exponent", node, node.base ** (node.exp - 1))
+            yield Edit("exponent", node, node.base ** (-node.exp))
             if node.exp == _HALF:
-                yield _edit("exponent", node, node.base ** sp.Rational(1, 3))
+                yield Edit("exponent", node, node.base ** sp.Rational(1, 3))
         elif isinstance(node, sp.Symbol | AppliedUndef):
-            yield _edit("exponent", node, node**2)
+            yield Edit("exponent", node, node**2)
 
 
 def indices(expression: sp.Expr, letters: Letters) -> Iterator[Edit]:
@@ -143,16 +144,16 @@ def indices(expression: sp.Expr, letters: Letters) -> Iterator[Edit]:
         for other in letters:
             if isinstance(node, sp.Symbol) and isinstance(other, sp.Symbol):
                 if other != node and similar(node.name, other.name) and same_kind(node, other):
-                    yield _edit("index", node, other)
+                    yield Edit("index", node, other)
             elif isinstance(node, AppliedUndef) and isinstance(other, AppliedUndef):
                 fits = len(node.args) == len(other.args) and node.func != other.func
                 if fits and similar(node.func.__name__, other.func.__name__):
-                    yield _edit("index", node, other.func(*node.args))
+                    yield Edit("index", node, other.func(*node.args))
     for node in parts_of(expression):
         if isinstance(node, sp.Derivative):
-            for other in _symbols(node.expr):
-                if other not in node.variables:
-                    yield _edit("index", node, sp.Derivative(node.expr, *[other] * len(node.variables)))
+            for other in parts_of(node.expr):
+                if isinstance(other, sp.Symbol) and other not in node.variables:
+                    yield Edit("index", node, sp.Derivative(node.expr, *[other] * len(node.variables)))
 
 
 def exchanges(expression: sp.Expr, letters: Letters) -> Iterator[Edit]:
@@ -167,38 +168,36 @@ def exchanges(expression: sp.Expr, letters: Letters) -> Iterator[Edit]:
 def functions(expression: sp.Expr, _: Letters) -> Iterator[Edit]:
     """Another function: cosine for sine, minimum for maximum, a value for its absolute value."""
     for node in parts_of(expression):
-        match node:
-            case sp.sin():
-                yield _edit("function", node, sp.cos(*node.args))
-            case sp.cos():
-                yield _edit("function", node, sp.sin(*node.args))
-            case sp.Max():
-                yield _edit("function", node, sp.Min(*node.args))
-            case sp.Min():
-                yield _edit("function", node, sp.Max(*node.args))
-            case sp.Abs():
-                yield _edit("function", node, node.args[0])
-            case sp.exp():
-                yield _edit("function", node, 1 + node.args[0])
-            case sp.log():
-                yield _edit("function", node, node.args[0] - 1)
-            case sp.atan() | sp.tan():
-                yield _edit("function", node, node.args[0])
-            case sp.Pow() if node.exp == _HALF:
-                yield _edit("function", node, node.base)
+        if (other := _OTHERS.get(type(node))) is not None:
+            yield Edit("function", node, other(*node.args))
+        elif isinstance(node, sp.Pow) and node.exp == _HALF:
+            yield Edit("function", node, node.base)
+
+
+_OTHERS: dict[type, Callable[..., sp.Expr]] = {
+    sp.sin: sp.cos,
+    sp.cos: sp.sin,
+    sp.Max: sp.Min,
+    sp.Min: sp.Max,
+    sp.Abs: lambda value: value,
+    sp.exp: lambda value: 1 + value,
+    sp.log: lambda value: value - 1,
+    sp.atan: lambda value: value,
+    sp.tan: lambda value: value,
+}
 
 
 def orders(expression: sp.Expr, _: Letters) -> Iterator[Edit]:
     """A derivative once more or once less, and a whole number one further."""
     for node in parts_of(expression):
         if isinstance(node, sp.Derivative):
-            yield _edit("order", node, sp.Derivative(node.expr, *node.variables, node.variables[-1]))
+            yield Edit("order", node, sp.Derivative(node.expr, *node.variables, node.variables[-1]))
             fewer = node.variables[:-1]
-            yield _edit("order", node, sp.Derivative(node.expr, *fewer) if fewer else node.expr)
+            yield Edit("order", node, sp.Derivative(node.expr, *fewer) if fewer else node.expr)
         elif isinstance(node, sp.Symbol) and node.is_integer:
-            yield _edit("order", node, node + 1)
+            yield Edit("order", node, node + 1)
     if expression.is_Rational and expression != 0:
-        yield _edit("order", expression, (expression.p + 1) / sp.Integer(expression.q))
+        yield Edit("order", expression, (expression.p + 1) / sp.Integer(expression.q))
 
 
 def ends(expression: sp.Expr, _: Letters) -> Iterator[Edit]:
@@ -207,37 +206,35 @@ def ends(expression: sp.Expr, _: Letters) -> Iterator[Edit]:
         if isinstance(node, sp.Limit):
             inner, variable, point, side = node.args
             if point.is_finite is not False:
-                yield _edit("limit", node, sp.Limit(inner, variable, point, "-" if str(side) == "+" else "+"))
-                yield _edit("limit", node, sp.Limit(inner, variable, point + 1, str(side)))
-                yield _edit("limit", node, sp.Limit(inner, variable, sp.oo))
+                yield Edit("limit", node, sp.Limit(inner, variable, point, "-" if str(side) == "+" else "+"))
+                yield Edit("limit", node, sp.Limit(inner, variable, point + 1, str(side)))
+                yield Edit("limit", node, sp.Limit(inner, variable, sp.oo))
             else:
-                yield _edit("limit", node, sp.Limit(inner, variable, -point))
-                yield _edit("limit", node, sp.Limit(inner, variable, sp.Integer(0), "+"))
+                yield Edit("limit", node, sp.Limit(inner, variable, -point))
+                yield Edit("limit", node, sp.Limit(inner, variable, sp.Integer(0), "+"))
         elif isinstance(node, sp.Integral):
             for i, (variable, *span) in enumerate(node.limits):
                 if len(span) == 2:
                     yield from _other_spans(node, i, variable, *span)
         elif isinstance(node, sp.Subs):
             for i, point in enumerate(node.point):
-                moved = (*node.point[:i], point + 1, *node.point[i + 1 :])
-                yield _edit("point", node, sp.Subs(node.expr, node.variables, moved))
+                yield Edit("point", node, sp.Subs(node.expr, node.variables, with_item(node.point, i, point + 1)))
 
 
 def _other_spans(node: sp.Integral, place: int, variable: sp.Symbol, low: sp.Expr, high: sp.Expr) -> Iterator[Edit]:
     spans = [(low, high / 2) if high.is_finite is not False else (low, low + 1), (low + 1, high), (high, low)]
     for span in spans:
-        limits = (*node.limits[:place], (variable, *span), *node.limits[place + 1 :])
-        yield _edit("integral", node, sp.Integral(node.function, *limits))
+        yield Edit("integral", node, sp.Integral(node.function, *with_item(node.limits, place, (variable, *span))))
 
 
 def additions(expression: sp.Expr, letters: Letters) -> Iterator[Edit]:
     """One added, and a small multiple of each letter."""
-    yield _edit("plus", expression, expression + 1)
-    yield _edit("plus", expression, expression - sp.Rational(1, 100))
+    yield Edit("plus", expression, expression + 1)
+    yield Edit("plus", expression, expression - sp.Rational(1, 100))
     for letter in letters:
         if isinstance(letter, sp.Symbol):
-            yield _edit("plus", expression, expression + letter / 100)
-            yield _edit("plus", expression, expression - letter / 100)
+            yield Edit("plus", expression, expression + letter / 100)
+            yield Edit("plus", expression, expression - letter / 100)
 
 
 KINDS: tuple[Kind, ...] = (
@@ -259,10 +256,6 @@ def similar(name: str, other: str) -> bool:
 def same_kind(symbol: sp.Symbol, other: sp.Symbol) -> bool:
     """Whether two symbols are declared alike."""
     return bool(symbol.assumptions0 == other.assumptions0)
-
-
-def _symbols(expression: sp.Expr) -> list[sp.Symbol]:
-    return [node for node in parts_of(expression) if isinstance(node, sp.Symbol)]
 
 
 def _terms(expression: sp.Expr) -> Iterator[tuple[sp.Expr, sp.Expr]]:

@@ -5,21 +5,23 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
+from typing import Any
 
 import sympy as sp
 
 from ptproof.proof.claim import Claim
 from ptproof.proof.declarations import declared
+from ptproof.proof.mutation.edits import with_item
 from ptproof.proof.mutation.mutant import Candidate, letters_of
 from ptproof.proof.mutation.statements import relation_changes
-from ptproof.proof.statement import All, Assumption, Exists, ForAll, Relation, RelationSign, Smooth, Statement
+from ptproof.proof.statement import All, Assumption, Exists, ForAll, Relation, RelationSign, Smooth
 
 _OPENED: dict[str, RelationSign] = {"<": "<=", ">": ">="}
 _CLOSED: dict[str, RelationSign] = {"<=": "<", ">=": ">"}
 _SIGNS = ("positive", "nonnegative", "negative", "nonpositive", "nonzero", "integer")
 
 
-def changed_hypotheses(claim: Claim, others: Sequence[Claim] = ()) -> Iterator[Candidate]:
+def changed_hypotheses(claim: Claim, others: Sequence[Claim] = ()) -> Iterator[Candidate[Claim]]:
     """Every change of assumptions, declarations and dependencies; ``others`` are claims that may be put in place."""
     yield from _assumptions(claim)
     yield from _declarations(claim)
@@ -30,12 +32,11 @@ def changed_hypotheses(claim: Claim, others: Sequence[Claim] = ()) -> Iterator[C
     yield from _dependencies(claim, others)
 
 
-def _assumptions(claim: Claim) -> Iterator[Candidate]:
+def _assumptions(claim: Claim) -> Iterator[Candidate[Claim]]:
     for position, given in enumerate(claim.assumptions):
 
         def put(*instead: Assumption, position: int = position) -> Claim:
-            rest = (*claim.assumptions[:position], *instead, *claim.assumptions[position + 1 :])
-            return replace(claim, assumptions=rest)
+            return replace(claim, assumptions=with_item(claim.assumptions, position, *instead))
 
         row = ("given", position)
         yield Candidate("assumption dropped", row, partial("without the assumption {}".format, given), put)
@@ -43,12 +44,12 @@ def _assumptions(claim: Claim) -> Iterator[Candidate]:
             yield Candidate(kind, row, partial("{} → {}".format, given, changed), partial(put, changed))
         relation = given.relation if isinstance(given, ForAll) else given
         for change in relation_changes(relation, letters_of(claim)):
-            make = partial(_with_relation, put, given, change.make)
-            yield Candidate("assumption changed", row, partial(change.said, "in an assumption, "), make)
+            whole = partial(_with_relation, put, given)
+            yield replace(change.within(whole, row, "in an assumption, "), kind="assumption changed")
 
 
-def _with_relation(put: Callable[[Assumption], Claim], given: Assumption, make: Callable[[], Relation]) -> Claim:
-    return put(replace(given, relation=make()) if isinstance(given, ForAll) else make())
+def _with_relation(put: Callable[[Assumption], Claim], given: Assumption, relation: Relation) -> Claim:
+    return put(replace(given, relation=relation) if isinstance(given, ForAll) else relation)
 
 
 def weakened(given: Assumption) -> Iterator[tuple[str, Assumption]]:
@@ -62,8 +63,7 @@ def weakened(given: Assumption) -> Iterator[tuple[str, Assumption]]:
             yield kind, replace(given, relation=relation)
         for position, part in enumerate(given.domain):
             for _, moved in _weaker_relations(part):
-                domain = (*given.domain[:position], moved, *given.domain[position + 1 :])
-                yield "domain", replace(given, domain=domain)
+                yield "domain", replace(given, domain=with_item(given.domain, position, moved))
         return
     if isinstance(given.left, sp.MatrixBase):
         return
@@ -93,7 +93,7 @@ def _weaker_relations(given: Relation) -> Iterator[tuple[str, Relation]]:
     yield "direction", Relation(right, sign, left)
 
 
-def _declarations(claim: Claim) -> Iterator[Candidate]:
+def _declarations(claim: Claim) -> Iterator[Candidate[Claim]]:
     """A symbol of a declared sign or kind taken as any real number."""
     for symbol in letters_of(claim):
         if isinstance(symbol, sp.Symbol) and any(word in declared(symbol) for word in _SIGNS):
@@ -106,44 +106,37 @@ def _renamed(claim: Claim, change: dict[sp.Symbol, sp.Symbol]) -> Claim:
     def apply(expression: sp.Expr) -> sp.Expr:
         return expression.xreplace(change)
 
-    return replace(
-        claim,
-        statement=_mapped(claim.statement, apply, change),
-        assumptions=tuple(_mapped_assumption(item, apply) for item in claim.assumptions),
-    )
+    given = tuple(_mapped(item, apply) for item in claim.assumptions)
+    return replace(claim, statement=_mapped(claim.statement, apply), assumptions=given)
 
 
-def _mapped(statement: Statement, apply: Callable[[sp.Expr], sp.Expr], change: dict[sp.Symbol, sp.Symbol]) -> Statement:
+def _mapped(statement: Any, apply: Callable[[sp.Expr], sp.Expr]) -> Any:
+    """A statement or an assumption with every expression and every variable changed."""
+
+    def each(parts: Sequence[Relation]) -> tuple[Relation, ...]:
+        return tuple(part.map(apply) for part in parts)
+
     match statement:
         case Relation():
             return statement.map(apply)
         case All(parts):
-            return All(tuple(part.map(apply) for part in parts))
+            return All(each(parts))
         case Exists(variables=variables, body=body, over=over):
-            names = [tuple(change.get(symbol, symbol) for symbol in symbols) for symbols in (variables, over)]
-            return Exists(names[0], tuple(part.map(apply) for part in body), names[1])
-        case Smooth(expressions=expressions, variables=variables):
-            return replace(
-                statement,
-                expressions=tuple(map(apply, expressions)),
-                variables=tuple(change.get(symbol, symbol) for symbol in variables),
-                assumed=tuple((apply(applied), order) for applied, order in statement.assumed),
-            )
+            return Exists(tuple(map(apply, variables)), each(body), tuple(map(apply, over)))
+        case ForAll(variables=variables, relation=relation, domain=domain):
+            return ForAll(tuple(map(apply, variables)), relation.map(apply), each(domain))
+        case Smooth(expressions=expressions, variables=variables, assumed=assumed):
+            known = tuple((apply(applied), order) for applied, order in assumed)
+            rows, letters = tuple(map(apply, expressions)), tuple(map(apply, variables))
+            return replace(statement, expressions=rows, variables=letters, assumed=known)
     return statement
 
 
-def _mapped_assumption(item: Assumption, apply: Callable[[sp.Expr], sp.Expr]) -> Assumption:
-    if isinstance(item, Relation):
-        return item.map(apply)
-    domain = tuple(part.map(apply) for part in item.domain)
-    return ForAll(tuple(apply(symbol) for symbol in item.variables), item.relation.map(apply), domain)
-
-
-def _dependencies(claim: Claim, others: Sequence[Claim]) -> Iterator[Candidate]:
+def _dependencies(claim: Claim, others: Sequence[Claim]) -> Iterator[Candidate[Claim]]:
     for position, used in enumerate(claim.uses):
 
         def put(*instead: Claim, position: int = position) -> Claim:
-            return replace(claim, uses=(*claim.uses[:position], *instead, *claim.uses[position + 1 :]))
+            return replace(claim, uses=with_item(claim.uses, position, *instead))
 
         row = ("uses", position)
         yield Candidate("dependency", row, partial("without the use of {}".format, used.id), put)

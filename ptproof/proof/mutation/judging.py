@@ -24,18 +24,9 @@ STEPS = 5
 
 @dataclass(frozen=True)
 class Patience:
-    """How long each step may take. [s]
+    """How long each ``step`` may take (an attack, a proof, the comparison with the original), and the attacker. [s]
 
-    Attributes
-    ----------
-    step
-        An attack, a proof, or the comparison with the original.
-    question
-        z3, for one question of a proof.
-    refuted
-        z3, for one question of the proof of what is known to be false.
-    attack
-        The attacker.
+    ``question`` is for z3, of one question of a proof, and ``refuted`` where what is to be proved is known to be false.
     """
 
     step: float = 8.0

@@ -12,6 +12,7 @@ from ptproof.proof.mutation.mutant import Candidate, Mutant, Place
 from ptproof.proof.mutation.statements import changed_statements
 
 PER_CLAIM = 21
+_NOT_BUILT = (ArithmeticError, AttributeError, IndexError, NotImplementedError, TypeError, ValueError, InputError)
 
 
 def mutants(claim: Claim, others: Sequence[Claim] = (), *, count: int = PER_CLAIM, seed: int = 0) -> list[Mutant]:
@@ -32,7 +33,7 @@ def mutants(claim: Claim, others: Sequence[Claim] = (), *, count: int = PER_CLAI
         Another number makes another choice.
     """
     choice = _Choice(claim, random.Random(f"{seed}:{claim.id}"))
-    waiting: dict[str, list[Candidate]] = {}
+    waiting: dict[str, list[Candidate[Claim]]] = {}
     for candidate in (*changed_statements(claim), *changed_hypotheses(claim, others)):
         waiting.setdefault(candidate.kind, []).append(candidate)
     rows = {item.row for items in waiting.values() for item in items if item.row[0] not in ("declared", "uses")}
@@ -56,32 +57,23 @@ class _Choice:
         self.claim, self.random = claim, lot
         self.made: list[Mutant] = []
         self.rows: set[Place] = set()
-        self._seen = {self._content(claim)}
+        self._seen = {claim.content}
 
-    def take_one(self, candidates: list[Candidate]) -> None:
+    def take_one(self, candidates: list[Candidate[Claim]]) -> None:
         """Make the first of the candidates that can be made and is new, those of an untouched row first."""
         while candidates:
             place = next((i for i, item in enumerate(candidates) if item.row not in self.rows), 0)
             candidate = candidates.pop(place)
-            changed = _made(candidate)
-            if changed is None or self._content(changed) in self._seen:
+            try:
+                changed = candidate.make()
+            except _NOT_BUILT:
+                continue  # SymPy cannot build its expressions, or they are no expressions any more
+            if changed.content in self._seen:
                 continue
-            self._seen.add(self._content(changed))
+            self._seen.add(changed.content)
             self.rows.add(candidate.row)
             self.made.append(Mutant(changed, self.claim, candidate.kind, candidate.words()))
             return
-
-    @staticmethod
-    def _content(claim: Claim) -> str:
-        return claim.content
-
-
-def _made(candidate: Candidate) -> Claim | None:
-    """The changed claim, or None where SymPy cannot build its expressions or they are no expressions any more."""
-    try:
-        return candidate.make()
-    except (ArithmeticError, AttributeError, IndexError, NotImplementedError, TypeError, ValueError, InputError):
-        return None
 
 
 def neighbours(claims: Sequence[Claim]) -> Iterator[tuple[Claim, tuple[Claim, ...]]]:

@@ -3,30 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
-from typing import TypeAlias
+from dataclasses import dataclass, replace
+from typing import Any, Generic, TypeAlias, TypeVar
 
 from ptproof.proof.claim import Claim
 from ptproof.proof.mutation.edits import Letters
 from ptproof.proof.statement import free_symbols, undefined_functions
 
 Place: TypeAlias = tuple[str | int, ...]
+Changed = TypeVar("Changed", covariant=True)
 
 
 @dataclass(frozen=True)
 class Mutant:
-    """A claim of which one thing was changed.
+    """A claim of which one thing was changed, under the id and with the proof of the ``original``.
 
-    Attributes
-    ----------
-    claim
-        The changed claim, under the id and with the proof of the original.
-    original
-        What it was made of.
-    kind
-        A word for the kind of change.
-    change
-        What was changed, in words.
+    ``kind`` is a word for the kind of change, and ``change`` says in words what was changed.
     """
 
     claim: Claim
@@ -36,8 +28,8 @@ class Mutant:
 
 
 @dataclass(frozen=True)
-class Candidate:
-    """A change that can be made: its kind, the row that it touches, and its words and the changed claim when asked for.
+class Candidate(Generic[Changed]):
+    """A change that can be made: its kind, the row that it touches, and its words and what it makes when asked for.
 
     ``make`` may raise ValueError, TypeError or another error of SymPy where the changed expression cannot be built.
     """
@@ -45,7 +37,17 @@ class Candidate:
     kind: str
     row: Place
     words: Callable[[], str]
-    make: Callable[[], Claim]
+    make: Callable[[], Changed]
+
+    def within(self, whole: Callable[[Changed], Claim], row: Place, before: str) -> Candidate[Claim]:
+        """The same change as one of the whole claim, with words before its own."""
+        return Candidate(self.kind, row, lambda: before + self.words(), lambda: whole(self.make()))
+
+
+def restated(claim: Claim, **changes: Any) -> Claim:
+    """The claim with parts of its statement changed."""
+    statement: Any = claim.statement
+    return replace(claim, statement=replace(statement, **changes))
 
 
 def letters_of(claim: Claim) -> Letters:

@@ -22,25 +22,12 @@ class Word(StrEnum):
 
 @dataclass(frozen=True)
 class Outcome:
-    """What came of one mutant.
+    """What came of one mutant: what was changed in words (``change``), and what it states, where that is proved.
 
-    Attributes
-    ----------
-    kind, change
-        The kind of the change, and the change in words.
-    statement
-        What the mutant states, where it is proved; what is not proved states nothing that is known.
-    word
-        ``equivalent`` to the original, and shown to be; ``refuted`` by exact values; ``proved`` by the original's
-        proof; or ``undecided``.
-    why
-        How that is known, or for what is proved why it is true, as far as that is known.
-    witness
-        Exact values at which it fails.
-    false
-        It is false, by exact values or by the attacker's numbers.
-    seconds
-        How long it took. [s]
+    The ``word`` is ``equivalent`` to the original, and shown to be; ``refuted`` by exact values; ``proved`` by the
+    original's proof; or ``undecided``. ``why`` says how that is known, or for what is proved why it is true, as far as
+    that is known. ``witness`` are exact values at which it fails; it may be ``false`` by the attacker's numbers only.
+    ``seconds`` is how long it took. [s]
     """
 
     kind: str

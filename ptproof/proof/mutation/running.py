@@ -10,8 +10,9 @@ from functools import lru_cache
 from typing import TypeAlias
 
 from ptproof.errors import InputError
+from ptproof.proof.answering import READ, read
 from ptproof.proof.claim import Claim
-from ptproof.proof.load import Derivation, claims_in
+from ptproof.proof.load import Derivation
 from ptproof.proof.mutation.judging import STEPS, Patience, judge, unanswered
 from ptproof.proof.mutation.making import PER_CLAIM, mutants, neighbours
 from ptproof.proof.mutation.mutant import Mutant
@@ -101,25 +102,21 @@ def corruptible(claims: Iterable[Claim], select: str = "") -> tuple[Claim, ...]:
         If there is none.
     """
 
-    def speaks_of(claim: Claim) -> bool:
-        words = (claim.id, claim.title, claim.section, *claim.labels)
-        return any(select.lower() in word.lower() for word in words)
-
-    chosen = tuple(item for item in claims if item.expected is Verdict.PROVED and speaks_of(item))
+    chosen = tuple(item for item in claims if item.expected is Verdict.PROVED and item.contains(select))
     if not chosen:
         where = f" contains {select!r} and" if select else ""
         raise InputError(f"no claim{where} is expected to be proved, so that there is nothing to corrupt")
     return chosen
 
 
+def _made(claim: Claim, others: Sequence[Claim], setting: Setting) -> list[Mutant]:
+    return mutants(claim, others, count=setting.count, seed=setting.seed)
+
+
 def _here(claims: Sequence[Claim], setting: Setting) -> Iterator[tuple[Claim, int, Outcome]]:
     for claim, others in neighbours(claims):
         for place, mutant in enumerate(_made(claim, others, setting)):
             yield claim, place, judge(mutant, Patience(setting.timeout))
-
-
-def _made(claim: Claim, others: Sequence[Claim], setting: Setting) -> list[Mutant]:
-    return mutants(claim, others, count=setting.count, seed=setting.seed)
 
 
 def _in_workers(
@@ -155,14 +152,6 @@ def _in_workers(
                     yield by_id[id], place, unanswered(made[place], answer.reason)
 
 
-_read: dict[str, Claim] = {}
-
-
-def read(files: Sequence[str]) -> None:
-    """In a worker: the claims of these files, so that they can be asked for by their ids."""
-    _read.update(claims_in(files))
-
-
 def judge_share(
     id: str, others: tuple[str, ...], setting: Setting, first: int, every: int
 ) -> list[tuple[int, Outcome]]:
@@ -173,4 +162,4 @@ def judge_share(
 
 @lru_cache(maxsize=2)
 def _remembered(id: str, others: tuple[str, ...], setting: Setting) -> list[Mutant]:
-    return _made(_read[id], [_read[other] for other in others], setting)
+    return _made(READ[id], [READ[other] for other in others], setting)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from abc import abstractmethod
 from collections.abc import Sequence
 from typing import Any
 
@@ -13,20 +12,11 @@ from ptproof.reading.latex.cursor import differential
 from ptproof.reading.latex.letters import Letters
 from ptproof.reading.latex.rewrite import RATE
 from ptproof.reading.latex.tokens import Token
-from ptproof.reading.latex.values import integral
+from ptproof.reading.latex.values import entrywise, integral
 
 
 class Calculus(Letters):
     """The part of the grammar that knows of derivatives; sums and products are given by ``Grammar``."""
-
-    @abstractmethod
-    def factor(self) -> Any: ...
-
-    @abstractmethod
-    def base(self) -> Any: ...
-
-    @abstractmethod
-    def product(self) -> Any: ...
 
     def derivative(self, above: list[Token], below: list[Token], at: Token) -> Any:
         """The derivative that a fraction of differentials writes, its orders above and below the same."""
@@ -53,9 +43,9 @@ class Calculus(Letters):
         """What is differentiated by, as often as its exponent says; the exponent of x^* is none."""
         part = type(self)(tokens, self.notation)
         last = next((i for i in range(len(tokens) - 1, 0, -1) if tokens[i].text == "^"), 0)
-        if last and "".join(token.text for token in tokens[last + 1 :]).strip("{}") in ("2", "3", "4"):
-            count = int("".join(token.text for token in tokens[last + 1 :]).strip("{}"))
-            return [part.inner(tokens[:last])] * count
+        count = "".join(token.text for token in tokens[last + 1 :]).strip("{}")
+        if last and count in ("2", "3", "4"):
+            return [part.inner(tokens[:last])] * int(count)
         return [part.inner(tokens)]
 
     def differentiated(self, value: Any, variable: Any, at: Token) -> Any:
@@ -69,11 +59,7 @@ class Calculus(Letters):
             raise self.refuse("derivative", f"{variable} is no variable", at)
         if variable.name in self.notation.vocabulary.times:
             return self.along(value, variable)
-        return (
-            value.applyfunc(lambda e: sp.diff(e, variable))
-            if isinstance(value, sp.MatrixBase)
-            else sp.diff(value, variable)
-        )
+        return entrywise(value, lambda entry: sp.diff(entry, variable))
 
     def listed(self, values: list[Any], at: Token) -> Any:
         """What ``[…, …]`` is: a row of numbers and rows, or the Lie bracket of two columns."""
@@ -100,7 +86,7 @@ class Calculus(Letters):
             explicit = isinstance(entry, AppliedUndef) and entry.args == (time,)
             return sp.Derivative(entry, time) if explicit else RATE(entry, time)
 
-        return value.applyfunc(rate) if isinstance(value, sp.MatrixBase) else rate(value)
+        return entrywise(value, rate)
 
     def read_dot(self, at: Token, order: int = 1) -> Any:
         tokens = self.argument(at)
@@ -120,12 +106,8 @@ class Calculus(Letters):
         if self.text == "^":
             raise self.refuse("derivative", "a derivative of second order is not read", at)
         value = self.base()
-        arguments = getattr(value, "args", ())
-        if (
-            not arguments
-            or not all(isinstance(item, sp.Symbol) for item in arguments)
-            or not isinstance(value, sp.Expr)
-        ):
+        arguments = value.args if isinstance(value, sp.Expr) else ()
+        if not arguments or not all(isinstance(item, sp.Symbol) for item in arguments):
             raise self.refuse("derivative", "the gradient is read only of a function at a point", at)
         return sp.ImmutableDenseMatrix([sp.Derivative(value, item) for item in arguments])
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from typing import Any
 
 from ptproof.reading.latex.tokens import NotUnderstood, Token, argument
 
@@ -23,7 +24,15 @@ CLOSING = frozenset({")", "]", "}", r"\}", r"\rVert", r"\rvert", r"\at", "&", "\
 
 
 class Cursor:
-    """Tokens that are read from left to right."""
+    """Tokens that are read from left to right; what is annotated here is given by ``Grammar``."""
+
+    expression: Callable[[], Any]
+    signed: Callable[[], Any]
+    product: Callable[[], Any]
+    factor: Callable[[], Any]
+    base: Callable[[], Any]
+    inner: Callable[[Sequence[Token]], Any]
+    raised: Callable[[Any, list[Token], Token], Any]
 
     def __init__(self, tokens: Sequence[Token]) -> None:
         self.tokens = list(tokens)

@@ -32,25 +32,12 @@ _NESTED = re.compile(r"\\(?:begin|end)\s*\{[^{}]*\}|\\\\(?:\*?\[[^\]]*\])?|(?<!\
 
 @dataclass(frozen=True)
 class Formula:
-    """A formula of the paper.
+    """A formula of the paper as it is written, with the ``line`` of the source on which it begins.
 
-    Attributes
-    ----------
-    place
-        Its first label, or the section and its number among the formulas displayed there; in running text, among the
-        relations in its running text.
-    labels
-        Its own labels and those of the group of equations in which it stands.
-    line
-        The line of the source on which it begins.
-    text
-        The formula as it is written.
-    displayed
-        Whether it is displayed; otherwise it stands in running text.
-    broken
-        Why it cannot be read, where its end is missing.
-    around
-        What stands in its sentence before it and behind it; no part of what makes two formulas equal.
+    ``place`` is its first label, or the section and its number among the formulas displayed there (in running text,
+    among the relations there); ``labels`` are its own and those of the group of equations in which it stands.
+    ``broken`` says why it cannot be read, where its end is missing. ``around`` is what stands in its sentence before it
+    and behind it; no part of what makes two formulas equal.
     """
 
     place: str
@@ -82,7 +69,6 @@ class _Place:
     section: int = 0
     subsection: int = 0
     appendix: bool = False
-    starred: int = 0
     number: int = 0
     relations: int = 0
 
@@ -193,11 +179,8 @@ class _Scan:
 
     def foreign(self, position: int, end: int) -> bool:
         """Whether a second display begins before this one ends; a blank line alone does not break one."""
-        return bool(
-            re.search(
-                r"\\(?:begin\s*\{{(?:{})\*?\}}|(?:sub)?section\b)".format("|".join(DISPLAYS)), self.text[position:end]
-            )
-        )
+        display = r"\\(?:begin\s*\{{(?:{})\*?\}}|(?:sub)?section\b)".format("|".join(DISPLAYS))
+        return re.search(display, self.text[position:end]) is not None
 
     def display(self, name: str, full: str, position: int) -> int:
         if name in ("alignat", "xalignat", "xxalignat", "IEEEeqnarray"):
@@ -214,22 +197,12 @@ class _Scan:
         return after
 
     def inline(self, closing: str, position: int) -> int:
-        match = re.compile(r"(?<!\\)" + re.escape(closing) if closing == "$" else re.escape(closing)).search(
-            self.text, position
-        )
+        match = re.compile(r"(?<!\\)\$" if closing == "$" else re.escape(closing)).search(self.text, position)
         blank = re.compile(r"\n[ \t]*\n").search(self.text, position)
         if match is None or (blank and blank.start() < match.start()):
             end = blank.start() if blank else len(self.text)
-            self.running.append(
-                Formula(
-                    self.place.next_in_text(),
-                    (),
-                    self.line(position),
-                    self.text[position:end],
-                    False,
-                    "its end is missing",
-                )
-            )
+            place, text = self.place.next_in_text(), self.text[position:end]
+            self.running.append(Formula(place, (), self.line(position), text, False, "its end is missing"))
             return end
         text = self.text[position : match.start()]
         if _RELATION.search(text):

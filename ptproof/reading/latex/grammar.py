@@ -13,6 +13,8 @@ import sympy as sp
 
 from ptproof.reading.guards import arguments_refused
 from ptproof.reading.latex.cursor import CLOSING, OTHER_RELATIONS, RELATIONS
+from ptproof.reading.latex.letters import script
+from ptproof.reading.latex.notation import spelling
 from ptproof.reading.latex.sets import CASES, Sets
 from ptproof.reading.latex.tokens import Token
 from ptproof.reading.latex.values import NORMS, add, multiply, negate, norm, power
@@ -52,8 +54,7 @@ class Grammar(Sets):
     def signed(self) -> Any:
         if self.text not in ("+", "-"):
             return self.product()
-        value = self.product() if self.take().text == "+" else negate(self.product())
-        return value
+        return self.product() if self.take().text == "+" else negate(self.product())
 
     def ends(self) -> bool:
         """Whether no further factor follows."""
@@ -139,17 +140,9 @@ class Grammar(Sets):
 
     def group(self) -> Any:
         opened = self.take()
-        bars, self.bars = self.bars, []
-        value = self.expression()
-        self.bars = bars
-        if self.text == "," and opened.text == "[":
-            listed = [value]
-            while self.text == ",":
-                self.take()
-                listed.append(self.expression())
-            value = self.listed(listed, opened)
+        values = self.separated() if opened.text == "[" else self.separated(1)
         self.expect(_DELIMITERS[opened.text], opened)
-        return value
+        return values[0] if len(values) == 1 else self.listed(values, opened)
 
     def between_bars(self) -> Any:
         """A norm: what the notation says that it is, or the one that is computed."""
@@ -183,7 +176,7 @@ class Grammar(Sets):
         if self.text == "_":
             self.take()
             low = self.argument(opened)
-        named = self.named_norm(inside, low)
+        named = self.notation.norms.get(spelling([*inside, *script("_", low)]))
         if named is None:
             self.position = start
         return named
@@ -247,11 +240,7 @@ class Grammar(Sets):
     def stacked(self, rows: list[list[Any]], at: Token) -> Any:
         """A matrix of entries that may be columns themselves."""
         try:
-            return sp.ImmutableDenseMatrix(
-                sp.Matrix([list(row) for row in rows])
-                if not any(isinstance(entry, sp.MatrixBase) for row in rows for entry in row)
-                else sp.Matrix.vstack(*(sp.Matrix.hstack(*map(_block, row)) for row in rows))
-            )
+            return sp.ImmutableDenseMatrix(sp.Matrix.vstack(*(sp.Matrix.hstack(*map(_block, row)) for row in rows)))
         except (ValueError, sp.ShapeError):
             raise self.refuse("matrix", "the rows of a matrix are not of one length", at) from None
 

@@ -23,16 +23,9 @@ _HEAD = """\
 
 @dataclass(frozen=True)
 class Kept:
-    """What the file has.
+    """What the file has: the LaTeX of printed formulas by their places, and ``labels`` where these are others.
 
-    Attributes
-    ----------
-    printed
-        The LaTeX of a formula by its place.
-    labels
-        The labels of those formulas that have others than their place says.
-    corrected
-        LaTeX by the claim that corrects what is printed.
+    ``corrected`` has LaTeX by the claim that corrects what is printed.
     """
 
     printed: dict[str, str] = field(default_factory=dict)

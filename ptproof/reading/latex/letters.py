@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from abc import abstractmethod
 from collections.abc import Sequence
 from typing import Any
 
 import sympy as sp
+from sympy.core.alphabets import greeks
 
 from ptproof.reading.latex.cursor import Cursor, differential
 from ptproof.reading.latex.notation import Notation, spelling
 from ptproof.reading.latex.rewrite import function
 from ptproof.reading.latex.tokens import Token, written
 
-_ACCENTS = frozenset(
+ACCENTS = frozenset(
     rf"\{name}" for name in (
         "bar", "tilde", "hat", "check", "vec", "mathbf", "mathcal", "mathbb", "mathfrak", "boldsymbol", "text",
         "widetilde", "overline",
@@ -38,19 +38,10 @@ class Letters(Cursor):
         plain = bool(tokens) and tokens[0].text == "d" and "d" in {*self.notation.letters, *self.notation.functions}
         return None if plain else differential(tokens)
 
-    @abstractmethod
-    def inner(self, tokens: Sequence[Token]) -> Any: ...
-
-    @abstractmethod
-    def expression(self) -> Any: ...
-
-    @abstractmethod
-    def raised(self, value: Any, exponent: list[Token], at: Token) -> Any: ...
-
     def named(self) -> list[Token]:
         """The tokens of a letter with its accents, without index and exponent."""
         token = self.take()
-        if token.text not in _ACCENTS:
+        if token.text not in ACCENTS:
             known = token.text.isalpha() or (token.text.startswith("\\") and token.text[1:].isalpha())
             if not known:
                 raise self.refuse("grammar", f"{token.text or 'the end'} is not expected here", token)
@@ -66,7 +57,7 @@ class Letters(Cursor):
     def looked_up(self, base: list[Token], start: Token) -> Any:
         low, high = self.scripts(start)
         for index, exponent, rest in ((low, high, []), (low, [], high)):
-            key = spelling([*base, *_script("_", index), *_script("^", exponent)])
+            key = spelling([*base, *script("_", index), *script("^", exponent)])
             if (value := self.at_arguments(key)) is not None:
                 return self.raised(value, rest, start) if rest else value
             if key in self.notation.functions and (self.text == "(" or key not in self.notation.letters):
@@ -76,11 +67,11 @@ class Letters(Cursor):
                 return self.raised(value, rest, start) if rest else value
         if written(base) in _UPRIGHT_E and not low and high:
             return self.raised(sp.E, high, start)
-        key = spelling([*base, *_script("_", low)])
+        key = spelling([*base, *script("_", low)])
         raise self.refuse(*self.unknown(base, key, start), start)
 
     def unknown(self, base: list[Token], key: str, start: Token) -> tuple[str, str]:
-        if start.text.startswith("\\") and start.text not in _ACCENTS and len(base) == 1 and not low_letter(start.text):
+        if start.text.startswith("\\") and start.text not in ACCENTS and len(base) == 1 and not low_letter(start.text):
             return "macro", f"{start.text} is not known"
         return "letter", f"the notation says nothing of {key}"
 
@@ -111,29 +102,31 @@ class Letters(Cursor):
     def arguments(self) -> list[Any]:
         """What stands in parentheses, or in a group, separated by commas."""
         opened = self.take()
+        values = self.separated()
+        self.expect(")" if opened.text == "(" else "}", opened)
+        return values
+
+    def separated(self, most: int = 0) -> list[Any]:
+        """Expressions between commas, at ``most`` so many; bars that were open before do not close in them."""
         bars, self.bars = self.bars, []
         values = [self.expression()]
-        while self.text == ",":
+        while self.text == "," and len(values) != most:
             self.take()
             values.append(self.expression())
         self.bars = bars
-        self.expect(")" if opened.text == "(" else "}", opened)
         return values
 
     def dotted(self, tokens: list[Token], at: Token) -> tuple[Any, list[Token]]:
         """What a dot stands over: a letter, with the index and the arguments behind it; and the exponent there."""
         low, high = self.scripts(at)
-        key = spelling([*tokens, *_script("_", low)])
+        key = spelling([*tokens, *script("_", low)])
         if key in self.notation.functions and (self.text == "(" or key not in self.notation.letters):
             return self.applied(key, [], at), high
-        return self.inner([*tokens, *_script("_", low)]), high
-
-    def named_norm(self, inside: list[Token], low: list[Token]) -> sp.Expr | None:
-        """The norm of which the notation says what it means."""
-        return self.notation.norms.get(spelling([*inside, *_script("_", low)]))
+        return self.inner([*tokens, *script("_", low)]), high
 
 
-def _script(sign: str, tokens: list[Token]) -> list[Token]:
+def script(sign: str, tokens: list[Token]) -> list[Token]:
+    """The tokens as an index or an exponent, in braces; nothing where there are none."""
     if not tokens:
         return []
     line = tokens[0].line
@@ -145,37 +138,5 @@ def low_letter(text: str) -> bool:
     return text[1:].lower() in _GREEK
 
 
-_GREEK = frozenset(
-    [
-        "alpha",
-        "beta",
-        "gamma",
-        "delta",
-        "epsilon",
-        "varepsilon",
-        "zeta",
-        "eta",
-        "theta",
-        "vartheta",
-        "iota",
-        "kappa",
-        "lambda",
-        "mu",
-        "nu",
-        "xi",
-        "pi",
-        "varpi",
-        "rho",
-        "varrho",
-        "sigma",
-        "varsigma",
-        "tau",
-        "upsilon",
-        "phi",
-        "varphi",
-        "chi",
-        "psi",
-        "omega",
-        "ell",
-    ]
-)
+_VARIANTS = {"varepsilon", "vartheta", "varpi", "varrho", "varsigma", "varphi", "ell"}
+_GREEK = _VARIANTS | {name.replace("lamda", "lambda") for name in greeks if name != "omicron"}

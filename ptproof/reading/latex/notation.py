@@ -149,23 +149,14 @@ def spelled(key: str, where: str) -> str:
 
 def spelling(found: list[Token]) -> str:
     """One spelling of a letter: ``c^2_{\\kappa, 1}`` and ``c_{\\kappa,1}^{2}`` are one."""
-    text = written(found)
-    base, low, high, position, depth, part = "", "", "", 0, 0, "base"
-    while position < len(text):
-        sign = text[position]
+    parts, part, depth = {"": "", "_": "", "^": ""}, "", 0
+    for sign in written(found):
         if depth == 0 and sign in "_^":
-            part = "low" if sign == "_" else "high"
-            position += 1
-            continue
-        depth += (sign == "{") - (sign == "}")
-        if part == "base":
-            base += sign
-        elif part == "low":
-            low += sign
+            part = sign
         else:
-            high += sign
-        position += 1
-    return base + (f"_{_bare(low)}" if low else "") + (f"^{_bare(high)}" if high else "")
+            depth += (sign == "{") - (sign == "}")
+            parts[part] += sign
+    return parts[""] + "".join(f"{sign}{_bare(parts[sign])}" for sign in "_^" if parts[sign])
 
 
 def _bare(text: str) -> str:
@@ -180,17 +171,18 @@ def vocabulary(table: Table, known: Mapping[str, Any]) -> Vocabulary:
         text
         for letters in (table.letters, *(item.letters for item in table.where))
         for value in letters.values()
-        for text in _texts(value)
+        for text in flat(value)
         if text.isidentifier()
     }
     named = {name: symbols.get(name) or sp.Symbol(name, real=True) for name in (*table.times, *states)}
     return Vocabulary({**named, **symbols}, frozenset(table.times), frozenset(states), matrices)
 
 
-def _texts(value: Any) -> Iterable[str]:
+def flat(value: Any) -> Iterable[str]:
+    """The texts of a list of lists, or the one that it is."""
     if isinstance(value, list):
         for entry in value:
-            yield from _texts(entry)
+            yield from flat(entry)
     else:
         yield str(value)
 
@@ -206,13 +198,10 @@ def context(table: Table, place: str) -> tuple[int, ...]:
 def notation(table: Table, names: Vocabulary, place: str, where: str) -> Notation:
     """What letters mean in the formula at ``place``."""
     here = [table.where[number] for number in context(table, place)]
-    letters = dict(table.letters)
-    functions = dict(table.functions)
-    counts = dict(table.counts)
-    for item in here:
-        letters |= item.letters
-        functions |= item.functions
-        counts |= item.counts
+    letters, functions, counts = (
+        {key: value for item in (table, *here) for key, value in getattr(item, kind).items()}
+        for kind in ("letters", "functions", "counts")
+    )
     return Notation(
         {spelled(key, where): _value(value, names, f"{where}, {key}") for key, value in letters.items()},
         {spelled(key, where): _names(value) for key, value in functions.items()},
@@ -227,7 +216,7 @@ def notation(table: Table, names: Vocabulary, place: str, where: str) -> Notatio
 
 def _names(value: Any) -> tuple[tuple[str, ...], ...]:
     """The names of a function, row by row: one, a column or a matrix of them."""
-    return tuple(tuple(_texts(row)) for row in (value if isinstance(value, list) else [value]))
+    return tuple(tuple(flat(row)) for row in (value if isinstance(value, list) else [value]))
 
 
 def _value(value: Any, names: Vocabulary, where: str) -> Any:

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from abc import abstractmethod
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import sympy as sp
@@ -11,16 +10,13 @@ import sympy as sp
 from ptproof.reading.latex.calculus import Calculus
 from ptproof.reading.latex.cursor import RELATIONS
 from ptproof.reading.latex.tokens import Token
-from ptproof.reading.latex.values import add
+from ptproof.reading.latex.values import add, entrywise
 
 _MOST = 200
 
 
 class Ranges(Calculus):
     """The part of the grammar that knows of sums and limits; the arithmetic is given by ``Grammar``."""
-
-    @abstractmethod
-    def signed(self) -> Any: ...
 
     def read_sum(self, at: Token) -> Any:
         """The sum written out, over the numbers that the range says; each index is put in as a number."""
@@ -111,11 +107,12 @@ class Ranges(Calculus):
         if not isinstance(variable, sp.Symbol):
             raise self.refuse("limit", f"{variable} is no variable", at)
         value = self.product()
-        return (
-            value.applyfunc(lambda entry: _limit(entry, variable, target))
-            if isinstance(value, sp.MatrixBase)
-            else sp.Limit(value, variable, target, dir="-")
-        )
+        constant = isinstance(value, sp.MatrixBase)  # of which entries may have no limit to take
+
+        def limit(entry: Any) -> Any:
+            return entry if constant and variable not in entry.free_symbols else sp.Limit(entry, variable, target, "-")
+
+        return entrywise(value, limit)
 
     def read_evaluate(self, at: Token) -> Any:
         value = self.expression()
@@ -127,12 +124,7 @@ class Ranges(Calculus):
         equal = next((i for i, token in enumerate(where) if token.text == "="), 0)
         variable, point = self.inner(where[:equal]), self.inner(where[equal + 1 :])
         pairs = list(zip(variable, point, strict=True)) if isinstance(variable, sp.MatrixBase) else [(variable, point)]
-        change: Callable[[Any], Any] = lambda entry: sp.Subs(entry, *map(tuple, zip(*pairs, strict=True)))  # noqa: E731
-        return value.applyfunc(change) if isinstance(value, sp.MatrixBase) else change(value)
-
-
-def _limit(entry: Any, variable: sp.Symbol, target: Any) -> Any:
-    return sp.Limit(entry, variable, target, dir="-") if variable in entry.free_symbols else entry
+        return entrywise(value, lambda entry: sp.Subs(entry, *map(tuple, zip(*pairs, strict=True))))
 
 
 def _lines(lower: list[Token]) -> list[list[Token]]:

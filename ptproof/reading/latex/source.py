@@ -78,7 +78,7 @@ def without_comments(text: str) -> str:
     # Verbatim text first where it may hold a %, comments first where they may hold a \begin{verbatim}: a line that
     # is nothing but a comment cannot open verbatim text.
     text = re.sub(r"(?m)^[ \t]*%.*$", "", text)
-    text = _VERB.sub("", _VERBATIM.sub(_line_ends, text))
+    text = _VERB.sub("", _VERBATIM.sub(lambda match: "\n" * match.group().count("\n"), text))
     return _without_false_parts(_COMMENT.sub(r"\1", text))
 
 
@@ -103,10 +103,6 @@ def _without_false_parts(text: str) -> str:
     if "false" not in levels:
         kept.append(text[position:])
     return "".join(kept)
-
-
-def _line_ends(match: re.Match[str]) -> str:
-    return "\n" * match.group().count("\n")
 
 
 def expanded(text: str) -> str:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import sympy as sp
@@ -13,11 +13,9 @@ from ptproof.reading.latex.cursor import OTHER_RELATIONS, RELATIONS
 from ptproof.reading.latex.formulas import Formula
 from ptproof.reading.latex.grammar import Grammar
 from ptproof.reading.latex.notation import Notation
-from ptproof.reading.latex.tokens import Macro, NotUnderstood, Token, argument, read, written
+from ptproof.reading.latex.tokens import Macro, NotUnderstood, Token, argument, nesting, read, written
 
 _FLAT = frozenset({"aligned", "split", "gathered", "alignedat", "multlined"})
-_OPENING = frozenset({"(", "[", "{", r"\{"})
-_CLOSING = frozenset({")", "]", "}", r"\}"})
 _GO_ON = frozenset({"+", "-", "/", r"\cdot", r"\times", *RELATIONS})
 _WORDS = frozenset({"and", "where", "for", "with", "if", "or"})
 
@@ -37,18 +35,9 @@ class Pair:
 
 @dataclass(frozen=True)
 class Reading:
-    """What a formula says.
+    """What a formula says: the relations of its chains, entry by entry, and the conditions behind a quantifier.
 
-    Attributes
-    ----------
-    pairs
-        The relations of its chains, entry by entry.
-    conditions
-        What stands behind a quantifier.
-    braces
-        What braces under parts of it say: a name, and the part.
-    unread
-        Why braces were not read.
+    ``braces`` are what braces under parts of it say (a name, and the part), ``unread`` says why braces were not read.
     """
 
     pairs: tuple[Pair, ...]
@@ -58,6 +47,15 @@ class Reading:
 
     def __str__(self) -> str:
         return ", ".join(map(str, self.pairs))
+
+    def map(self, change: Callable[[sp.Expr], sp.Expr]) -> Reading:
+        """The same with every side changed."""
+
+        def changed(pairs: tuple[Pair, ...]) -> tuple[Pair, ...]:
+            return tuple(replace(pair, left=change(pair.left), right=change(pair.right)) for pair in pairs)
+
+        parts = changed(self.pairs), changed(self.conditions), changed(self.braces)
+        return Reading(*parts, self.unread)
 
 
 def read_formula(formula: Formula, macros: Mapping[str, Macro], notation: Notation) -> Reading:
@@ -203,19 +201,17 @@ def _flat(tokens: list[Token]) -> list[Token]:
             if text.startswith(r"\begin") and position < len(tokens) and tokens[position].text == "[":
                 position += 3
             continue
-        matrices += (text.startswith(r"\begin{")) - (text.startswith(r"\end{"))
-        brackets += (text in _OPENING) - (text in _CLOSING)
+        if text.startswith((r"\begin{", r"\end{")):
+            matrices += nesting(text)
+        else:
+            brackets += nesting(text)
         if matrices == 0 and text == "&":
             continue
         if matrices == 0 and text == "\\\\":
             following = next((t.text for t in tokens[position:] if t.text != "&"), "")
             last = result[-1].text if result else ""
-            if (
-                brackets <= 0
-                and last not in {*_GO_ON, ","}
-                and following not in _GO_ON
-                and not following.startswith(r"\end")
-            ):
+            goes_on = last in {*_GO_ON, ","} or following in _GO_ON or following.startswith(r"\end")
+            if brackets <= 0 and not goes_on:
                 result.append(Token(",", token.line))
             continue
         result.append(token)
@@ -231,8 +227,7 @@ def _parts(tokens: list[Token]) -> Iterator[tuple[bool, list[Token]]]:
         if index < position:
             continue
         text = token.text
-        opening = text in _OPENING or text.startswith(r"\begin{")
-        depth += opening - (text in _CLOSING or text.startswith(r"\end{"))
+        depth += nesting(text)
         word = "".join(t.text for t in tokens[index + 2 : index + 8]).partition("}")[0] if text == r"\text" else ""
         if depth == 0 and (text in (",", ";", ".") or text == r"\forall" or word in _WORDS):
             if part:

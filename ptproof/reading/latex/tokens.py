@@ -9,13 +9,13 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from ptproof.errors import InputError
 from ptproof.reading.latex.source import braced
 
 _DEFINITION = re.compile(
     r"\\(?:newcommand|renewcommand|providecommand|DeclareMathOperator|(def|gdef))\*?\s*(?:\{\s*(\\[a-zA-Z@]+)\s*\}|(\\[a-zA-Z@]+))"
 )
 _ARGUMENTS = re.compile(r"\s*\[(\d)\]")
+_NUMBER = re.compile(r"[0-9]+(?:\.[0-9]+)?")
 _PARAMETERS = re.compile(r"(?:#\d)*")
 # Nothing that they set changes what a formula says.
 SPACING = frozenset(
@@ -72,13 +72,11 @@ def definitions(source: str) -> dict[str, Macro]:
     return found
 
 
-def tokens(text: str, line: int) -> list[Token]:
-    """The tokens of a piece of LaTeX whose first line is number ``line``, spaces and comments left out."""
-    return list(_numbers(_raw(text, line)))
+def tokens(text: str, line: int) -> Iterator[Token]:
+    """The tokens of a piece of LaTeX whose first line is number ``line``, spaces and comments left out.
 
-
-def _raw(text: str, line: int) -> Iterator[tuple[Token, int, int]]:
-    """Each token with the places at which it starts and ends."""
+    Digits that follow one another, and a point between two of them, are one token.
+    """
     from pylatexenc.latexwalker import LatexWalker, LatexWalkerEndOfStream
 
     walker, position = LatexWalker(text, tolerant_parsing=True), 0
@@ -87,55 +85,19 @@ def _raw(text: str, line: int) -> Iterator[tuple[Token, int, int]]:
             found = walker.get_token(position, environments=True, keep_inline_math=True)
         except LatexWalkerEndOfStream:
             return
-        end = found.pos + found.len
+        here, position = line + text.count("\n", 0, found.pos), found.pos + found.len
         # Its own word for it is an object for some tokens; the text itself is always there.
-        written = text[found.pos : end].strip()
-        if found.tok == "macro":
+        written = text[found.pos : position].strip()
+        if found.tok == "char" and (number := _NUMBER.match(text, found.pos)):
+            written, position = number[0], number.end()
+        elif found.tok == "macro":
             written = "\\" + found.arg
         elif found.tok in ("begin_environment", "end_environment"):
             written = rf"\{found.tok[: found.tok.index('_')]}{{{found.arg}}}"
-        if found.tok != "comment" and written and found.tok != "specials":
-            yield Token(written, line + text.count("\n", 0, found.pos)), found.pos, end
-        elif found.tok == "specials" and not written.startswith("~"):
-            for offset, sign in enumerate(written):
-                yield Token(sign, line + text.count("\n", 0, found.pos)), found.pos + offset, found.pos + offset + 1
-        position = end
-
-
-def _numbers(raw: Iterator[tuple[Token, int, int]]) -> Iterator[Token]:
-    """Digits that follow one another, and a point between two of them, are one token."""
-    held: Token | None = None
-    last = -1
-    point: Token | None = None
-    for token, start, end in raw:
-        adjacent = start == last
-        last = end
-        if token.text.isdigit() and len(token.text) == 1:
-            if held is not None and adjacent:
-                held = replace(held, text=held.text + (point.text if point else "") + token.text)
-                point = None
-                continue
-        elif token.text == "." and held is not None and adjacent and point is None and "." not in held.text:
-            point = token
-            continue
-        yield from (item for item in (held, point) if item is not None)
-        held = point = None
-        if token.text.isdigit() and len(token.text) == 1:
-            held = token
-        else:
-            yield token
-    yield from (item for item in (held, point) if item is not None)
-
-
-def expand(found: Sequence[Token], macros: Mapping[str, Macro]) -> list[Token]:
-    """The tokens with the paper's macros replaced by what they stand for, and spacing left out.
-
-    Raises
-    ------
-    NotUnderstood
-        Where a macro lacks an argument, or stands for itself.
-    """
-    return list(_without_spacing(_evaluated(_upright(_expanded(list(found), macros, 0)))))
+        if found.tok == "specials":
+            yield from (Token(sign, here) for sign in written if not written.startswith("~"))
+        elif found.tok != "comment" and written:
+            yield Token(written, here)
 
 
 def _expanded(found: list[Token], macros: Mapping[str, Macro], depth: int) -> list[Token]:
@@ -174,6 +136,12 @@ def _filled(macro: Macro, values: list[list[Token]], line: int) -> list[Token]:
             result.append(Token(body[position].text, line))
             position += 1
     return result
+
+
+def nesting(text: str) -> int:
+    """1 for what opens a group, brackets or an environment, -1 for what closes one, 0 for anything else."""
+    opens = text in ("(", "[", "{", r"\{") or text.startswith(r"\begin{")
+    return opens - (text in (")", "]", "}", r"\}") or text.startswith(r"\end{"))
 
 
 _NO_ARGUMENT = frozenset({"}", "^", "_", "&", "\\\\"})
@@ -269,12 +237,15 @@ def checked(found: Sequence[Token]) -> None:
 
 
 def read(text: str, line: int, macros: Mapping[str, Macro]) -> list[Token]:
-    """Tokens of a piece of mathematics with macros put in, or :class:`NotUnderstood`."""
+    """Tokens of a piece of mathematics with the paper's macros put in, and spacing left out.
+
+    Raises
+    ------
+    NotUnderstood
+        Where it does not end, a macro lacks an argument or stands for itself, or braces do not match.
+    """
     if len(text) > _LONGEST:
         raise NotUnderstood("bad LaTeX", "the formula does not come to an end", line)
-    try:
-        found = expand(tokens(text, line), macros)
-    except InputError as error:  # pragma: no cover
-        raise NotUnderstood("bad LaTeX", str(error), line) from None
+    found = list(_without_spacing(_evaluated(_upright(_expanded(list(tokens(text, line)), macros, 0)))))
     checked(found)
     return found

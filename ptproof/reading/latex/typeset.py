@@ -11,7 +11,7 @@ from functools import partial
 
 from ptproof.reading.latex.formulas import goes_on, split_rows
 from ptproof.reading.latex.source import braced
-from ptproof.reading.latex.tokens import Macro, written
+from ptproof.reading.latex.tokens import Macro, nesting, written
 
 _NUMBERS = re.compile(
     r"\\(?:label|tag)\s*\{[^{}]*\}|\\(?:nonumber|notag)(?![a-zA-Z])|\\[hv]space\*?\s*\{[^{}]*\}"
@@ -83,8 +83,7 @@ def pieces(text: str) -> tuple[str, ...]:
         if between and depth <= 0 and not _CONDITION.match(text, match.end()):
             found.append(text[start : match.start()])
             start = match.end()
-        opening = mark in ("(", "[", "{", r"\{") or mark.startswith(r"\begin")
-        depth += opening - (mark in (")", "]", "}", r"\}") or mark.startswith(r"\end"))
+        depth += nesting(re.sub(r"\s", "", mark))
     return tuple(part for piece in [*found, text[start:]] if (part := _SPACE.sub("", piece).strip(" &")))
 
 

@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import sympy as sp
 
 from ptproof.reading.guards import power_refused
 from ptproof.reading.latex.tokens import NotUnderstood, Token
+
+
+def entrywise(value: Any, change: Callable[[Any], Any]) -> Any:
+    """A number changed, or each entry of a matrix."""
+    return value.applyfunc(change) if isinstance(value, sp.MatrixBase) else change(value)
 
 
 def add(left: Any, right: Any, at: Token) -> Any:
@@ -28,8 +34,6 @@ def multiply(left: Any, right: Any, at: Token) -> Any:
             raise NotUnderstood("matrix", f"a product of a {left.shape} and a {right.shape} matrix", at.line)
         value = sp.ImmutableDenseMatrix(left * right)
         return value[0, 0] if value.shape == (1, 1) else value
-    if isinstance(left, sp.MatrixBase):
-        return left * right
     return left * right
 
 
@@ -64,6 +68,4 @@ def integral(value: Any, limits: tuple[sp.Symbol, Any, Any], at: Token) -> Any:
     """The integral of a number, or of each entry, between two numbers."""
     if any(isinstance(limit, sp.MatrixBase) for limit in limits):
         raise NotUnderstood("integral", "the limits of an integral are numbers", at.line)
-    if isinstance(value, sp.MatrixBase):
-        return value.applyfunc(lambda entry: sp.Integral(entry, limits))
-    return sp.Integral(value, limits)
+    return entrywise(value, lambda entry: sp.Integral(entry, limits))

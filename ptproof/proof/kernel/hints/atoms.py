@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import sympy as sp
 
-from ptproof.proof.kernel.names import Names
+from ptproof.proof.kernel.names import Names, fresh
 from ptproof.proof.kernel.terms import term
 
 
@@ -15,12 +15,8 @@ from ptproof.proof.kernel.terms import term
 class Atoms:
     """Turns expressions into rational ones in symbols that stand for everything else; collects how Coq follows.
 
-    Attributes
-    ----------
-    names
-        The identifiers of the claim's symbols, and those of the atoms made so far.
-    lines
-        Tactics, in order: equations between powers of one base, then one line an atom.
+    ``names`` are the identifiers of the claim's symbols and of the atoms made so far. ``lines`` are tactics, in order:
+    equations between powers of one base, then one line an atom.
     """
 
     names: dict[sp.Basic, str]
@@ -57,16 +53,9 @@ class Atoms:
             return expression
         key = sp.Tuple(expression)
         if key not in self.made:
-            self.made[key] = sp.Symbol(self.fresh(f"w{len(self.made)}"), real=True)
+            self.made[key] = sp.Symbol(fresh(f"w{len(self.made)}", self.names), real=True)
             self.names[self.made[key]] = term(expression, self.names)
         return self.made[key]
-
-    def fresh(self, name: str) -> str:
-        """An identifier that nothing else has."""
-        taken = set(self.names.values())
-        while name in taken:
-            name += "_"
-        return name
 
     def _power(self, base: sp.Basic, exponent: sp.Basic) -> sp.Basic:
         """The power by the one chosen for its base, where the exponents differ by whole numbers."""
@@ -111,7 +100,7 @@ class Atoms:
     def _atom(self, expression: sp.Basic) -> sp.Symbol:
         if expression not in self.made:
             text = term(expression, self.names)
-            name = self.fresh(f"a{len(self.made)}")
+            name = fresh(f"a{len(self.made)}", self.names)
             sign = {"positive": True} if expression.is_positive else {}
             sign = sign or ({"nonnegative": True} if expression.is_nonnegative else {})
             symbol = sp.Symbol(name, real=True, **sign)

@@ -2,22 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import sympy as sp
 
 from ptproof.proof.kernel.hints.goals import Goal, is_shown
 from ptproof.proof.kernel.terms import DECIDED
-from ptproof.proof.statement import Relation, RelationSign
+from ptproof.proof.statement import Relation
 
 _KINDS = (sp.Max, sp.Min, sp.Abs, sp.Piecewise)
 _WORDS = {sp.Max: "Rmax", sp.Min: "Rmin"}
-_SIGNS: dict[type, RelationSign] = {
-    sp.LessThan: "<=",
-    sp.StrictLessThan: "<",
-    sp.GreaterThan: ">=",
-    sp.StrictGreaterThan: ">",
-}
 
 
 def split(goal: Goal) -> tuple[str, list[Goal]] | None:
@@ -34,16 +26,16 @@ def split(goal: Goal) -> tuple[str, list[Goal]] | None:
             (value, test), *others = found.args
             rest = others[0][0] if len(others) == 1 else sp.Piecewise(*others)
             line = f"branch_of ({DECIDED[type(test)]} {goal.text(test.lhs)} {goal.text(test.rhs)})"
-            said = Relation(test.lhs, _SIGNS[type(test)], test.rhs)
+            said = Relation(test.lhs, test.rel_op, test.rhs)
             values = [(value, said), (rest, said.negation())]
         case _:
             kind = type(found)
-            first, *others = _in_order(found)
+            first, *others = sorted(found.args, key=sp.default_sort_key)  # as they are written
             last = others[0] if len(others) == 1 else kind(*others)
             line = f"one_of ({_WORDS[kind]}_case_of {goal.text(first)} {goal.text(last)})"
             low, high = (last, first) if kind is sp.Max else (first, last)
             values = [(first, Relation(low, "<=", high)), (last, Relation(high, "<=", low))]
-    return line, [_put(goal, found, value, fact) for value, fact in values]
+    return line, [goal.with_known(fact).replaced(found, value) for value, fact in values]
 
 
 def _holds_bound(part: sp.Basic) -> bool:
@@ -51,15 +43,6 @@ def _holds_bound(part: sp.Basic) -> bool:
     return isinstance(part, sp.Piecewise) and any(
         type(test) not in DECIDED and test != sp.true for _, test in part.args
     )
-
-
-def _in_order(expression: sp.Basic) -> Sequence[sp.Basic]:
-    """The arguments as :func:`ptproof.proof.kernel.terms.term` writes them."""
-    return sorted(expression.args, key=sp.default_sort_key)
-
-
-def _put(goal: Goal, old: sp.Basic, new: sp.Basic, fact: Relation) -> Goal:
-    return goal.with_known(fact).replaced(old, new)
 
 
 def factored(goal: Goal) -> tuple[list[str], Goal]:
@@ -72,7 +55,8 @@ def factored(goal: Goal) -> tuple[list[str], Goal]:
             continue
         top, bottom = sp.fraction(sp.together(relation.right - relation.left))
         _, factors = sp.factor_list(top)
-        left = [part for part, _ in factors if part not in nonzero and not _has_sign(part)]
+        shown = {part for part, _ in factors if is_shown(part, strictly=True) or is_shown(-part, strictly=True)}
+        left = [part for part, _ in factors if part not in nonzero | shown]
         if len(left) != 1 or (len(factors) == 1 and bottom == 1 and factors[0][1] == 1):
             continue
         (part,) = left
@@ -80,7 +64,3 @@ def factored(goal: Goal) -> tuple[list[str], Goal]:
         lines.append(f"try (factor_is_zero {goal.text(part)} {goal.text(other)})")
         goal = goal.with_known(Relation(part, "=", sp.Integer(0)))
     return lines, goal
-
-
-def _has_sign(part: sp.Expr) -> bool:
-    return is_shown(part, strictly=True) or is_shown(-part, strictly=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import itertools
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -87,8 +88,7 @@ class _Writer:
         return [*lines, *self._equation(chain, said)]
 
     def write(self, expression: sp.Basic) -> str:
-        text = term(expression, self.names)
-        return text if text.startswith("(") or text.isidentifier() or text.isdigit() else f"({text})"
+        return term(expression, self.names)
 
     def sides(self, relation: Relation) -> tuple[str, str]:
         """Both sides, as they stand in the claim."""
@@ -142,10 +142,8 @@ class _Writer:
         atoms = Atoms.over(self.names, (1, 2, 3, -1, -2))
         atoms.choose(expressions)
         for item in expressions:
-            try:
+            with contextlib.suppress(NoTranslation):
                 atoms(item)
-            except NoTranslation:
-                continue
         powers = [line for line in atoms.lines if "power_as" in line]
         roots = {part.base for item in expressions for part in item.atoms(sp.Pow)
                  if part.base.is_Symbol and part.exp.is_Rational and part.exp.q == 2}  # fmt: skip

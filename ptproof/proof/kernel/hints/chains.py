@@ -59,16 +59,9 @@ class Chain:
 
 @dataclass
 class Search:
-    """A search for a chain.
+    """A search for a chain among what is known, as ``lower <= upper``, which ends at the time ``until``.
 
-    Attributes
-    ----------
-    known
-        What is known, as ``lower <= upper``.
-    until
-        When the search ends.
-    narrow
-        Whether only the open summand is followed that the fewest of what is known take away.
+    ``narrow``: only the open summand is followed that the fewest of what is known take away.
     """
 
     known: Sequence[Relation]

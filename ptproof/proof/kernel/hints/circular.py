@@ -8,6 +8,7 @@ import sympy as sp
 
 from ptproof.proof.kernel.hints.goals import Goal
 from ptproof.proof.kernel.hints.products import products
+from ptproof.proof.kernel.names import fresh
 from ptproof.proof.statement import Relation
 
 
@@ -23,7 +24,7 @@ def by_circular_bounds(goal: Goal) -> Iterator[str]:
     lines: list[str] = []
     facts = list(goal.known)
     for number, call in enumerate(calls):
-        symbol = stands[call] = sp.Symbol(goal.fresh(f"trig{number}"), real=True)
+        symbol = stands[call] = sp.Symbol(fresh(f"trig{number}", goal.names), real=True)
         names[symbol] = symbol.name
         (angle,) = call.args
         kind = "sin" if isinstance(call, sp.sin) else "cos"
@@ -39,14 +40,10 @@ def by_circular_bounds(goal: Goal) -> Iterator[str]:
     lines += [f"clearbody {symbol.name}" for symbol in stands.values()]
     lines.append(f"top_of {inner.text(top)} 1")
     lines += [f"fact_from {inner.text(fact.bottom)} {inner.text(fact.top)}" for fact in found.facts]
-    lines += [f"product ({' * '.join(inner.text(part) for part in _collected(factors))})" for factors in found.products]
+    for factors in found.products:
+        powers = (inner.text(factor ** factors.count(factor)) for factor in dict.fromkeys(factors))
+        lines.append(f"product ({' * '.join(powers)})")
     yield "; ".join([*lines, "linear"])
-
-
-def _collected(factors: tuple[sp.Expr, ...]) -> Iterator[sp.Expr]:
-    """Equal factors as one power."""
-    for factor in dict.fromkeys(factors):
-        yield factor ** factors.count(factor)
 
 
 def _bounds(kind: str, value: sp.Symbol, u: sp.Expr) -> list[Relation]:

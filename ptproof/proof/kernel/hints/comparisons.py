@@ -6,6 +6,7 @@ p <= q of the domain at which the claim speaks of U.
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
@@ -17,7 +18,7 @@ from ptproof.proof.kernel.hints.certificates import certificate
 from ptproof.proof.kernel.hints.views import view
 from ptproof.proof.kernel.names import Names
 from ptproof.proof.kernel.terms import NoTranslation, term
-from ptproof.proof.statement import ForAll, Relation, expressions_of
+from ptproof.proof.statement import ForAll, Relation, expressions_of, plain
 
 Compared = tuple[Relation, str]
 
@@ -39,8 +40,7 @@ class Rate:
         return self.function.xreplace({self.time: time})
 
     def write(self, expression: sp.Basic) -> str:
-        """The expression for Coq, in brackets."""
-        return f"({term(expression, self.names)})"
+        return term(expression, self.names)
 
     def as_said(self, expression: sp.Expr) -> sp.Expr:
         """The expression with powers and exponentials as the claim writes them."""
@@ -50,7 +50,8 @@ class Rate:
         for part in sorted(expression.atoms(*kinds), key=sp.count_ops):
             mine = part.xreplace(found)
             for other in said:
-                if other.func is mine.func and _alike(mine, other):
+                pairs = zip(mine.args, other.args, strict=False)
+                if other.func is mine.func and all(a == b or sp.simplify(a - b) == 0 for a, b in pairs):
                     found[part] = other
                     break
         for part in sorted(found, key=sp.count_ops, reverse=True):
@@ -70,18 +71,11 @@ def compared(claim: Claim, known: Sequence[Relation], names: Names) -> Iterator[
             continue
         if not isinstance(relation.left.expr, AppliedUndef) or relation.right.has(sp.Derivative, sp.Integral):
             continue
-        domain = tuple(part for given in item.domain for part in given.components())
-        rate = Rate(relation.left.expr, time, relation.right, domain, tuple(known), said, names)
+        rate = Rate(relation.left.expr, time, relation.right, plain(item.domain), tuple(known), said, names)
         for start, end in _times(rate):
-            for way in (_integral, _exponential, _decay, _bernoulli):
-                try:
+            for way in (_integral, _decay, _bernoulli):
+                with contextlib.suppress(NoTranslation, sp.PolynomialError):
                     yield from way(rate, start, end)
-                except (NoTranslation, sp.PolynomialError):
-                    continue
-
-
-def _alike(mine: sp.Expr, other: sp.Expr) -> bool:
-    return all(a == b or sp.simplify(a - b) == 0 for a, b in zip(mine.args, other.args, strict=True))
 
 
 def _times(rate: Rate) -> Iterator[tuple[sp.Expr, sp.Expr]]:
@@ -135,41 +129,28 @@ def _primitive(rate: Rate, function: sp.Expr) -> sp.Expr:
 def _asserted(rate: Rate, end: sp.Expr, bound: sp.Expr, lemma: str, steps: Sequence[str], exact: str) -> Compared:
     """The bound at the end, by a lemma of which the conclusion says ``exact``."""
     left = rate.at(end)
-    line = (f"assert ({term(left, rate.names)} <= {term(bound, rate.names)}); [ apply Rle_trans with {exact}; "
+    line = (f"assert ({rate.write(left)} <= {rate.write(bound)}); [ apply Rle_trans with {exact}; "
             f"[ apply {lemma}; [ {' | '.join(steps)} ] | same ] | ]")  # fmt: skip
     return Relation(left, "<=", bound), line
 
 
-def _function(rate: Rate, expression: sp.Expr) -> str:
-    return f"(fun {rate.names[rate.time]} : R => {term(expression, rate.names)})"
-
-
 def _integral(rate: Rate, start: sp.Expr, end: sp.Expr) -> Iterator[Compared]:
-    """U(p) and the integral of a rate without U."""
-    if rate.rate.has(rate.function):
+    """U(p) and the integral of a rate without U; or U(p) by e to the integral of a, where the rate is a U."""
+    alone = not rate.rate.has(rate.function)
+    slope, rest = (rate.rate, sp.S.Zero) if alone else _linear(rate)
+    if rest != 0:
         return
-    primitive = _primitive(rate, rate.rate)
-    name, f, F = rate.names[rate.time], _function(rate, rate.rate), _function(rate, primitive)
+    primitive, name, first = _primitive(rate, slope), rate.names[rate.time], rate.at(start)
+    F, f = (f"(fun {name} : R => {rate.write(item)})" for item in (primitive, slope))
     p, q, U = rate.write(start), rate.write(end), rate.names[rate.function.func]
     grown = primitive.subs(rate.time, end) - primitive.subs(rate.time, start)
     steps = ["bound", f"cbv beta; rate_is {U} {name} ltac:(same)", f"cbv beta; antiderivative {name}"]
-    exact = f"({term(rate.at(start), rate.names)} + ({F} {q} - {F} {p}))"
-    yield _asserted(rate, end, rate.at(start) + grown, f"(integral_bound {U} {F} {f} {p} {q})", steps, exact)
-
-
-def _exponential(rate: Rate, start: sp.Expr, end: sp.Expr) -> Iterator[Compared]:
-    """U(p) by e to the integral of a, where the rate is a U."""
-    a, b = _linear(rate)
-    if b != 0 or a == 0:
-        return
-    primitive = _primitive(rate, a)
-    name, f, F = rate.names[rate.time], _function(rate, a), _function(rate, primitive)
-    p, q, U = rate.write(start), rate.write(end), rate.names[rate.function.func]
-    grown = primitive.subs(rate.time, end) - primitive.subs(rate.time, start)
-    bound = rate.as_said(rate.at(start) * sp.exp(grown))
-    steps = ["bound", f"cbv beta; rate_is {U} {name} ltac:(same)", f"cbv beta; antiderivative {name}"]
-    exact = f"({term(rate.at(start), rate.names)} * exp ({F} {q} - {F} {p}))"
-    yield _asserted(rate, end, bound, f"(exponential_bound {U} {F} {f} {p} {q})", steps, exact)
+    if alone:
+        bound, word, sign = first + grown, "integral_bound", "+"
+    else:
+        bound, word, sign = rate.as_said(first * sp.exp(grown)), "exponential_bound", "* exp"
+    exact = f"({rate.write(first)} {sign} ({F} {q} - {F} {p}))"
+    yield _asserted(rate, end, bound, f"({word} {U} {F} {f} {p} {q})", steps, exact)
 
 
 def _decay(rate: Rate, start: sp.Expr, end: sp.Expr) -> Iterator[Compared]:
@@ -241,27 +222,15 @@ def _bernoulli_from(
     rated = f"rate_is {U} {name} ltac:({'same_rate' if tactic == 'same' else tactic})"
     tail = f"{rate.write(v)} {rate.write(decayed.base)} {rate.write(decayed.exp)}"
     power = f"rpow {rate.write(decayed.base)} {rate.write(decayed.exp)} * {rate.write(w)}"
-    above = f"first [ lra | difference_as {rate.write(less)} ]"
+    grows = ["sign", f"first [ lra | difference_as {rate.write(less)} ]", "sign", "bound", rated]
+    closing = ["same_power", "rational", "rational"]
     if level == 0:
-        steps = ["bound", "sign", above, "sign", "bound", rated, "same_power", "rational", "rational"]
+        steps = ["bound", *grows, *closing]
         lemma = f"(bernoulli_decay_as {U} {p} {q} {rate.write(c)} {rate.write(r)} {rate.write(w)} {tail})"
         return _asserted(rate, end, decayed * w, lemma, steps, f"({power})")
     balance = rate.as_said((level / c) ** (1 / r))
     pair = f"{rate.write(balance.base)} {rate.write(balance.exp)}"
-    steps = [
-        "bound",
-        "sign",
-        "sign",
-        above,
-        "sign",
-        "bound",
-        rated,
-        "rational",
-        "rational",
-        "same_power",
-        "rational",
-        "rational",
-    ]
+    steps = ["bound", "sign", *grows, "rational", "rational", *closing]
     words = " ".join(map(rate.write, (level, c, r, w)))
     lemma = f"(bernoulli_bound_as {U} {p} {q} {words} {pair} {tail})"
     return _asserted(rate, end, balance + decayed * w, lemma, steps, f"(rpow {pair} + {power})")

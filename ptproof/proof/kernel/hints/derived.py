@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Iterator, Sequence
 
 import sympy as sp
@@ -19,10 +20,8 @@ def derived(known: Sequence[Relation], said: Proposition) -> list[Derived]:
     """The facts, each with its line."""
     found: list[Derived] = []
     for item in known:
-        try:
+        with contextlib.suppress(NoTranslation):
             found += _raised(item.standard(), said.names)
-        except NoTranslation:
-            continue
     return [*found, *compared(said.claim, known, said.names)]
 
 

@@ -22,14 +22,7 @@ class Goal:
 
     def text(self, expression: sp.Basic) -> str:
         """The expression as one argument of a tactic."""
-        return brackets(term(expression, self.names))
-
-    def fresh(self, name: str) -> str:
-        """An identifier that nothing else has."""
-        taken = set(self.names.values())
-        while name in taken:
-            name += "_"
-        return name
+        return term(expression, self.names)
 
     def relations(self) -> tuple[Relation, ...]:
         """The goal's relation and those that are known."""
@@ -59,11 +52,6 @@ class Goal:
 Way = Callable[[Goal], Iterator[str]]
 
 
-def brackets(text: str) -> str:
-    """``text`` as one argument."""
-    return text if text.startswith("(") or text.isidentifier() or text.isdigit() else f"({text})"
-
-
 def one_of(hints: Iterable[str]) -> str:
     """The first of the tactics that proves the goal, or nothing is done."""
     tried = [f"solve [ {hint} ]" for hint in dict.fromkeys(hints)]
@@ -73,3 +61,12 @@ def one_of(hints: Iterable[str]) -> str:
 def is_shown(expression: sp.Expr, strictly: bool = False) -> bool:
     """Whether the sign of the expression is plain from how it is written: then Coq's ``sign`` sees it, too."""
     return bool(expression.is_positive if strictly else expression.is_nonnegative)
+
+
+def upright(product: sp.Expr) -> sp.Expr:
+    """The same product, its minus taken into a factor without a plain sign."""
+    constant, factors = product.as_coeff_mul()
+    turned = next((part for part in factors if part.is_Add and not is_shown(part)), None)
+    if constant >= 0 or turned is None:
+        return product
+    return sp.Mul(-constant, *(sp.expand(-part) if part is turned else part for part in factors))

@@ -8,23 +8,15 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 
 import sympy as sp
 
 from ptproof.proof.kernel.hints.goals import Goal, is_shown
+from ptproof.proof.kernel.names import fresh
 from ptproof.proof.statement import Relation
 
 _MOST_DERIVATIVES = 6
 _POINTS = 40
-
-
-@dataclass(frozen=True)
-class _Range:
-    """From ``low`` to ``high``; None for the whole line or without an end."""
-
-    low: sp.Expr | None = None
-    high: sp.Expr | None = None
 
 
 def by_halflines(goal: Goal) -> Iterator[str]:
@@ -41,7 +33,7 @@ def by_halflines(goal: Goal) -> Iterator[str]:
             continue
         lines: list[str] = []
         for number, (symbol, part) in enumerate(parts.items()):
-            line = _one_part(part, symbol, _range(symbol, goal.known), f"U{number}", goal)
+            line = _one_part(part, symbol, f"U{number}", goal)
             if line is None:
                 break
             lines.append(line)
@@ -74,7 +66,8 @@ def _parts(gap: sp.Expr) -> dict[sp.Symbol, sp.Expr] | None:
     return {symbol: part - starts[symbol] + spare / len(parts) for symbol, part in parts.items()}
 
 
-def _range(symbol: sp.Symbol, known: Sequence[Relation]) -> _Range:
+def _range(symbol: sp.Symbol, known: Sequence[Relation]) -> tuple[sp.Expr | None, sp.Expr | None]:
+    """Its lowest and its highest value, where there are such."""
     low = sp.Integer(0) if symbol.is_nonnegative else None
     high = None
     for item in (fact.standard() for fact in known):
@@ -82,40 +75,38 @@ def _range(symbol: sp.Symbol, known: Sequence[Relation]) -> _Range:
             low = item.left if low is None else sp.Max(low, item.left)
         elif item.left == symbol and item.right.is_number:
             high = item.right if high is None else sp.Min(high, item.right)
-    return _Range(low, high)
+    return low, high
 
 
-def _one_part(part: sp.Expr, symbol: sp.Symbol, over: _Range, name: str, goal: Goal) -> str | None:
+def _one_part(part: sp.Expr, symbol: sp.Symbol, name: str, goal: Goal) -> str | None:
     """That this part is not negative, as a fact called ``name``."""
     if is_shown(part):
         return f"assert ({name} : 0 <= {goal.text(part)}) by sign"
-    own, x = goal.names[symbol], goal.fresh("every")
+    least, greatest = _range(symbol, goal.known)
+    own, x = goal.names[symbol], fresh("every", goal.names)
     variable = sp.Symbol(x, real=True)
     goal = Goal(goal.relation, goal.known, {**goal.names, variable: x})
     part, symbol = part.xreplace({symbol: variable}), variable
     said = goal.text(part)
-    if over.low is None:
+    if least is None:
         other = part.subs(symbol, -symbol)
         halves = [_half(side, symbol, sp.Integer(0), None, goal) for side in dict.fromkeys((part, other))]
         if None in halves:
             return None
-        turns = "; ".join(f"turned {goal.text(angle)}" for angle in _angles(part))
+        angles = sorted({call.args[0] for call in part.atoms(sp.sin, sp.cos)}, key=sp.default_sort_key)
+        turns = "; ".join(f"turned {goal.text(angle)}" for angle in angles)
         functions = " ".join(f"(fun {x} => {goal.text(side)})" for side in dict.fromkeys((part, other)))
         word = "both_sides" if len(halves) == 2 else "both_sides_alike"
         same = f"intro {x}; cbv beta; {turns}; first [ ring | field ]"
         proof = f"apply ({word} {functions}); [ {' | '.join([same, *(half for half in halves if half)])} ]"
         return f"assert ({name} : forall {x} : R, 0 <= {said}) by ({proof}); specialize ({name} {own})"
-    half = _half(part, symbol, over.low, over.high, goal)
+    half = _half(part, symbol, least, greatest, goal)
     if half is None:
         return None
-    low, high = goal.text(over.low), "" if over.high is None else goal.text(over.high)
+    low, high = goal.text(least), "" if greatest is None else goal.text(greatest)
     between = f"{low} <= {x} <= {high}" if high else f"{low} <= {x}"
     said = f"(forall {x} : R, {between} -> 0 <= {goal.text(part)})"
     return f"assert ({name} : {said}) by ({half}); specialize ({name} {own} ltac:(lra))"
-
-
-def _angles(part: sp.Expr) -> list[sp.Expr]:
-    return sorted({call.args[0] for call in part.atoms(sp.sin, sp.cos)}, key=sp.default_sort_key)
 
 
 def _half(part: sp.Expr, symbol: sp.Symbol, low: sp.Expr, high: sp.Expr | None, goal: Goal) -> str | None:

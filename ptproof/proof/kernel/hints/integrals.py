@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Iterable
 
 import sympy as sp
@@ -17,10 +18,8 @@ def integrals(relations: Iterable[Relation], names: Names) -> list[str]:
     found = [part for side in sides for part in sp.preorder_traversal(side) if isinstance(part, sp.Integral)]
     lines: dict[str, None] = {}
     for integral in reversed(found):
-        try:
+        with contextlib.suppress(NoTranslation):
             lines.update(dict.fromkeys(_lines(integral, names)))
-        except NoTranslation:
-            continue
     return list(lines)
 
 

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 import sympy as sp
 
 from ptproof.proof.kernel.hints.atoms import Atoms
-from ptproof.proof.kernel.names import Names
+from ptproof.proof.kernel.names import Names, fresh
 from ptproof.proof.kernel.obligations import Part
 from ptproof.proof.kernel.terms import NoTranslation, positive_base, term
 from ptproof.proof.statement import Relation
@@ -19,7 +19,7 @@ class _Place:
     def __init__(self, limit: sp.Limit, names: Names) -> None:
         _, self.variable, place, side = limit.args
         self.atoms = Atoms.over(names)
-        self.name = self.atoms.fresh("d")
+        self.name = fresh("d", self.atoms.names)
         self.d = sp.Symbol(self.name, positive=True)
         self.atoms.names[self.d] = self.name
         if place is sp.oo:
@@ -54,7 +54,7 @@ class _Place:
         if speed in self.decaying.values():
             return next(symbol for symbol, known in self.decaying.items() if known == speed)
         text = term(speed, self.atoms.names)
-        symbol = sp.Symbol(self.atoms.fresh(f"e{len(self.decaying)}"), positive=True)
+        symbol = sp.Symbol(fresh(f"e{len(self.decaying)}", self.atoms.names), positive=True)
         self.atoms.names[symbol] = f"(exp (- {text}))"
         self.decaying[symbol] = speed
         return symbol
@@ -79,7 +79,7 @@ class _Place:
                 self.falls.append(f"falls_with_base {where} {written} {self.name}")
             else:
                 raise NoTranslation("no hint for the limit of such a power")
-            symbol = sp.Symbol(self.atoms.fresh(f"p{len(self.falling)}"), positive=True)
+            symbol = sp.Symbol(fresh(f"p{len(self.falling)}", self.atoms.names), positive=True)
             self.atoms.names[symbol] = text
             grows = positive_base(power) and not below
             self.falling[power] = 1 / symbol if grows else symbol
@@ -122,33 +122,26 @@ def near(part: Part, group: list[Part], names: Names) -> str:
     NoTranslation
         If there is no hint for it.
     """
-    if part.limit is None or (part.relation is None and part.base is None):
+    said = part.base if part.relation is None else part.relation.left
+    if part.limit is None or said is None:
         raise NoTranslation("no hint for this part of a limit")
     place = _Place(part.limit, names)
     followed: list[sp.Expr] = [
         place.there(other.relation.left) for other in group if other.relation is not None and other.limit == part.limit
     ]
     lines = place.factors([*followed, *place.decaying.values(), *place.bases])
-    if part.base is not None:
-        form = place.positive(place.there(part.base))
-        steps = ["near_right_of_0", *lines, f"right_at {place.name}", f"base_as {_text(form, place)}"]
-        return "; ".join([*place.atoms.lines, *steps])
+    if part.relation is not None and not part.domain:
+        return _followed(part.relation, place, lines)
+    form = term(place.positive(place.there(said)), place.atoms.names)
     if part.relation is None:
-        raise NoTranslation("no hint for this part of a limit")
-    if part.domain:
-        form = place.positive(place.there(part.relation.left))
-        tactic = (
-            f"nonzero_as {_text(form, place)}" if part.relation.sign == "!=" else f"positive_as {_text(form, place)}"
-        )
-        return "; ".join(
-            [*place.atoms.lines, "near_right_of_0", *lines, f"right_at {place.name}", f"first [ sign | {tactic} ]"]
-        )
-    return _followed(part.relation, place, lines)
+        last = f"base_as {form}"
+    else:
+        last = f"first [ sign | {'nonzero_as' if part.relation.sign == '!=' else 'positive_as'} {form} ]"
+    return "; ".join([*place.atoms.lines, "near_right_of_0", *lines, f"right_at {place.name}", last])
 
 
 def _followed(relation: Relation, place: _Place, lines: list[str]) -> str:
     form = place.positive(place.there(relation.left))
-    steps = [f"limit_at {place.function(form)}"]
     first = "; ".join([*lines, f"{'same_powers_at' if place.falling else 'same_at'} {place.name}"])
     if relation.right is sp.oo:
         rest = [f"grows {place.function(place.positive(1 / form))} {place.name}"]
@@ -156,9 +149,5 @@ def _followed(relation: Relation, place: _Place, lines: list[str]) -> str:
         rest = [f"decays {place.function(argument)} {place.function(place.positive(1 / argument))} {place.name}"
                 for argument in place.decaying.values()]  # fmt: skip
         rest += [*place.falls, "tends"]
-    return "; ".join([*place.atoms.lines, f"{steps[0]}; [ {first} | {'; '.join([*lines, *rest])} ]"])
-
-
-def _text(expression: sp.Expr, place: _Place) -> str:
-    text = term(expression, place.atoms.names)
-    return text if text.startswith("(") or text.isidentifier() else f"({text})"
+    last = "; ".join([*lines, *rest])
+    return "; ".join([*place.atoms.lines, f"limit_at {place.function(form)}; [ {first} | {last} ]"])

@@ -103,8 +103,5 @@ def _open(expression: sp.Expr) -> bool:
     """Whether the factor is multiplied out: a sum of unknown sign or of many letters, or a power of one."""
     if expression.is_Pow and expression.base.is_Add and expression.exp.is_Integer and expression.exp > 0:
         return _open(expression.base)
-    return bool(expression.is_Add and not (expression.is_nonnegative and _short(expression)))
-
-
-def _short(expression: sp.Expr) -> bool:
-    return len(expression.free_symbols) <= 3 and not expression.atoms(sp.exp, AppliedUndef)
+    short = len(expression.free_symbols) <= 3 and not expression.atoms(sp.exp, AppliedUndef)
+    return bool(expression.is_Add and not (expression.is_nonnegative and short))

@@ -10,7 +10,8 @@ from dataclasses import dataclass
 import sympy as sp
 
 from ptproof.proof.kernel.hints.atoms import Atoms
-from ptproof.proof.kernel.hints.goals import Goal, brackets, is_shown
+from ptproof.proof.kernel.hints.goals import Goal, is_shown, upright
+from ptproof.proof.kernel.names import fresh
 from ptproof.proof.kernel.terms import term
 from ptproof.proof.statement import Relation
 
@@ -56,7 +57,7 @@ def by_multiples(goal: Goal) -> Iterator[str]:
             yield "; ".join([*start, line])
             return
         if is_shown(gap, relation.sign == "<"):
-            yield "; ".join([*start, f"difference_as {_text(gap, names)}"])
+            yield "; ".join([*start, f"difference_as {term(gap, names)}"])
             return
         top, bottom = sp.fraction(gap)
         if sp.count_ops(top) > _MOST_OPERATIONS:
@@ -67,30 +68,21 @@ def by_multiples(goal: Goal) -> Iterator[str]:
             yield "; ".join([*start, *_lines(found, top, bottom, names)])
             return
         if depth == 1 and sum(1 for part in sp.Mul.make_args(top) if part.free_symbols) > 1:
-            yield "; ".join([*start, f"factors_as {_text(_upright(gap), names)}"])
+            yield "; ".join([*start, f"factors_as {term(upright(gap), names)}"])
 
 
 def _moved(fact: Relation, moved: dict[sp.Symbol, sp.Expr]) -> Relation:
     return fact.map(lambda side: side.xreplace(moved))
 
 
-def _upright(product: sp.Expr) -> sp.Expr:
-    """The same product, its minus taken into a factor without a plain sign."""
-    constant, factors = product.as_coeff_mul()
-    turned = next((part for part in factors if part.is_Add and not is_shown(part)), None)
-    if constant >= 0 or turned is None:
-        return product
-    return sp.Mul(-constant, *(sp.expand(-part) if part is turned else part for part in factors))
-
-
 def _lines(found: _Sum, top: sp.Expr, bottom: sp.Expr, names: dict[sp.Basic, str]) -> Iterator[str]:
-    yield f"top_of {_text(top, names)} {_text(bottom, names)}"
+    yield f"top_of {term(top, names)} {term(bottom, names)}"
     if found.factor != 1:
-        yield f"multiply_by {_text(found.factor, names)}"
+        yield f"multiply_by {term(found.factor, names)}"
     for _, fact in found.weights:
         yield fact.line
-    parts = [f"{_text(weight, names)} * {_text(fact.top, names)}" for weight, fact in found.weights]
-    yield f"positive_as ({' + '.join([*parts, *([_text(found.rest, names)] if found.rest != 0 else [])])})"
+    parts = [f"{term(weight, names)} * {term(fact.top, names)}" for weight, fact in found.weights]
+    yield f"positive_as ({' + '.join([*parts, *([term(found.rest, names)] if found.rest != 0 else [])])})"
 
 
 def _facts(relations: Sequence[Relation], names: dict[sp.Basic, str]) -> Iterator[_Fact]:
@@ -103,11 +95,11 @@ def _facts(relations: Sequence[Relation], names: dict[sp.Basic, str]) -> Iterato
             for sign in (1, -1) if relation.sign == "=" else (1,):
                 own = sp.expand(sign * top)
                 if not (own.is_Symbol and is_shown(own)):
-                    line = f"fact_from {_text(bottom, names)} {_text(own, names)}"
+                    line = f"fact_from {term(bottom, names)} {term(own, names)}"
                     yield _Fact(own, relation.sign == "<", line)
         elif relation.sign != "=":
             whole = sp.factor(top * bottom)
-            line = f"fact_by_square {_text(bottom, names)} {_text(top, names)} {_text(whole, names)}"
+            line = f"fact_by_square {term(bottom, names)} {term(top, names)} {term(whole, names)}"
             yield _Fact(whole, relation.sign == "<", line)
 
 
@@ -117,7 +109,7 @@ def _contradiction(relations: Sequence[Relation], names: dict[sp.Basic, str]) ->
         top, bottom = sp.fraction(sp.factor(sp.together(relation.right - relation.left)))
         strict = relation.sign == "<"
         if relation.sign in ("<", "<=") and is_shown(bottom, strictly=True) and is_shown(-top, strictly=not strict):
-            return f"contradicts {' '.join(_text(part, names) for part in (bottom, top, sp.factor(-top)))}"
+            return f"contradicts {' '.join(term(part, names) for part in (bottom, top, sp.factor(-top)))}"
     return ""
 
 
@@ -193,20 +185,18 @@ def loosen(facts: Sequence[Relation], names: dict[sp.Basic, str]) -> tuple[dict[
             continue
         symbol, factor = found
         bound = sp.factor(symbol - gap / factor)
-        text = f"{_text(bound, names)}"
+        text = term(bound, names)
         if relation.sign == "=":
             value = bound
             lines.append(f"replace_by {names[symbol]} {text}")
         else:
             strict = relation.sign == "<"
-            name = f"above{len(lines)}"
-            while name in names.values():
-                name += "_"
+            name = fresh(f"above{len(lines)}", names)
             above = sp.Symbol(name, **{"positive" if strict else "nonnegative": True})
             names[above] = name
             value = bound + above
             word = ("above" if strict else "at_least") + ("" if factor == 1 else "_by")
-            scale = "" if factor == 1 else f"{_text(factor, names)} "
+            scale = "" if factor == 1 else f"{term(factor, names)} "
             lines.append(f"{word} {scale}{names[symbol]} {text} {name}")
         moved = {old: new.xreplace({symbol: value}) for old, new in moved.items()} | {symbol: value}
     return moved, lines
@@ -238,7 +228,3 @@ def _solvable(gap: sp.Expr, sign: str) -> tuple[sp.Symbol, sp.Expr] | None:
         return factor not in (1, -1), symbol.name.startswith("above"), symbol.is_nonnegative is True, symbol.name
 
     return min(found, key=order, default=None)
-
-
-def _text(expression: sp.Basic, names: dict[sp.Basic, str]) -> str:
-    return brackets(term(expression, names))

@@ -28,7 +28,8 @@ def norms(
         return item.map(lambda side: side.xreplace(meant))
 
     moved = [put_in(item) for item in (relation, *given) if item.left not in meant]
-    same = dict(_same(call for item in moved for call in _calls(item)))
+    calls = (item.left.atoms(AppliedUndef) | item.right.atoms(AppliedUndef) for item in moved)
+    same = dict(_same(call for found in calls for call in sorted(found, key=sp.default_sort_key)))
     lines += [f"same_call {term(old, names)} {term(new, names)}" for old, new in same.items()]
     moved = [item.map(lambda side: side.xreplace(same)) for item in moved]
     goal, *others = moved
@@ -50,10 +51,6 @@ def _norm(expression: sp.Basic) -> bool:
         return False
     parts = expression.base.args
     return len(parts) == 2 and all(isinstance(part, sp.Pow) and part.exp == 2 for part in parts)
-
-
-def _calls(item: Relation) -> list[AppliedUndef]:
-    return sorted(item.left.atoms(AppliedUndef) | item.right.atoms(AppliedUndef), key=sp.default_sort_key)
 
 
 def _same(calls: Iterable[AppliedUndef]) -> Iterator[tuple[AppliedUndef, AppliedUndef]]:

@@ -17,13 +17,14 @@ from ptproof.proof.kernel.declared import of_symbol
 from ptproof.proof.kernel.hints.atoms import Atoms
 from ptproof.proof.kernel.hints.certificates import certificate
 from ptproof.proof.kernel.hints.derived import Derived, derived
-from ptproof.proof.kernel.hints.goals import Goal, brackets
+from ptproof.proof.kernel.hints.goals import Goal, upright
 from ptproof.proof.kernel.hints.integrals import integrals
 from ptproof.proof.kernel.hints.limits import near
 from ptproof.proof.kernel.hints.norms import norms
 from ptproof.proof.kernel.hints.products import products
 from ptproof.proof.kernel.hints.search import by_steps
 from ptproof.proof.kernel.hints.witnesses import witnesses
+from ptproof.proof.kernel.names import fresh
 from ptproof.proof.kernel.obligations import Part
 from ptproof.proof.kernel.smooth import script as smoothness
 from ptproof.proof.kernel.terms import NoTranslation, term
@@ -54,11 +55,16 @@ def script(said: Proposition, *, thorough: bool = False) -> str:
     return f"{'; '.join(steps)}; pieces; [> {' | '.join(leaves)} ]"
 
 
+def _tried(*hints: str) -> str:
+    """Each of the tactics that proves all, one after the other; Coq says what is left."""
+    return "; ".join([*(f"try (solve [ {hint} ])" for hint in hints), "leaf_or_say"])
+
+
 def _near(part: Part, said: Proposition, thorough: bool) -> str:
     tries = ["near_by_sign"] if thorough else []
     with contextlib.suppress(NoTranslation, sp.PolynomialError):
         tries.append(near(part, list(said.conclusions), said.names))
-    return "; ".join([*(f"try (solve [ {hint} ])" for hint in tries), "leaf_or_say"])
+    return _tried(*tries)
 
 
 def _trivial(relation: Relation) -> bool:
@@ -68,30 +74,26 @@ def _trivial(relation: Relation) -> bool:
 
 def _leaf(part: Part, known: list[Relation], more: list[Derived], said: Proposition, thorough: bool) -> str:
     if part.exists is not None and thorough and (hint := _witnessed(part, known, said)):
-        return f"try (solve [ {hint} ]); leaf_or_say"
+        return _tried(hint)
     if part.relation is None or _trivial(part.relation):
-        return "try (solve [ everywhere ]); leaf_or_say" if thorough else "leaf_or_say"
+        return _tried("everywhere") if thorough else _tried()
+    goal = Goal(part.relation, tuple(known), said.names)
     if part.relation.sign == "=":
-        return _equal(part.relation, known, said, thorough)
+        return _equal(goal, said, thorough)
     tries: list[str] = []
     if more or thorough:
         with contextlib.suppress(NoTranslation, sp.PolynomialError):
             tries += certificate(part.relation, known, said.names, more)
     ways = () if tries else (_by_norms, _directly, _by_logarithms)
     if thorough:
-        tries += _by_steps(part.relation, known, said)
+        tries += _by_steps(goal, said)
     for way in ways:
         with contextlib.suppress(NoTranslation, sp.PolynomialError):
-            tries += way(part.relation, known, said)
-    if part.relation.sign != "!=" and _powers(part.relation):
-        tries.append("solve [ by_growth ]")
-    quick = "quickly"
-    return "; ".join([quick, *(f"try ({hint})" for hint in tries), "leaf_or_say"])
-
-
-def _powers(relation: Relation) -> bool:
-    """Whether a power with an exponent that is no number stands in the relation."""
-    return any(not power.exp.is_number for side in (relation.left, relation.right) for power in side.atoms(sp.Pow))
+            tries += way(goal)
+    powers = sp.Tuple(part.relation.left, part.relation.right).atoms(sp.Pow)
+    if part.relation.sign != "!=" and any(not power.exp.is_number for power in powers):
+        tries.append("by_growth")
+    return f"quickly; {_tried(*tries)}"
 
 
 def _witnessed(part: Part, known: list[Relation], said: Proposition) -> str:
@@ -101,97 +103,71 @@ def _witnessed(part: Part, known: list[Relation], said: Proposition) -> str:
         return ""
     steps: list[str] = []
     for symbol in part.exists.variables:
-        kinds = of_symbol(symbol, said.names[symbol])
-        steps.append(
-            f"exists {brackets(term(values[symbol], said.names))}{'; split; [> solve [ WAY ] | ]' * len(kinds)}"
-        )
-        way = " | ".join(
-            f"solve [ {hint} ]" for hint in _by_steps(Relation(sp.Integer(0), "<", values[symbol]), known, said)
-        )
-        steps[-1] = steps[-1].replace("WAY", f"first [ sign | {way or 'fail'} ]")
-    leaves = [_leaf(_put(item, values), known, [], said, True) for item in part.body]
+        positive = Goal(Relation(sp.Integer(0), "<", values[symbol]), tuple(known), said.names)
+        ways = " | ".join(f"solve [ {hint} ]" for hint in _by_steps(positive, said)) or "fail"
+        kinds = f"; split; [> solve [ first [ sign | {ways} ] ] | ]" * len(of_symbol(symbol, said.names[symbol]))
+        steps.append(f"exists {term(values[symbol], said.names)}{kinds}")
+    put = (item.relation and item.relation.map(lambda side: side.xreplace(values)) for item in part.body)
+    body = [replace(item, relation=relation) for item, relation in zip(part.body, put, strict=True)]
+    leaves = [_leaf(item, known, [], said, True) for item in body]
     intro = f"intros {' '.join(said.names[symbol] for symbol in part.exists.over)}; " if part.exists.over else ""
     return f"{'; '.join(steps)}; {intro}intros; facts; pieces; [> {' | '.join(leaves)} ]"
 
 
-def _put(part: Part, values: dict[sp.Symbol, sp.Expr]) -> Part:
-    relation = part.relation and part.relation.map(lambda side: side.xreplace(values))
-    return replace(part, relation=relation)
-
-
-def _by_steps(relation: Relation, known: list[Relation], said: Proposition) -> Iterator[str]:
+def _by_steps(goal: Goal, said: Proposition) -> Iterator[str]:
     """After what is quick; the ways of this module close what the steps leave."""
-
-    def directly(goal: Goal) -> Iterator[str]:
-        facts = [item for item in goal.known if item.sign != "!="]
-        return _directly(goal.relation, facts, replace(said, names=goal.names))
-
     given = (part.relation for part in said.premises if part.limit is None)
-    apart = (item for item in given if item is not None and item.sign == "!=")
-    for hint in by_steps(Goal(relation, (*known, *apart), said.names), [directly]):
-        yield f"solve [ {hint} ]"
+    return by_steps(goal.with_known(*(item for item in given if item is not None and item.sign == "!=")), [_directly])
 
 
-def _equal(relation: Relation, known: list[Relation], said: Proposition, thorough: bool) -> str:
+def _equal(goal: Goal, said: Proposition, thorough: bool) -> str:
     """Powers of one base by each other, and angles at the ends of integrals, before anything else is tried."""
+    relation = goal.relation
     if relation.has(sp.Integral) and relation.has(sp.sin, sp.cos):
-        return "try (solve [ at_multiples_of_PI; rational ]); leaf_or_say"
+        return _tried("at_multiples_of_PI; rational")
     atoms = Atoms.over(said.names)
     atoms.choose((relation.left, relation.right))
     try:
         relation.map(atoms)
     except NoTranslation:
-        return "leaf_or_say"
+        return _tried()
     powers = [line for line in atoms.lines if "power_as" in line]
-    tries = [f"solve [ {'; '.join([*powers, 'rational'])} ]"] if powers else []
-    if thorough:
-        tries += _by_steps(relation, known, said)
-    return "; ".join([*(f"try ({hint})" for hint in tries), "leaf_or_say"])
+    quick = ["; ".join([*powers, "rational"])] if powers else []
+    return _tried(*quick, *(_by_steps(goal, said) if thorough else ()))
 
 
-def _directly(relation: Relation, known: list[Relation], said: Proposition) -> Iterator[str]:
+def _directly(goal: Goal) -> Iterator[str]:
+    relation, known = goal.relation, [item for item in goal.known if item.sign != "!="]
     if relation.sign == "!=" and relation.left.is_nonzero and relation.left.is_Symbol:
         return
     if relation.sign == "!=" and not relation.has(AppliedUndef):
         known = [item for item in known if not item.has(AppliedUndef)]
-    atoms = Atoms.over(said.names)
+    atoms = Atoms.over(goal.names)
     atoms.choose(side for item in (relation, *known) for side in (item.left, item.right))
-    goal = relation.standard().map(atoms)
-    facts = []
+    wanted, facts = relation.standard().map(atoms), []
     for item in known:
-        try:
+        with contextlib.suppress(NoTranslation):
             facts.append(item.standard().map(atoms))
-        except NoTranslation:
-            continue
     moved, lines = slack(facts, atoms)
-    gap = sp.factor(sp.together((goal.right - goal.left).xreplace(moved)))
-    start = "; ".join([*atoms.lines, *lines])
-    start = f"{start}; " if start else ""
+    gap = sp.factor(sp.together((wanted.right - wanted.left).xreplace(moved)))
     if relation.sign == "!=":
-        yield f"solve [ {start}nonzero_as {_text(-gap, atoms)} ]"
-        return
-    yield f"solve [ {start}difference_as {_text(_upright(gap), atoms)} ]"
-    if gap.is_positive or (gap.is_nonnegative and relation.sign in ("<=", ">=")):
+        last = f"nonzero_as {term(-gap, atoms.names)}"
+    else:
+        last = f"difference_as {term(upright(gap), atoms.names)}"
+    yield "; ".join([*atoms.lines, *lines, last])
+    if relation.sign == "!=" or gap.is_positive or (gap.is_nonnegative and relation.sign in ("<=", ">=")):
         return
     # Here the variables stay as they are: their bounds are facts like any other.
-    gap = sp.factor(sp.together(goal.right - goal.left))
+    gap = sp.factor(sp.together(wanted.right - wanted.left))
     if hint := _by_products(gap, facts, atoms):
-        yield f"solve [ {'; '.join([*atoms.lines, hint])} ]"
+        yield "; ".join([*atoms.lines, hint])
 
 
-def _by_norms(relation: Relation, known: list[Relation], said: Proposition) -> Iterator[str]:
-    if relation.sign != "!=" and (found := norms(relation, known, said.names)) is not None:
-        goal, others, lines = found
-        yield from (f"solve [ {'; '.join([*lines, hint])} ]" for hint in _directly(goal, others, said))
-
-
-def _upright(product: sp.Expr) -> sp.Expr:
-    """The same product without a minus before it, where one of its factors can take that."""
-    constant, factors = product.as_coeff_mul()
-    turned = next((factor for factor in factors if factor.is_Add and factor.is_nonnegative is None), None)
-    if constant >= 0 or turned is None:
-        return product
-    return sp.Mul(-constant, *(sp.expand(-factor) if factor is turned else factor for factor in factors))
+def _by_norms(goal: Goal) -> Iterator[str]:
+    if goal.relation.sign != "!=" and (found := norms(goal.relation, goal.known, goal.names)) is not None:
+        relation, others, lines = found
+        for hint in _directly(Goal(relation, tuple(others), goal.names)):
+            yield "; ".join([*lines, hint])
 
 
 def _by_products(gap: sp.Expr, facts: list[Relation], atoms: Atoms) -> str:
@@ -199,35 +175,35 @@ def _by_products(gap: sp.Expr, facts: list[Relation], atoms: Atoms) -> str:
     found = products(top, facts)
     if found is None:
         return ""
-    steps = [f"top_of {_text(top, atoms)} {_text(bottom, atoms)}"]
+    steps = [f"top_of {term(top, atoms.names)} {term(bottom, atoms.names)}"]
     if found.factor != 1:
-        steps.append(f"multiply_by {_text(found.factor, atoms)}")
-    steps += [f"fact_from {_text(fact.bottom, atoms)} {_text(fact.top, atoms)}" for fact in found.facts]
-    steps += [f"product ({' * '.join(_text(factor, atoms) for factor in factors)})" for factors in found.products]
+        steps.append(f"multiply_by {term(found.factor, atoms.names)}")
+    steps += [f"fact_from {term(fact.bottom, atoms.names)} {term(fact.top, atoms.names)}" for fact in found.facts]
+    steps += [f"product ({' * '.join(term(factor, atoms.names) for factor in factors)})" for factors in found.products]
     return "; ".join([*steps, "linear"])
 
 
-def _by_logarithms(relation: Relation, known: list[Relation], said: Proposition) -> Iterator[str]:
+def _by_logarithms(goal: Goal) -> Iterator[str]:
     """Both sides, and those of what is known, as sums of logarithms, where they are products of powers."""
-    goal = relation.standard()
-    if relation.sign == "!=" or not (_monomial(goal.left) and _monomial(goal.right)):
+    wanted = goal.relation.standard()
+    if wanted.sign == "!=" or not (_monomial(wanted.left) and _monomial(wanted.right)):
         return
-    atoms = Atoms.over(said.names)
+    atoms = Atoms.over(goal.names)
     steps = ["by_logarithms"]
     facts = []
-    for item in (given.standard() for given in known):
+    for item in (given.standard() for given in goal.known):
         if _monomial(item.left) and _monomial(item.right):
-            sides = " ".join(_brackets(term(side, said.names)) for side in (item.left, item.right))
+            sides = " ".join(map(goal.text, (item.left, item.right)))
             steps.append(f"try (logarithms_of {sides})")
             facts.append(item.map(lambda side: _logarithm(side, atoms)))
         elif item.left.is_number or item.right.is_number:
             facts.append(item.map(atoms))
-    facts += [Relation(sp.Integer(1), "<=", symbol) for symbol in said.names if getattr(symbol, "is_Symbol", False)
+    facts += [Relation(sp.Integer(1), "<=", symbol) for symbol in goal.names if getattr(symbol, "is_Symbol", False)
               and symbol.is_integer and symbol.is_positive]  # fmt: skip
-    goal = goal.map(lambda side: _logarithm(side, atoms))
-    gap = sp.factor(sp.together(goal.right - goal.left))
+    wanted = wanted.map(lambda side: _logarithm(side, atoms))
+    gap = sp.factor(sp.together(wanted.right - wanted.left))
     if hint := _by_products(gap, facts, atoms):
-        yield f"solve [ {'; '.join([*steps, 'logarithms', *atoms.lines, hint])} ]"
+        yield "; ".join([*steps, "logarithms", *atoms.lines, hint])
 
 
 def _monomial(expression: sp.Basic) -> bool:
@@ -267,13 +243,13 @@ def slack(facts: list[Relation], atoms: Atoms) -> tuple[dict[sp.Symbol, sp.Expr]
         text = atoms.names[symbol]
         if relation.sign == "=":
             value = rest
-            lines.append(f"replace_by {text} {_text(value, atoms)}")
+            lines.append(f"replace_by {text} {term(value, atoms.names)}")
         else:
-            name = atoms.fresh(f"gap{len(lines)}")
+            name = fresh(f"gap{len(lines)}", atoms.names)
             above = sp.Symbol(name, **{"positive" if relation.sign == "<" else "nonnegative": True})
             atoms.names[above] = name
             value = rest + above
-            lines.append(f"{'above' if relation.sign == '<' else 'at_least'} {text} {_text(rest, atoms)} {name}")
+            lines.append(f"{'above' if relation.sign == '<' else 'at_least'} {text} {term(rest, atoms.names)} {name}")
         moved = {old: new.xreplace({symbol: value}) for old, new in moved.items()} | {symbol: value}
     return moved, lines
 
@@ -287,11 +263,3 @@ def _solvable(gap: sp.Expr, sign: str) -> sp.Symbol | None:
 
     found = [symbol for symbol in gap.free_symbols if fits(symbol)]
     return min(found, key=lambda s: (s.name.startswith("gap"), s.is_nonnegative is True, s.name), default=None)
-
-
-def _text(expression: sp.Basic, atoms: Atoms) -> str:
-    return _brackets(term(expression, atoms.names))
-
-
-def _brackets(text: str) -> str:
-    return text if text.startswith("(") or text.isidentifier() or text.isdigit() else f"({text})"

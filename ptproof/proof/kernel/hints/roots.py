@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import sympy as sp
 
 from ptproof.proof.kernel.hints.goals import Goal
+from ptproof.proof.kernel.names import fresh
 from ptproof.proof.statement import Relation
 
 
@@ -17,8 +18,9 @@ def squared_symbols(goal: Goal) -> tuple[list[str], Goal]:
     lines: list[str] = [f"keeps_root {number}" for number in numbers]
     symbols = dict.fromkeys(root.base for root in roots if root.base.is_Symbol and root.base.is_nonnegative)
     for symbol in symbols:
-        name = goal.fresh("r_" + goal.names[symbol])
-        kind = "positive" if symbol.is_positive or _is_positive(symbol, goal) else "nonnegative"
+        name = fresh("r_" + goal.names[symbol], goal.names)
+        known = any(item.standard() == Relation(sp.Integer(0), "<", symbol) for item in goal.known)
+        kind = "positive" if symbol.is_positive or known else "nonnegative"
         root = sp.Symbol(name, **{kind: True})
         number = next((n for n in numbers if _together(goal, symbol, n)), None)
         old = goal.names[symbol]
@@ -27,10 +29,6 @@ def squared_symbols(goal: Goal) -> tuple[list[str], Goal]:
         names = {**goal.names, root: name}
         goal = goal.replaced(symbol, square, names)
     return (lines if symbols else []), goal
-
-
-def _is_positive(symbol: sp.Symbol, goal: Goal) -> bool:
-    return any(item.standard() == Relation(sp.Integer(0), "<", symbol) for item in goal.known)
 
 
 def _together(goal: Goal, symbol: sp.Symbol, number: sp.Integer) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import time
 from collections.abc import Iterator, Sequence
 
@@ -73,7 +74,5 @@ def _closed(goal: Goal, others: Sequence[Way], until: float) -> Iterator[str]:
     for way in (*_CLOSING, *others):
         if time.monotonic() > until:
             return
-        try:
+        with contextlib.suppress(NoTranslation, sp.PolynomialError):
             yield from way(goal)
-        except (NoTranslation, sp.PolynomialError):
-            continue

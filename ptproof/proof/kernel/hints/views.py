@@ -13,16 +13,9 @@ from ptproof.proof.statement import Relation
 
 @dataclass(frozen=True)
 class View:
-    """What was replaced.
+    """What was replaced: what symbols are in the view (``there``), and what the new symbols are outside (``back``).
 
-    Attributes
-    ----------
-    there
-        The symbols, and what they are in the view.
-    back
-        The new symbols, and what they are outside.
-    equal
-        The symbols that are replaced by what they are said to be.
+    ``equal`` are the symbols that are replaced by what they are said to be.
     """
 
     there: dict[sp.Symbol, sp.Expr]
@@ -39,10 +32,6 @@ class View:
     def relation(self, relation: Relation) -> Relation:
         """Both sides in this view."""
         return Relation(self.of(relation.left), relation.sign, self.of(relation.right))
-
-    def out(self, expression: sp.Expr) -> sp.Expr:
-        """The expression in the claim's own symbols."""
-        return expression.xreplace(self.back)
 
 
 def view(known: Iterable[Relation]) -> View:

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 
 import sympy as sp
 
-from ptproof.proof.statement import Exists, Relation
+from ptproof.proof.statement import Exists, Relation, plain
 
 _NUMBERS = tuple(sp.Integer(2) ** power for power in range(-4, 7))
 _SAMPLES = 300
@@ -17,7 +17,7 @@ _SEED = 1
 
 def witnesses(exists: Exists, known: Sequence[Relation]) -> dict[sp.Symbol, sp.Expr] | None:
     """A value for every variable, or None. It is a hint: Coq shows the body for it."""
-    parts = [part.standard() for item in exists.body for part in item.components()]
+    parts = [part.standard() for part in plain(exists.body)]
     if exists.over:
         found = {symbol: _number(symbol, exists, parts) for symbol in exists.variables}
         return None if None in found.values() else {s: value for s, value in found.items() if value is not None}
