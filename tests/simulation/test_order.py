@@ -95,9 +95,13 @@ def test_the_closed_loop_with_its_filter_has_the_order_one_half(name):
 def test_a_run_that_does_not_get_through_does_not_agree():
     tau, x, omega = sp.Symbol("tau", real=True), sp.Symbol("x", real=True), sp.Symbol("omega", positive=True)
     system = System(tau, (x,), (x**3 + sp.cos(omega * tau),))
-    gaps = gap_order(system, System(tau, (x,), (x**3,)), initial=[1], end=1, omega=omega, omegas=(10, 20, 40))
+    asked = {"initial": [1], "end": 1, "omega": omega, "omegas": (10, 20, 40)}
+    gaps = gap_order(system, System(tau, (x,), (x**3,)), **asked)
     assert not gaps.agrees
-    assert "escaped" in gaps.message
+    assert gaps.message == "at omega = 10 the system ended as escaped"
+    gaps = gap_order(System(tau, (x,), (sp.cos(omega * tau),)), System(tau, (x,), (x**3,)), **asked)
+    assert not gaps.agrees
+    assert gaps.message == "at omega = 10 the average ended as escaped"
 
 
 def test_states_that_don_t_fit_are_named():
