@@ -4,7 +4,6 @@ import pickle
 from dataclasses import replace
 
 import numpy as np
-import pytest
 import sympy as sp
 
 from ptproof.balls.ball import precision
