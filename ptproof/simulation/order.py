@@ -133,14 +133,8 @@ def gap_order(
         expected = -1.0 if isinstance(average, Correction) else -0.5
     symbol = omega if omega is not None else getattr(system, "omega", None) or sp.Symbol("omega", positive=True)
     span = (as_float(start, "start"), as_float(end, "end"))
-    pair = _pair(system, average, symbol, initial, span, dict(values or {}), settings)
-    gaps: list[float] = []
-    message = ""
-    while len(gaps) < len(ladder) and not message:  # without one of them there is no order
-        gap, message = pair.gap(ladder[len(gaps)])
-        gaps.append(gap)
-    gaps += [math.nan] * (len(ladder) - len(gaps))
-    return fit_order(ladder, tuple(gaps), expected, message)
+    gaps, message = _pair(system, average, symbol, initial, span, dict(values or {}), settings).gaps(ladder)
+    return fit_order(ladder, gaps, expected, message)
 
 
 def _ladder(omegas: Sequence[float]) -> tuple[float, ...]:
@@ -194,6 +188,15 @@ class _Pair:
     start: _Numbers
     along: _Numbers
     settings: Settings
+
+    def gaps(self, ladder: Sequence[float]) -> tuple[tuple[float, ...], str]:
+        """The gap at each ω, up to one at which a run did not get through: without it there is no order."""
+        found: list[float] = []
+        message = ""
+        while len(found) < len(ladder) and not message:
+            gap, message = self.gap(ladder[len(found)])
+            found.append(gap)
+        return (*found, *[math.nan] * (len(ladder) - len(found))), message
 
     def gap(self, rung: float) -> tuple[float, str]:
         """The largest distance at ω = ``rung``, or NaN and why a run did not get through."""
