@@ -35,7 +35,8 @@ class GapOrder:
     Attributes
     ----------
     omegas, gaps
-        The ladder and the largest distance between system and average on it; NaN where a run did not get through.
+        The ladder and the largest distance between system and average on it; NaN from where on a run did not get
+        through.
     slope, intercept, spread
         log gap ≈ intercept + slope · log ω by least squares, and the standard error of the slope.
     tail
@@ -132,9 +133,8 @@ def gap_order(
         expected = -1.0 if isinstance(average, Correction) else -0.5
     symbol = omega if omega is not None else getattr(system, "omega", None) or sp.Symbol("omega", positive=True)
     span = (as_float(start, "start"), as_float(end, "end"))
-    gaps = list(map(_pair(system, average, symbol, initial, span, dict(values or {}), settings).gap, ladder))
-    message = next((message for _, message in reversed(gaps) if message), "")
-    return fit_order(ladder, tuple(gap for gap, _ in gaps), expected, message)
+    gaps, message = _pair(system, average, symbol, initial, span, dict(values or {}), settings).gaps(ladder)
+    return fit_order(ladder, gaps, expected, message)
 
 
 def _ladder(omegas: Sequence[float]) -> tuple[float, ...]:
@@ -189,6 +189,15 @@ class _Pair:
     along: _Numbers
     settings: Settings
 
+    def gaps(self, ladder: Sequence[float]) -> tuple[tuple[float, ...], str]:
+        """The gap at each ω, up to one at which a run did not get through: without it there is no order."""
+        found: list[float] = []
+        message = ""
+        while len(found) < len(ladder) and not message:
+            gap, message = self.gap(ladder[len(found)])
+            found.append(gap)
+        return (*found, *[math.nan] * (len(ladder) - len(found))), message
+
     def gap(self, rung: float) -> tuple[float, str]:
         """The largest distance at ω = ``rung``, or NaN and why a run did not get through."""
         from scipy.interpolate import CubicSpline
@@ -196,11 +205,13 @@ class _Pair:
         (begin, end), names = self.span, [state.name for state in self.full.state]
         samples = min(200_000, max(400, math.ceil(_SAMPLES_A_TURN * rung * (end - begin) / (2 * math.pi))))
         fast = self._run(self.full, {name: self.initial[name] for name in names if name in self.initial}, rung, samples)
+        if fast.outcome is not Outcome.REACHED:
+            return math.nan, f"at omega = {rung:g} the system ended as {fast.outcome}"
         shared = [state.name for state in self.slow.state]
         x0 = self.start(begin, [as_float(self.initial[name], f"initial.{name}") for name in shared], rung)
         mean = self._run(self.slow, dict(zip(shared, x0, strict=True)), rung, samples)
-        if not fast.outcome is mean.outcome is Outcome.REACHED:
-            return math.nan, f"at omega = {rung:g} the system ended as {fast.outcome}, the average as {mean.outcome}"
+        if mean.outcome is not Outcome.REACHED:
+            return math.nan, f"at omega = {rung:g} the average ended as {mean.outcome}"
         rows = [names.index(name) for name in shared]
         # A system that jumps has its samples between the jumps; its average is smooth, and has many.
         at = mean.x if np.array_equal(fast.t, mean.t) else CubicSpline(mean.t, mean.x, axis=1)(fast.t)

@@ -85,7 +85,7 @@ def _piece(plan: Plan, system: System, x: Array, given: Array, count: int, budge
         found.append(made.copy())
         carry[:] = made[-1]
         number = len(found) * _TRIALS
-        too_long = number > 4 * _TRIALS and number > most * carry[0]  # as far as can be foreseen, once steps have grown
+        too_long = number > 4 * _TRIALS + most * carry[0]  # as far as can be foreseen, once steps have grown
         if too_long or carry[2] * count < _SMALLEST or budget.spent:
             return None
     return np.concatenate(found)

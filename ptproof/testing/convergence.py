@@ -93,7 +93,8 @@ def _check(system: Any, average: Any, initial: Any) -> None:
 
 def _complaint(found: GapOrder) -> str:
     """The gap at each ω, and the powers observed and expected."""
-    rows = [(f"omega = {rung:g}", f"largest gap {gap:.6g}") for rung, gap in zip(found.omegas, found.gaps, strict=True)]
+    measured = ((rung, gap) for rung, gap in zip(found.omegas, found.gaps, strict=True) if not math.isnan(gap))
+    rows = [(f"omega = {rung:g}", f"largest gap {gap:.6g}") for rung, gap in measured]
     if not math.isfinite(found.slope):
         return lines("the order of convergence could not be observed: undecided", [("reason", found.message), *rows])
     rows += [

@@ -56,12 +56,14 @@ def test_the_json_contract(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -
     assert data["expected"] == {"verdict": "proved", "witness": None}
 
 
+@pytest.mark.usefixtures("in_this_process")
 def test_without_a_claim_nothing_is_expected(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     status, out, _ = run(tmp_path, capsys, TEXT.split("[expected]")[0], "--json")
     assert status == 0
     assert json.loads(out)["expected"] is None
 
 
+@pytest.mark.usefixtures("in_this_process")
 def test_a_missing_half_is_refuted_with_a_witness(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     status, out, _ = run(tmp_path, capsys, TEXT.replace("k/2*", "k*"), "--json")
     expected = json.loads(out)["expected"]
@@ -71,6 +73,7 @@ def test_a_missing_half_is_refuted_with_a_witness(tmp_path: Path, capsys: pytest
     assert "F(x1, x2)" in expected["witness"]["values"]
 
 
+@pytest.mark.usefixtures("in_this_process")
 def test_a_refused_system_has_no_average(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     status, out, err = run(tmp_path, capsys, TEXT.replace('"sin(theta)"', '"1 + sin(theta)"'), "--json")
     data = json.loads(out)
@@ -103,6 +106,7 @@ def test_a_time_limit_must_be_positive(tmp_path: Path, capsys: pytest.CaptureFix
     assert run(tmp_path, capsys, TEXT, "--timeout", "0")[0] == 2
 
 
+@pytest.mark.usefixtures("in_this_process")
 def test_people_see_the_average_and_the_assumptions(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     status, out, _ = run(tmp_path, capsys, TEXT)
     assert status == 0
@@ -111,6 +115,7 @@ def test_people_see_the_average_and_the_assumptions(tmp_path: Path, capsys: pyte
     assert "the expected average: proved" in out
 
 
+@pytest.mark.usefixtures("in_this_process")
 def test_people_see_the_witness(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     _, out, _ = run(tmp_path, capsys, TEXT.replace("k/2*", "k*"))
     assert "the expected average: refuted" in out

@@ -5,8 +5,11 @@ from pathlib import Path
 
 import pytest
 
+from ptproof.averaging import read_dither_system
+from ptproof.averaging.orders import average_to_order
 from tests.averaging.test_command import refused_with, run
 
+pytestmark = pytest.mark.usefixtures("in_this_process")
 THREE = """
 [system]
 state      = ["x"]
@@ -32,25 +35,25 @@ def stated(**orders: str) -> str:
     )
 
 
-def test_an_order_that_is_right_is_proved(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    status, out, err = run(tmp_path, capsys, stated(_2=derived(tmp_path, capsys)), "--json")
+@pytest.fixture(scope="module")
+def derived() -> str:
+    """A_2 as it is found."""
+    found = average_to_order(read_dither_system(THREE.replace("[expected]", "")), 2)
+    return str(found.averages[1][0])
+
+
+def test_an_order_that_is_right_is_proved(tmp_path: Path, capsys: pytest.CaptureFixture[str], derived: str) -> None:
+    status, out, err = run(tmp_path, capsys, stated(_2=derived), "--json")
     expected = json.loads(out)["expected"]
     assert (status, err, expected["verdict"]) == (0, "", "proved")
     assert [entry["order"] for entry in expected["orders"]] == [2]
 
 
-def derived(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> str:
-    """A_2 as the command finds it."""
-    _, out, _ = run(tmp_path, capsys, THREE.replace("[expected]", ""), "--order", "2", "--json")
-    return str(json.loads(out)["orders"][1]["average"][0])
-
-
 @pytest.mark.parametrize("change", ["2*({})", "-({})", "({}) + x/1000", "0*({})"])
 def test_an_order_that_is_wrong_shows_both_sides(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], change: str
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], derived: str, change: str
 ) -> None:
-    right = derived(tmp_path, capsys)
-    status, out, _ = run(tmp_path, capsys, stated(_2=change.format(right)))
+    status, out, _ = run(tmp_path, capsys, stated(_2=change.format(derived)))
     shown = " ".join(out.split())
     assert status == 1
     assert "the expected average of order 2: refuted; dx/dtau is derived as" in shown

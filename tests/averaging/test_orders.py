@@ -76,7 +76,7 @@ def test_everything_cancels_up_to_the_order(name: str) -> None:
 
 @pytest.mark.parametrize("name", SYSTEMS)
 def test_the_first_order_is_the_lie_bracket_average(name: str) -> None:
-    ours = averaged(name, 1).averages[0]
+    ours = averaged(name, 2).averages[0]
     brackets = derive(SYSTEMS[name]).system.rhs
     assert all(is_zero(left - right) for left, right in zip(ours, brackets, strict=True))
 

@@ -13,6 +13,7 @@ from tests.averaging.test_command import TEXT as PLAIN
 from tests.averaging.test_command import run
 from tests.averaging.test_reading import named_when_changed
 
+pytestmark = pytest.mark.usefixtures("in_this_process")
 TEXT = '''
 [system]
 state      = ["x"]

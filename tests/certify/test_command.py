@@ -42,6 +42,7 @@ def test_refuted_field_as_json():
     assert {"values", "left", "right", "largest_radius"} <= set(data["witness"])
 
 
+@pytest.mark.usefixtures("in_this_process")
 def test_expression_with_minus_and_letters_of_options_is_an_expression():
     result = run("-cosh(h)", "--vars", "h", "--kappa", "1", "--annulus", "1/2,1")
     assert result.return_value == 0
@@ -49,6 +50,7 @@ def test_expression_with_minus_and_letters_of_options_is_an_expression():
     assert "constants that certainly hold" in result.stdout
 
 
+@pytest.mark.usefixtures("in_this_process")
 def test_undecided_goes_to_standard_error_with_what_was_tried():
     result = run("-abs(x)**3", "--vars", "x", "--kappa", "1", "--radius", "1", "--json")
     assert result.return_value == 1

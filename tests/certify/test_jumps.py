@@ -32,7 +32,8 @@ FACTORS = {
 @pytest.mark.parametrize("factor", FACTORS.values(), ids=FACTORS)
 @pytest.mark.parametrize("domain", [{"radius": 2}, {"annulus": (R(1, 2), 2)}, {}], ids=["ball", "annulus", "plane"])
 def test_nothing_is_certified_across_a_jump(factor, domain):
-    found = certify_field(-square * factor, [x, y], [0, 0], 1, seconds=1, **domain)
+    # Wide constants are found soon, so that what ought not to be certified would be, if jumps were not seen.
+    found = certify_field(-square * factor, [x, y], [0, 0], 1, rtol=1, seconds=0.4, **domain)
     assert found.verdict is not Verdict.PROVED
     assert found.smaller is None or found.smaller.domain.outer <= R(8, 5)
 

@@ -151,11 +151,10 @@ def violations(seed, clock="paper"):
                 bounds.append(nonvanishing.printed_distance_bound(data))
         else:
             bounds = [vanishing.distance_bound(data, e, chain) for chain in chains]
-            if None not in bounds and bounds[-1].evalf() > bounds[0].evalf() * (1 + R(1, 10**9)):
-                return math.inf
-        for bound in bounds:
-            if bound is not None:
-                worst = max(worst, (distance - 1e-9) / float(bound))
+        values = [None if bound is None else float(bound) for bound in bounds]
+        if data.drift_bound is None and None not in values and values[-1] > values[0] * (1 + 1e-9):
+            return math.inf
+        worst = max([worst, *((distance - 1e-9) / value for value in values if value is not None)])
     return worst
 
 

@@ -56,7 +56,7 @@ def test_the_printed_threshold_is_the_least_critical_value_over_all_times(bounds
     ratio = float(bounds.c2 / bounds.c1) * math.sqrt(2 * norm / k)
     turning = float(T) * (ratio - 1)
     found = minimize_scalar(
-        lambda s: critical(round(s, 9)), bounds=(turning / 3, turning * 1.5), method="bounded", options={"xatol": 1e-6}
+        lambda s: critical(round(s, 5)), bounds=(turning / 3, turning * 1.5), method="bounded", options={"xatol": 1e-5}
     )
     threshold = value(gains(GainData(bounds, k=k, T=T, drift_norm=norm)), "critical.V0_threshold_printed")
     assert found.fun == pytest.approx(threshold, rel=1e-8)

@@ -81,10 +81,12 @@ def test_square_waves_have_the_order_one_half_too():
     system = DitherSystem(tau, theta, omega, (x,), (0,), ((1,), (x**2 - x / 3,)), (square, shifted))
     # v_21 = -pi/4 by hand: the mean of the shifted wave times the triangle wave that the square one integrates to.
     right = System(tau, (x,), (-sp.pi / 4 * (2 * x - sp.Rational(1, 3)),))
-    assert gap_order(system, right, initial=[1], end=1).agrees
+    asked = {"initial": [1], "end": 1, "omegas": (50, 100, 200, 400)}
+    assert gap_order(system, right, **asked).agrees
     # What the first harmonics alone would give: (4/pi)^2 / 2 in the place of pi/4.
     harmonic = System(tau, (x,), (-8 / sp.pi**2 * (2 * x - sp.Rational(1, 3)),))
-    assert not gap_order(system, harmonic, initial=[1], end=1, sharp=True).agrees
+    assert gap_order(system, right, sharp=True, **asked).agrees
+    assert not gap_order(system, harmonic, sharp=True, **asked).agrees
 
 
 @pytest.mark.parametrize("name", ["vanishing", "nonvanishing"])
@@ -95,9 +97,13 @@ def test_the_closed_loop_with_its_filter_has_the_order_one_half(name):
 def test_a_run_that_does_not_get_through_does_not_agree():
     tau, x, omega = sp.Symbol("tau", real=True), sp.Symbol("x", real=True), sp.Symbol("omega", positive=True)
     system = System(tau, (x,), (x**3 + sp.cos(omega * tau),))
-    gaps = gap_order(system, System(tau, (x,), (x**3,)), initial=[1], end=1, omega=omega, omegas=(10, 20, 40))
+    asked = {"initial": [1], "end": 1, "omega": omega, "omegas": (10, 20, 40)}
+    gaps = gap_order(system, System(tau, (x,), (x**3,)), **asked)
     assert not gaps.agrees
-    assert "escaped" in gaps.message
+    assert gaps.message == "at omega = 10 the system ended as escaped"
+    gaps = gap_order(System(tau, (x,), (sp.cos(omega * tau),)), System(tau, (x,), (x**3,)), **asked)
+    assert not gaps.agrees
+    assert gaps.message == "at omega = 10 the average ended as escaped"
 
 
 def test_states_that_don_t_fit_are_named():

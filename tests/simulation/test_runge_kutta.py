@@ -78,6 +78,11 @@ def test_the_same_without_the_trouble_is_taken():
         assert followed(job(System(t, (x,), (rate,)), [1.0], span, rtol=1e-8)) is not None
 
 
+def test_many_samples_are_no_reason_to_leave_it_to_others():
+    states = followed(job(System(t, (x, y), (y, -x)), [1, 0], (0, 10), rtol=1e-8), 5000)
+    np.testing.assert_allclose(states[0], np.cos(np.linspace(0, 10, 5001)[1:]), atol=1e-8)
+
+
 def test_who_leaves_the_ball_is_not_through():
     made = job(System(t, (x,), (x,)), [1.0], (0, 2), rtol=1e-8)
     assert followed(made) is not None

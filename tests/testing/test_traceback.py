@@ -25,6 +25,23 @@ def script(tmp_path, text):
     return subprocess.run([sys.executable, str(file)], capture_output=True, text=True, check=False)
 
 
+@pytest.fixture
+def shown(tmp_path, monkeypatch, capsys):
+    """What Python prints where a script ends by an error, without the start of another process."""
+    monkeypatch.setattr(sys, "excepthook", sys.__excepthook__)
+
+    def run(text):
+        file = tmp_path / "script.py"
+        file.write_text(text)
+        try:
+            exec(compile(text, str(file), "exec"), {"__name__": "__main__"})
+        except Exception as error:
+            sys.excepthook(type(error), error, error.__traceback__.tb_next)
+        return capsys.readouterr()
+
+    return run
+
+
 def frames(stderr):
     return [line for line in stderr.splitlines() if line.lstrip().startswith("File ")]
 
@@ -38,37 +55,36 @@ def test_in_a_plain_script_the_last_frame_is_the_users(tmp_path):
     assert "AssertionError: the two sides are not equal: refuted" in done.stderr
 
 
-def test_bad_use_in_a_plain_script_ends_there_too(tmp_path):
-    done = script(tmp_path, FAILING.replace("-x)", "0.5)") + "check()\n")
-    assert "in check" in frames(done.stderr)[-1]
-    assert "InputError: right: 0.5 is not exact" in done.stderr
+def test_bad_use_in_a_plain_script_ends_there_too(shown):
+    err = shown(FAILING.replace("-x)", "0.5)") + "check()\n").err
+    assert "in check" in frames(err)[-1]
+    assert "InputError: right: 0.5 is not exact" in err
 
 
 @pytest.mark.parametrize("call", ["assert_identity(x, None)", "assert_identity(x)", "assert_identity(x, x, foo=1)"])
-def test_so_does_a_wrong_type_or_a_wrong_number_of_arguments(tmp_path, call):
-    done = script(tmp_path, FAILING.replace("assert_identity(x, -x)", call) + "check()\n")
-    assert "in check" in frames(done.stderr)[-1]
-    assert "TypeError: " in done.stderr
+def test_so_does_a_wrong_type_or_a_wrong_number_of_arguments(shown, call):
+    err = shown(FAILING.replace("assert_identity(x, -x)", call) + "check()\n").err
+    assert "in check" in frames(err)[-1]
+    assert "TypeError: " in err
 
 
-def test_an_error_in_an_engine_keeps_its_whole_traceback(tmp_path):
-    broken = "import ptproof.proof.engines.exact\nptproof.proof.engines.exact.exact = lambda goal: len(3)\n"
-    done = script(tmp_path, FAILING + broken + "check()\n")
-    assert "in <lambda>" in frames(done.stderr)[-1]
+def test_an_error_in_an_engine_keeps_its_whole_traceback(shown, monkeypatch):
+    monkeypatch.setattr("ptproof.proof.engines.exact.exact", lambda goal: len(3))
+    assert "in <lambda>" in frames(shown(FAILING + "check()\n").err)[-1]
 
 
-def test_other_errors_keep_their_whole_traceback(tmp_path):
+def test_other_errors_keep_their_whole_traceback(shown):
     caught = (
         FAILING + "try:\n    check()\nexcept AssertionError:\n    pass\ndef other():\n    raise ValueError(1)\nother()"
     )
-    done = script(tmp_path, caught)
-    assert "in other" in frames(done.stderr)[-1]
-    assert "AssertionError" not in done.stderr
+    err = shown(caught).err
+    assert "in other" in frames(err)[-1]
+    assert "AssertionError" not in err
 
 
-def test_a_hook_of_the_users_is_kept(tmp_path):
+def test_a_hook_of_the_users_is_kept(shown):
     hook = "import sys\nsys.excepthook = lambda kind, error, trace: print('mine:', kind.__name__)\n"
-    assert "mine: AssertionError" in script(tmp_path, hook + FAILING + "check()\n").stdout
+    assert "mine: AssertionError" in shown(hook + FAILING + "check()\n").out
 
 
 def test_in_a_notebook_the_last_frame_is_the_users():
