@@ -139,6 +139,12 @@ def opened() -> Iterator[set[str]]:
         found |= {str(file) for name in set(sys.modules) - before if (file := _file_of(name))}
 
 
+def also_opened(files: Iterable[str]) -> None:
+    """Count files as opened in this process that another has opened for it."""
+    for found in _opened:
+        found.update(files)
+
+
 def _file_of(name: str) -> Any:
     return getattr(sys.modules.get(name), "__file__", None)
 
