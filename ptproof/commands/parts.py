@@ -17,7 +17,9 @@ from ptproof.reading import hashes
 from ptproof.reading.outcomes import Answered, Unanswered, Why
 from ptproof.report.drawn import Drawing, Drawn, draw
 from ptproof.report.kept import keeps, kept_json, kept_sides
+from ptproof.report.letters import notation_of
 from ptproof.report.read import ReadSide, read_sides
+from ptproof.report.typeset import Typeset, set_part
 
 if TYPE_CHECKING:
     from ptproof.commands.papers import Opened
@@ -142,3 +144,25 @@ class Sides:
 
 
 _KEPT = "kept sides"
+
+
+def set_statements(beside: Beside, papers: Sequence[Opened], count: int) -> dict[str, Typeset]:
+    """What the claims of each paper say, set by this process and the others together, up to ``count`` of them."""
+    paths = tuple(tuple(map(str, paper.paths)) for paper in papers)
+    settings = [Typeset(notation_of(_loaded(paper)).glyphs) for paper in papers]
+    count = min(count, _MOST)
+    others = range(1, count if sum(len(_loaded(paper).claims) for paper in papers) > _MANY else 1)
+    for place in others:
+        beside.begin((set_part, place), set_part, paths, place, count)
+    for paper, typeset in zip(papers, settings, strict=True):
+        typeset.part(_loaded(paper), 0, len(others) + 1)
+    for place in others:
+        match beside.outcome((set_part, place)):
+            case Answered(list(found)):  # what a process did not do is set where it is shown
+                for paper, typeset, lines in zip(papers, settings, found, strict=True):
+                    typeset.take(_loaded(paper), place, count, lines)
+    return {paper.name: typeset for paper, typeset in zip(papers, settings, strict=True)}
+
+
+_MOST = 4  # processes that share this, each of which has to be copied
+_MANY = 50  # claims; fewer are set before another process has begun

@@ -21,9 +21,9 @@ if TYPE_CHECKING:
     from ptproof.proof.load import Derivation
     from ptproof.proof.result import Verification
     from ptproof.report.drawn import Drawn
-    from ptproof.report.formula import Typeset
     from ptproof.report.model import Report
     from ptproof.report.read import ReadSide
+    from ptproof.report.typeset import Typeset
 
 
 @click.command()
@@ -57,7 +57,7 @@ def report(
     recorded, a figure could not be drawn, or what is printed is something else; the report is written all the same.
     """
     from ptproof.commands.beside import Beside
-    from ptproof.commands.parts import Figures, Sides
+    from ptproof.commands.parts import Figures, Sides, set_statements
     from ptproof.proof.run import Interrupted
     from ptproof.reading.latex.source import read_paper
     from ptproof.report.printing import browser
@@ -78,7 +78,7 @@ def report(
         figures = None if no_figures else Figures(beside, paths, fresh, max(count - 1, 1))
         with opened(paths, fresh) as papers:
             sides = Sides(beside, papers, max(count - 1, 1))
-            settings = {paper.name: _set(_derivation(paper)) for paper in papers}
+            settings = set_statements(beside, papers, count)
             read = sides.read(tex)
             if any(paper.memory.recall(claim) is None for paper in papers for claim in _derivation(paper).claims):
                 beside.rest()  # a proof's limit of time is one of time alone
@@ -160,18 +160,6 @@ def _show(place: Path, made: Made, single: bool, pdf: bool) -> int:
         click.echo(f"ptproof: {note}", err=True)
     _name_places(place, made.folders, single, pdf)
     return made.status
-
-
-def _set(derivation: Derivation) -> Typeset:
-    """What the derivation says as the report shows it; this is done while other processes do their part."""
-    from ptproof.report.formula import Typeset
-    from ptproof.report.letters import notation_of
-
-    typeset = Typeset(notation_of(derivation).glyphs)
-    for claim in derivation.claims:
-        for statement in (claim.statement, *claim.assumptions):
-            typeset.lines(statement)
-    return typeset
 
 
 def _composed(

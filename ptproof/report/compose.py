@@ -29,7 +29,7 @@ from ptproof.proof.statement import (
 from ptproof.proof.verdict import Evidence
 from ptproof.report import status
 from ptproof.report.content import Figure, Table
-from ptproof.report.formula import Typeset, domain_of, latex
+from ptproof.report.formula import domain_of, latex
 from ptproof.report.instruments.instrument import Instrument
 from ptproof.report.instruments.view import viewed
 from ptproof.report.letters import Notation, spelled
@@ -37,6 +37,7 @@ from ptproof.report.model import ClaimView, DefinitionView, Erratum, Ref, Report
 from ptproof.report.read import ReadSide
 from ptproof.report.spoken import Letters, spoken
 from ptproof.report.status import Status, status_of
+from ptproof.report.typeset import Typeset
 from ptproof.report.witness import witness_view
 
 

@@ -77,20 +77,6 @@ def statement_lines(statement: Statement | Assumption, names: Names) -> tuple[Li
     return (Line(str(statement.latex(symbol_names=dict(names)))),)  # a kind of statement that is newer than this page
 
 
-class Typeset:
-    """Statements as they are set in the letters of a paper, each once: many claims share an assumption."""
-
-    def __init__(self, names: Names) -> None:
-        self.names = names
-        self._set: dict[Statement | Assumption, tuple[Line, ...]] = {}
-
-    def lines(self, statement: Statement | Assumption) -> tuple[Line, ...]:
-        """The lines of :func:`statement_lines`."""
-        if statement not in self._set:
-            self._set[statement] = statement_lines(statement, self.names)
-        return self._set[statement]
-
-
 def _runs_lines(said: Runs, names: Names) -> Iterator[Line]:
     time, (first, last) = latex(said.time, names), said.during
     for x, rate in zip(said.state, said.rates, strict=True):
