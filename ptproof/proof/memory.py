@@ -52,6 +52,7 @@ class Memory:
         self._cache = Cache(folder and folder / self._environment[:16], say)
         self._before: dict[str, str] = {}
         self._files: dict[str, str] = {}
+        self._said: tuple[dict[str, str], str] = {}, ""  # the files, and what a claim's key says of them
         self._looked = 0.0
         self._open, self._whole = False, True
 
@@ -156,8 +157,10 @@ class Memory:
         return self._open
 
     def _key(self, claim: Claim) -> str:
-        files = (f"{Path(file).name} {digest}" for file, digest in sorted(self._files.items()))
-        return hashes.of_texts([self._environment, claim.id, claim.content, *files])
+        if self._said[0] != self._files:
+            files = (f"{Path(file).name} {digest}" for file, digest in sorted(self._files.items()))
+            self._said = dict(self._files), "\0".join(files)
+        return hashes.of_texts([self._environment, claim.id, claim.content, self._said[1]])
 
     def _value_key(self, name: str) -> str:
         files = (f"{file} {self._files[file]}" for file in sorted(self._files))

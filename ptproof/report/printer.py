@@ -78,11 +78,17 @@ def ordered(terms: list[sp.Expr]) -> list[sp.Expr]:
 
 def latex(expression: Any, names: Names, dots: bool = False) -> str:
     """SymPy's LaTeX with the glyphs of the notation; with ``dots`` between factors."""
-    known = _known(tuple(names.items()), dots) if isinstance(expression, sp.Basic) else {}
+    if not isinstance(expression, sp.Basic):
+        return _printed(expression, names, dots)
+    known = _known(tuple(names.items()), dots)
     if expression not in known:
-        settings = {"symbol_names": dict(names), "ln_notation": True, **({"mul_symbol": "dot"} if dots else {})}
-        known[expression] = str(_Printer(settings).doprint(expression))
+        known[expression] = _printed(expression, names, dots)
     return known[expression]
+
+
+def _printed(expression: Any, names: Names, dots: bool) -> str:
+    settings = {"symbol_names": dict(names), "ln_notation": True, **({"mul_symbol": "dot"} if dots else {})}
+    return str(_Printer(settings).doprint(expression))
 
 
 @lru_cache(maxsize=16)
