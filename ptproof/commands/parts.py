@@ -156,11 +156,13 @@ def set_statements(beside: Beside, papers: Sequence[Opened], count: int) -> dict
         beside.begin((set_part, place), set_part, paths, place, count)
     for paper, typeset in zip(papers, settings, strict=True):
         typeset.part(_loaded(paper), 0, len(others) + 1)
+        typeset.marked_up()
     for place in others:
         match beside.outcome((set_part, place)):
             case Answered(list(found)):  # what a process did not do is set where it is shown
                 for paper, typeset, lines in zip(papers, settings, found, strict=True):
                     typeset.take(_loaded(paper), place, count, lines)
+                    typeset.marked_up()
     return {paper.name: typeset for paper, typeset in zip(papers, settings, strict=True)}
 
 

@@ -190,7 +190,7 @@ def element(source: str, *, display: bool = False) -> ElementTree.Element | None
     return found
 
 
-@lru_cache(maxsize=4096)
+@lru_cache(maxsize=8192)
 def width(source: str) -> float:
     """About how many characters wide the formula is."""
     found = _converted(source)

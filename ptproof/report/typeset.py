@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from ptproof.proof.load import Derivation, load
 from ptproof.proof.statement import Assumption, Statement
-from ptproof.report.formula import Line, Names, statement_lines
+from ptproof.report.formula import Line, Names, statement_lines, width
 from ptproof.report.letters import notation_of
 
 Lines = tuple[Line, ...]
@@ -24,6 +24,12 @@ class Typeset:
         if statement not in self._set:
             self._set[statement] = statement_lines(statement, self.names)
         return self._set[statement]
+
+    def marked_up(self) -> None:
+        """Convert what is set to MathML, which the pages then find; for a time in which there is nothing else to do."""
+        for lines in self._set.values():
+            for line in lines:
+                width(line.latex)
 
     def part(self, derivation: Derivation, place: int, count: int) -> list[Lines]:
         """Set every ``count``-th of what the claims of the derivation say and assume, from that ``place`` on."""
