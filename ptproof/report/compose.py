@@ -65,11 +65,9 @@ def compose(
         Of the derivation: its title, and its letters and glyphs.
     versions
         Of the libraries.
-    figures, appendix, notes, read, instruments
+    figures, appendix, notes, read, instruments, typeset
         Pictures and tables from elsewhere, what the reader has to know, such as a figure that could not be drawn,
-        what became of printed sides in the paper's own source, by id, and what a reader may move.
-    typeset
-        Statements that are already set, in the same letters.
+        what became of printed sides in the paper's own source, by id, what a reader may move, and what is already set.
     """
     letters = notation or Notation()
     results = {result.claim.id: result for result in verification.results}
