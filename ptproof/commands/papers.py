@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ptproof.commands import options
@@ -16,9 +17,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Opened:
-    """A paper's name, its memory of earlier runs, and its derivation, or else what is known without loading it."""
+    """A paper's name and paths, its memory of earlier runs, and its derivation, or what is known without loading it."""
 
     name: str
+    paths: tuple[Path, ...]
     memory: Memory
     derivation: Derivation | None
     known: Any = None
@@ -47,7 +49,7 @@ def opened(
         for paper in papers:
             memory = options.memory_of(tuple(map(str, paper.paths)), fresh)
             if (kept := known(memory)) is not None:
-                found.append(Opened(paper.name, memory, None, kept))
+                found.append(Opened(paper.name, paper.paths, memory, None, kept))
                 continue
             if several and memory.lacks(select):
                 continue
@@ -58,7 +60,7 @@ def opened(
                     continue
                 raise
             if not several or derivation.select(select):
-                found.append(Opened(paper.name, memory, derivation))
+                found.append(Opened(paper.name, paper.paths, memory, derivation))
         if not found:
             raise NothingSelected(f"no claim of {', '.join(paper.name for paper in papers)} contains {select!r}")
         yield tuple(found)

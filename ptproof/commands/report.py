@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import sys
-from functools import partial
+import os
+from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -13,18 +13,17 @@ from ptproof.commands import guard, options, streams
 from ptproof.commands.made import Made
 from ptproof.commands.papers import Opened, opened
 from ptproof.errors import InputError
-from ptproof.reading.outcomes import in_words
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Mapping, Sequence
 
+    from ptproof.commands.parts import Figures
     from ptproof.proof.load import Derivation
     from ptproof.proof.result import Verification
-    from ptproof.report.content import Figure, Table
+    from ptproof.report.drawn import Drawn
     from ptproof.report.model import Report
     from ptproof.report.read import ReadSide
-
-T = TypeVar("T")
+    from ptproof.report.typeset import Typeset
 
 
 @click.command()
@@ -57,6 +56,8 @@ def report(
     prints was read from its source and is what is claimed. Exit status 1 if a claim did not come out as its author
     recorded, a figure could not be drawn, or what is printed is something else; the report is written all the same.
     """
+    from ptproof.commands.beside import Beside
+    from ptproof.commands.parts import Figures, Sides, set_statements
     from ptproof.proof.run import Interrupted
     from ptproof.reading.latex.source import read_paper
     from ptproof.report.printing import browser
@@ -71,10 +72,16 @@ def report(
     if not pdf and (made := Made.again(whole.run(asked))) is not None:
         return _show(place, made, single, pdf)
     decided: dict[str, Verification] = {}
-    with whole.loading():
+    count = how["jobs"] or os.cpu_count() or 1
+    with whole.loading(), Beside(at_once=count > 1) as beside:
         tex = {name: read_paper(name) for name in sources}
+        figures = None if no_figures else Figures(beside, paths, fresh, max(count - 1, 1))
         with opened(paths, fresh) as papers:
-            read = _read(papers, tex)
+            sides = Sides(beside, papers, max(count - 1, 1))
+            settings = set_statements(beside, papers, count)
+            read = sides.read(tex)
+            if any(paper.memory.recall(claim) is None for paper in papers for claim in _derivation(paper).claims):
+                beside.rest()  # a proof's limit of time is one of time alone
             for paper in papers:
                 try:
                     decided[paper.name] = _decided(paper, **how)
@@ -83,7 +90,7 @@ def report(
                     _say(_sums({**decided, paper.name: interrupted.verification}))
                     return status
             try:
-                made, drawn = _made(papers, decided, read, no_figures, single, printer)
+                made, drawn = _made(papers, decided, read, settings, figures, single, printer)
             except KeyboardInterrupt:  # nothing is half written, and what is decided is shown
                 _say(_sums(decided))
                 if guard.own_interrupt():
@@ -110,34 +117,12 @@ def _derivation(paper: Opened) -> Derivation:
     return paper.derivation
 
 
-def _read(papers: Sequence[Opened], tex: Mapping[str, str]) -> dict[str, Mapping[str, ReadSide]]:
-    """What became of the printed sides of each paper, by its name: of its source, or of what is kept of it."""
-    from ptproof.commands.coverage import own
-    from ptproof.report.kept import kept_sides
-    from ptproof.report.labels import all_labels
-    from ptproof.report.read import ReadSide, read_sides
-
-    def plain(derivation: Derivation) -> dict[str, Any]:
-        return {id: side.to_json() for id, side in kept_sides(derivation).items()}
-
-    found: dict[str, Mapping[str, ReadSide]] = {}
-    for file, source in tex.items():
-        name, derivation = own(papers, {*all_labels(source)}, file)
-        if name in found:
-            raise InputError(f"--paper: {file} is about {name}, and so is another that is given")
-        found[name] = read_sides(source, derivation)
-    for paper in papers:
-        known = paper.memory.value("kept sides", partial(plain, _derivation(paper)))
-        kept = {id: ReadSide.from_json(side) for id, side in known.items()}
-        found[paper.name] = {**kept, **found.get(paper.name, {})}
-    return found
-
-
 def _made(
     papers: Sequence[Opened],
     decided: dict[str, Verification],
     read: Mapping[str, Mapping[str, ReadSide]],
-    no_figures: bool,
+    settings: Mapping[str, Typeset],
+    figures: Figures | None,
     single: bool,
     printer: str,
 ) -> tuple[Made, bool]:
@@ -146,8 +131,11 @@ def _made(
 
     guard.doing("while the report was made; none is written")
     composed = {
-        paper.name: _composed(paper, decided[paper.name], read.get(paper.name, {}), no_figures) for paper in papers
+        paper.name: _composed(paper, decided[paper.name], read.get(paper.name, {}), settings[paper.name])
+        for paper in papers
     }
+    if figures is not None:
+        composed = {paper.name: _illustrated(figures.of(paper), *composed[paper.name]) for paper in papers}
     files = all_files({name: found for name, (found, _) in composed.items()}, single=single, browser=printer)
     several, notes = len(composed) > 1, []
     for name, (found, failures) in composed.items():
@@ -175,24 +163,31 @@ def _show(place: Path, made: Made, single: bool, pdf: bool) -> int:
 
 
 def _composed(
-    paper: Opened, verification: Verification, read: Mapping[str, ReadSide], no_figures: bool
+    paper: Opened, verification: Verification, read: Mapping[str, ReadSide], typeset: Typeset
 ) -> tuple[Report, tuple[str, ...]]:
-    """The content of the report, and what could not be drawn."""
+    """The content of the report without figures, and what could not be drawn."""
     from ptproof.report.compose import compose
+    from ptproof.report.drawn import tried
     from ptproof.report.instruments import instruments_of
     from ptproof.report.letters import notation_of, title_of
     from ptproof.report.versions import versions
 
     derivation = _derivation(paper)
-    drawn, failures = (None, ()) if no_figures else _tried("figures", lambda: _drawn(derivation))
-    tools, more = _tried("instruments", lambda: tuple(instruments_of(derivation)))
-    (figures, tables), failures = drawn or ((), ()), (*failures, *more)
+    tools, failure = tried("instruments", lambda: tuple(instruments_of(derivation)))
+    failures = (failure,) if failure else ()
     content = compose(
-        verification, derivation, title=title_of(derivation), notation=notation_of(derivation),
-        versions=versions(), figures=figures, appendix=tables, notes=failures, read=read,
-        instruments=tools or (),
+        verification, derivation, title=title_of(derivation), notation=notation_of(derivation), versions=versions(),
+        notes=failures, read=read, instruments=tools or (), typeset=typeset,
     )  # fmt: skip
     return content, failures
+
+
+def _illustrated(drawn: Drawn, content: Report, failures: tuple[str, ...]) -> tuple[Report, tuple[str, ...]]:
+    """The report with its figures, or with a note why there are none."""
+    failed = (drawn.failed,) if drawn.failed else ()
+    own = content.notes[: len(content.notes) - len(failures)]
+    notes = (*own, *failed, *failures)
+    return replace(content, figures=drawn.figures, appendix=drawn.tables, notes=notes), (*failed, *failures)
 
 
 def _name_places(place: Path, names: Sequence[str], single: bool, pdf: bool) -> None:
@@ -223,24 +218,3 @@ def _sums(decided: Mapping[str, Verification]) -> tuple[str, ...]:
 def _say(lines: Sequence[str]) -> None:
     for line in lines:
         click.echo(line, file=streams.out())
-
-
-def _drawn(derivation: Derivation) -> tuple[tuple[Figure, ...], tuple[Table, ...]]:
-    """The figures and tables of the derivation."""
-    from ptproof.report.content import brought
-
-    if any(f"{package.__name__}.figures" in sys.modules for package in derivation.packages):
-        click.echo("simulating and drawing the figures", err=True)
-    return tuple(brought(derivation, "figures")), tuple(brought(derivation, "tables"))
-
-
-def _tried(what: str, make: Callable[[], T]) -> tuple[T | None, tuple[str, ...]]:
-    """What is made, or what the report says instead: a part that fails is named in it and does not end it."""
-    try:
-        return make(), ()
-    except KeyboardInterrupt:
-        raise
-    except Exception as error:
-        return None, (f"The {what} could not be drawn: {type(error).__name__}: {error}",)
-    except BaseException as error:
-        return None, (f"The {what} could not be drawn: their code {in_words(error)}",)

@@ -127,6 +127,18 @@ def load(paths: Sequence[str | Path] = (), only: Collection[Path] | None = None)
     return Derivation(every, definitions, tuple(map(str, chosen)), tuple(modules), homes, tuple(gaps.values()))
 
 
+def files_named(paths: Sequence[Path], stem: str) -> tuple[str, ...]:
+    """The files of this name below the paths that are modules beside others."""
+    return tuple(str(file) for file in files_of(paths) if file.stem == stem and "." in _module_name(file, paths))
+
+
+def modules_of(files: Iterable[str]) -> list[ModuleType]:
+    """The modules of these files, imported with what they import and nothing else."""
+    chosen = [Path(file) for file in files]
+    _distrust_compiled({file.parent for file in chosen})
+    return [_module(file) for file in chosen]
+
+
 def _distrust_compiled(folders: Iterable[Path]) -> None:
     """Remove what Python has compiled of files that were young then.
 

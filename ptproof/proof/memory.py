@@ -52,6 +52,7 @@ class Memory:
         self._cache = Cache(folder and folder / self._environment[:16], say)
         self._before: dict[str, str] = {}
         self._files: dict[str, str] = {}
+        self._said: tuple[dict[str, str], str] = {}, ""  # the files, and what a claim's key says of them
         self._looked = 0.0
         self._open, self._whole = False, True
 
@@ -131,14 +132,21 @@ class Memory:
 
     def value(self, name: str, make: Callable[[], Any]) -> Any:
         """What ``make`` says of this state of every file, as plain data: from an earlier run where that is known."""
-        files = (f"{file} {digest}" for file, digest in sorted(self._files.items()))
-        key = hashes.of_texts([name, self._environment, *files])
-        known = None if self._fresh or not self._open else self._cache.read(key)
+        known = self.known(name)
         if known is None:
             known = make()
             if self._unchanged():
-                self._cache.write(key, known)
+                self._cache.write(self._value_key(name), known)
         return known
+
+    def known(self, name: str) -> Any:
+        """The value of that name, where :meth:`value` has it from an earlier run; None elsewhere."""
+        return None if self._fresh or not self._open else self._cache.read(self._value_key(name))
+
+    @property
+    def files(self) -> tuple[str, ...]:
+        """Every file that what was loaded depends on."""
+        return tuple(self._files)
 
     def _unchanged(self) -> bool:
         """Whether the files are as they were when they were loaded; looked at from time to time."""
@@ -149,8 +157,14 @@ class Memory:
         return self._open
 
     def _key(self, claim: Claim) -> str:
-        files = (f"{Path(file).name} {digest}" for file, digest in sorted(self._files.items()))
-        return hashes.of_texts([self._environment, claim.id, claim.content, *files])
+        if self._said[0] != self._files:
+            files = (f"{Path(file).name} {digest}" for file, digest in sorted(self._files.items()))
+            self._said = dict(self._files), "\0".join(files)
+        return hashes.of_texts([self._environment, claim.id, claim.content, self._said[1]])
+
+    def _value_key(self, name: str) -> str:
+        files = (f"{file} {self._files[file]}" for file in sorted(self._files))
+        return hashes.of_texts([name, self._environment, *files])
 
     def _key_of(self, *what: str) -> str:
         return hashes.of_texts([*what, self._environment, *map(str, self._paths)])

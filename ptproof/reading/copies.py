@@ -71,11 +71,22 @@ class Copies:
     def each(
         self, seconds: float, work: Callable[..., Any], tasks: Mapping[Key, tuple[Any, ...]]
     ) -> Iterator[tuple[Key, Answered[Any] | Unanswered]]:
-        """The key of each task with what came of it, as they end."""
+        """The key of each task with what came of it, as they end; the work begins at once."""
         keys = dict(enumerate(tasks))
+        payloads = [(n, pickle.dumps((work, tasks[key]))) for n, key in keys.items()]
         try:
-            connection = self._connected(work)
-            connection.send((seconds, [(n, pickle.dumps((work, tasks[key]))) for n, key in keys.items()]))
+            self._connected(work).send((seconds, payloads))
+        except OSError as error:
+            return self._outcomes(keys, error)
+        return self._outcomes(keys)
+
+    def _outcomes(
+        self, keys: dict[int, Key], lost: OSError | None = None
+    ) -> Iterator[tuple[Key, Answered[Any] | Unanswered]]:
+        try:
+            connection = self._to_host
+            if lost is not None or connection is None:
+                raise lost or EOFError
             while keys:
                 if not connection.poll(None if self._ready else LOADING):
                     raise TimeoutError

@@ -137,6 +137,12 @@ def opened() -> Iterator[set[str]]:
         found.update(str(file) for file in new if file)
 
 
+def also_opened(files: Iterable[str]) -> None:
+    """Count files as opened in this process that another has opened for it."""
+    for found in _opened:
+        found.update(files)
+
+
 def _note(event: str, arguments: tuple[Any, ...]) -> None:
     if event == "open" and _opened and isinstance(arguments[0], str | bytes):
         mode, flags = arguments[1:3]

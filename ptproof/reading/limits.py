@@ -217,6 +217,9 @@ class Workers:
     def each(
         self, seconds: float, work: Callable[..., Answer], tasks: Mapping[Key, tuple[Any, ...]]
     ) -> Iterator[tuple[Key, Answered[Answer] | Unanswered]]:
-        """The key of each task with what came of ``work(*task)``, as they end; the limit is that of one task."""
+        """The key of each task with what came of ``work(*task)``, as they end; the limit is that of one task.
+
+        The work begins at once, also where nobody has asked yet for what comes of it.
+        """
         check_seconds(seconds)
         return self._backend.each(seconds, work, tasks)

@@ -35,14 +35,13 @@ class Spawned:
     def each(
         self, seconds: float, work: Callable[..., Any], tasks: Mapping[Key, tuple[Any, ...]]
     ) -> Iterator[tuple[Key, Answered[Any] | Unanswered]]:
-        """The key of each task with what came of it, as they end."""
+        """The key of each task with what came of it, as they end; the work begins at once."""
         from concurrent.futures import as_completed
 
         waiting = {
             self._pool.schedule(_call, args=(work, arguments), timeout=seconds): key for key, arguments in tasks.items()
         }
-        for future in as_completed(waiting):
-            yield waiting[future], self._outcome(future, seconds)
+        return ((waiting[future], self._outcome(future, seconds)) for future in as_completed(waiting))
 
     def _outcome(self, future: Any, seconds: float) -> Answered[Any] | Unanswered:
         from pebble import ProcessExpired

@@ -29,7 +29,7 @@ from ptproof.proof.statement import (
 from ptproof.proof.verdict import Evidence
 from ptproof.report import status
 from ptproof.report.content import Figure, Table
-from ptproof.report.formula import Line, domain_of, latex, statement_lines
+from ptproof.report.formula import domain_of, latex
 from ptproof.report.instruments.instrument import Instrument
 from ptproof.report.instruments.view import viewed
 from ptproof.report.letters import Notation, spelled
@@ -37,6 +37,7 @@ from ptproof.report.model import ClaimView, DefinitionView, Erratum, Ref, Report
 from ptproof.report.read import ReadSide
 from ptproof.report.spoken import Letters, spoken
 from ptproof.report.status import Status, status_of
+from ptproof.report.typeset import Typeset
 from ptproof.report.witness import witness_view
 
 
@@ -52,6 +53,7 @@ def compose(
     notes: Sequence[str] = (),
     read: Mapping[str, ReadSide] = MappingProxyType({}),
     instruments: Sequence[Instrument] = (),
+    typeset: Typeset | None = None,
 ) -> Report:
     """Put the content of the report together.
 
@@ -63,14 +65,14 @@ def compose(
         Of the derivation: its title, and its letters and glyphs.
     versions
         Of the libraries.
-    figures, appendix, notes, read, instruments
+    figures, appendix, notes, read, instruments, typeset
         Pictures and tables from elsewhere, what the reader has to know, such as a figure that could not be drawn,
-        what became of printed sides in the paper's own source, by id, and what a reader may move.
+        what became of printed sides in the paper's own source, by id, what a reader may move, and what is already set.
     """
     letters = notation or Notation()
     results = {result.claim.id: result for result in verification.results}
     refs = _refs(verification.results, derivation.definitions, results)
-    composer = _Composer(results, refs, letters.glyphs, read)
+    composer = _Composer(results, refs, typeset or Typeset(letters.glyphs), read)
     views = {result.claim.id: composer.claim(result) for result in verification.results}
     sections = _sections(
         [views[result.claim.id] for result in verification.results],
@@ -126,13 +128,13 @@ class _Composer:
         self,
         results: Mapping[str, Result],
         refs: Mapping[str, Ref],
-        glyphs: Mapping[object, str],
+        typeset: Typeset,
         read: Mapping[str, ReadSide],
     ) -> None:
-        self.results, self.refs, self.glyphs, self.read = results, refs, glyphs, read
+        self.results, self.refs, self.read = results, refs, read
+        self.lines, self.glyphs = typeset.lines, (glyphs := typeset.names)
         self.letters = Letters(glyphs)
         self.spellings = {spelled(glyph) for glyph in glyphs.values()}
-        self.set: dict[Statement | Assumption, tuple[Line, ...]] = {}
         self.users: dict[str, list[str]] = {}
         self.corrections: dict[str, list[str]] = {}
         for result in results.values():
@@ -143,12 +145,6 @@ class _Composer:
 
     def links(self, ids: Sequence[str]) -> tuple[Ref, ...]:
         return tuple(self.refs[id] for id in dict.fromkeys(ids) if id in self.refs)
-
-    def lines(self, statement: Statement | Assumption) -> tuple[Line, ...]:
-        """The statement as it is set; many claims share an assumption."""
-        if statement not in self.set:
-            self.set[statement] = statement_lines(statement, self.glyphs)
-        return self.set[statement]
 
     def claim(self, result: Result) -> ClaimView:
         claim = result.claim

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import re
-import sys
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from types import ModuleType
 from typing import Any
 
 from ptproof.errors import InputError
-from ptproof.proof.load import Derivation
 
 
 @dataclass(frozen=True)
@@ -78,13 +77,12 @@ class Table:
                 raise InputError(f"table {self.title!r}: a row has {len(row)} cells, the head {len(self.head)}")
 
 
-def brought(derivation: Derivation, kind: str) -> Iterator[Any]:
-    """The ``figures`` or ``tables`` of a derivation, drawn and computed as they are asked for.
+def brought(modules: Iterable[ModuleType], kind: str) -> Iterator[Any]:
+    """The ``figures`` or ``tables`` that modules bring, drawn and computed as they are asked for.
 
     They are what the functions of these names give in a module ``figures`` beside the claims, where there is one.
     """
-    for package in derivation.packages:
-        module = sys.modules.get(f"{package.__name__}.figures")
+    for module in modules:
         for item in getattr(module, kind, tuple)():
             if not isinstance(item, Figure | Table):
                 raise InputError(f"{kind}() gives figures and tables of ptproof.report.content, got {item!r}")

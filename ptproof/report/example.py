@@ -12,6 +12,7 @@ from sympy.core.function import AppliedUndef
 from ptproof.proof.statement import All, Relation, Statement, relations_of
 from ptproof.report.formula import SIGNS, Names, latex, width
 from ptproof.report.printer import numbers
+from ptproof.system import replaced
 
 _ROOM, _SHORT = 60.0, 12.0
 _DIGITS = (6, 9, 14, 20)
@@ -36,7 +37,7 @@ class Point:
             arguments, body = self.functions[node.func.__name__]
             return body.xreplace(dict(zip(arguments, node.args, strict=True)))
 
-        return side.replace(ours, put).doit(integrals=False).subs(dict(self.symbols), simultaneous=True)
+        return replaced(side.replace(ours, put).doit(integrals=False), self.symbols)
 
 
 @dataclass(frozen=True)

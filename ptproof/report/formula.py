@@ -32,6 +32,7 @@ from ptproof.report.printer import ordered
 
 SIGNS = {"=": "=", "<=": r"\le", "<": "<", ">=": r"\ge", ">": ">", "!=": r"\ne"}
 _ROOM = 84.0  # characters in a line of the page
+_LONG = 250  # characters of LaTeX that are seldom a line
 _FUNCTIONS = frozenset(
     ["sin", "cos", "tan", "log", "ln", "exp", "sinh", "cosh", "tanh", "atan", "asin", "acos", "arctan", "lim", "sign"]
 )
@@ -135,8 +136,11 @@ def _list(symbols: Iterable[sp.Symbol], names: Names) -> str:
 def _relation_lines(relation: Relation, names: Names) -> tuple[Line, ...]:
     left, right = latex(relation.left, names), latex(relation.right, names)
     sign = SIGNS[relation.sign]
-    if width(left) + width(right) < _ROOM:
-        return (Line(f"{left} {sign} {right}"),)
+    whole = f"{left} {sign} {right}"
+    # What is likely to be shown is measured: the whole where it is short, and the sides where it is long.
+    wide = width(left) + width(right) if len(whole) > _LONG else width(whole) - width(sign)
+    if wide < _ROOM:
+        return (Line(whole),)
     if isinstance(relation.left, sp.MatrixBase):
         return tuple(line for part in relation.components() for line in _relation_lines(part, names))
     first, *rest = _broken(relation.left, left, names)
@@ -153,12 +157,14 @@ def _broken(expression: Any, whole: str, names: Names) -> list[str]:
     """A sum that is too wide for a line, between its terms."""
     if width(whole) < _ROOM or not isinstance(expression, sp.Add):
         return [whole]
-    lines = [""]
+    lines, wide = [""], 0.0
     for term in ordered(expression.as_ordered_terms()):
         text = latex(term, names)
         joined = text if lines == [""] else (f"- {text[1:].lstrip()}" if text.startswith("-") else f"+ {text}")
-        if lines[-1] and width(f"{lines[-1]} {joined}") > _ROOM:
+        wide += width(joined)  # the terms of a line are as wide as the line
+        if lines[-1] and wide > _ROOM:
             lines.append(joined)
+            wide = width(joined)
         else:
             lines[-1] = f"{lines[-1]} {joined}".strip()
     return lines
@@ -184,7 +190,7 @@ def element(source: str, *, display: bool = False) -> ElementTree.Element | None
     return found
 
 
-@lru_cache(maxsize=4096)
+@lru_cache(maxsize=8192)
 def width(source: str) -> float:
     """About how many characters wide the formula is."""
     found = _converted(source)

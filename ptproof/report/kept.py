@@ -6,12 +6,13 @@ against the claims that cover it.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 from ptproof.errors import InputError
-from ptproof.proof.load import Derivation
+from ptproof.proof.load import Derivation, load
 from ptproof.reading.latex.formulas import Formulas
 from ptproof.reading.latex.kept import FILE, Kept, read_kept, written_kept
 from ptproof.reading.latex.notation import says_of
@@ -37,6 +38,11 @@ def kept(derivation: Derivation) -> Kept | None:
                 raise InputError(f"{file}: [corrected] names {', '.join(unknown)}, which corrects nothing")
             return found
     return None
+
+
+def keeps(derivation: Derivation) -> bool:
+    """Whether any formula is kept beside the derivation."""
+    return any(file.is_file() for file in _files(derivation))
 
 
 def keep(derivation: Derivation, formulas: Formulas, source: Printed) -> Path:
@@ -73,6 +79,12 @@ def kept_sides(derivation: Derivation, found: Kept | None = None) -> dict[str, R
     source = printed(derivation)
     read = sides(compare_all(found.formulas, source), (), derivation)
     return {**read, **corrected_sides(derivation, found, source)}
+
+
+def kept_json(derivations: Sequence[Sequence[str]]) -> list[dict[str, Any]]:
+    """The same of the derivations below each of these paths, as plain data."""
+    found = (kept_sides(load(paths)) for paths in derivations)
+    return [{id: side.to_json() for id, side in sides.items()} for sides in found]
 
 
 def corrected_sides(derivation: Derivation, found: Kept, source: Printed) -> dict[str, ReadSide]:

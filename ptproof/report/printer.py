@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from functools import lru_cache
 from typing import Any
 
 import sympy as sp
@@ -77,8 +78,23 @@ def ordered(terms: list[sp.Expr]) -> list[sp.Expr]:
 
 def latex(expression: Any, names: Names, dots: bool = False) -> str:
     """SymPy's LaTeX with the glyphs of the notation; with ``dots`` between factors."""
+    if not isinstance(expression, sp.Basic):
+        return _printed(expression, names, dots)
+    known = _known(tuple(names.items()), dots)
+    if expression not in known:
+        known[expression] = _printed(expression, names, dots)
+    return known[expression]
+
+
+def _printed(expression: Any, names: Names, dots: bool) -> str:
     settings = {"symbol_names": dict(names), "ln_notation": True, **({"mul_symbol": "dot"} if dots else {})}
     return str(_Printer(settings).doprint(expression))
+
+
+@lru_cache(maxsize=16)
+def _known(names: tuple[tuple[Any, str], ...], dots: bool) -> dict[Any, str]:
+    """What was set in these letters: many statements share a side or a letter."""
+    return {}
 
 
 def numbers(value: sp.Expr) -> str:

@@ -60,7 +60,7 @@ def _entries(report: Report) -> Iterator[list[Any]]:
             yield [claim.ref.anchor, claim.ref.id, claim.ref.title, claim.status.key, words]
     for view in report.instruments:
         moved = [control.meaning for control in view.controls]
-        shown = [part.title for part in (*view.rows, *view.pictures)]
+        shown = [*(row.title for row in view.rows), *(picture.title for picture in view.pictures)]
         words = _words((), view.instrument.prose, *moved, *shown)
         yield [f"i-{view.instrument.name}", "instrument", view.instrument.title, "instrument", words]
     for figure in report.figures:

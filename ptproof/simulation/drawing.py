@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import io
 import re
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -56,11 +58,36 @@ def svg(figure: Any) -> bytes:
     """The figure as SVG bytes that follow light and dark, with letters as outlines, to a hundredth of a point."""
     dark = "".join(f"--c{light[1:]}:{other};" for light, other in DARK.items())
     style = f"@media (prefers-color-scheme:dark){{svg{{{dark}fill:{DARK['#000000']}}}}}"
-    text = _drawn(figure, "svg", dict.fromkeys(("Date", "Creator", "Format", "Type"))).decode()
+    with _placed(figure):
+        text = _drawn(figure, "svg", dict.fromkeys(("Date", "Creator", "Format", "Type"))).decode()
     text = re.sub(r"^.*?(?=<svg)|<!--.*?-->|<metadata>.*?</metadata>", "", text, flags=re.DOTALL)
     text = re.sub(r' (?:d|x|y)="[^"]+"', lambda part: _NUMBER.sub(_rounded, part[0]), re.sub(r"\s*\n\s*", "\n", text))
     text = re.sub(r"#[0-9a-f]{6}\b", lambda hue: f"var(--c{hue[0][1:]},{hue[0]})" if hue[0] in DARK else hue[0], text)
     return text.replace("</style>", f"{style}</style>", 1).encode()
+
+
+@contextmanager
+def _placed(figure: Any) -> Iterator[None]:
+    """Meanwhile its axes stay where their layout puts them in an SVG.
+
+    To find that out, Matplotlib would draw the whole figure once for nothing; the layout measures what it needs.
+    """
+    import matplotlib
+    from matplotlib.backends.backend_svg import FigureCanvasSVG
+
+    layout, canvas = figure.get_layout_engine(), figure.canvas
+    if layout is None:
+        yield
+        return
+    with matplotlib.rc_context(_STYLE):
+        FigureCanvasSVG(figure)
+        layout.execute(figure)
+        figure.set_canvas(canvas)
+    figure.set_layout_engine(None)
+    try:
+        yield
+    finally:
+        figure.set_layout_engine(layout)
 
 
 def _drawn(figure: Any, kind: str, metadata: dict[str, Any]) -> bytes:

@@ -163,6 +163,31 @@ def test_figures_that_end_the_process_leave_no_report_and_no_good_status(tmp_pat
     assert not (tmp_path / "out").exists()
 
 
+def test_figures_that_raise_an_interrupt_are_bad_input(tmp_path: Path) -> None:
+    write(tmp_path)
+    (tmp_path / "figures.py").write_text("def figures():\n    raise KeyboardInterrupt\n")
+    status, _, err = ended(start("report", tmp_path, "--out", tmp_path / "out"))
+    assert status == 2
+    assert "the derivation raised KeyboardInterrupt while the report was written" in err
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_an_interrupt_ends_figures_that_hang_in_another_process(jobs: int, tmp_path: Path) -> None:
+    write(tmp_path)
+    log = tmp_path.with_name(f"{tmp_path.name}-log")
+    body = f"def figures():\n    open({str(log)!r}, 'w').close()\n    while True: pass\n"
+    (tmp_path / "figures.py").write_text(body)
+    environment = {**os.environ, "PTPROOF_TEST_MARK": str(tmp_path)}
+    process = start("report", tmp_path, "--out", tmp_path / "out", "--jobs", jobs, env=environment)
+    _wait(log.exists)
+    process.send_signal(signal.SIGINT)
+    status, _, err = ended(process)
+    assert (status, "interrupted" in err, "Traceback" in err) == (130, True, False)
+    assert not (tmp_path / "out").exists()
+    _wait(lambda: not _running(str(tmp_path)))
+
+
 def _wait(condition: object) -> None:
     for _ in range(600):
         if condition():  # type: ignore[operator]

@@ -117,7 +117,12 @@ AGAIN = {
     "nothing": ((), lambda folder: None, 1),
     "another place": (("--out", "other"), lambda folder: None, 1),
     "fresh": (("--fresh",), lambda folder: None, 2),
-    "another question": (("--single",), lambda folder: None, 2),
+    "another question": (("--single",), lambda folder: None, 1),
+    "another question and a file elsewhere": (
+        ("--single",),
+        lambda folder: (folder.parent / "data").write_text("2"),
+        2,
+    ),
     "a file": ((), lambda folder: (folder / "more.py").write_text("y = 1\n"), 2),
     "a file elsewhere": ((), lambda folder: (folder.parent / "data").write_text("2"), 2),
 }
@@ -138,10 +143,26 @@ def test_a_report_is_made_again_where_something_it_depends_on_has_changed(
     second = run(capsys, "report", folder, *(() if "--out" in arguments else ("--out", "out")), *arguments)
     assert first[0] == second[0] == 0
     assert (folder.parent / "log").read_text().count("drawn") == drawn
-    if drawn == 1:
+    if drawn == 1 and "--single" not in arguments:
         out = "other" if "--out" in arguments else "out"
         assert second[1] == first[1].replace("out/", f"{out}/")
         assert (folder.parent / out / "figures" / "f.svg").is_file()
+
+
+def test_a_report_with_remembered_figures_depends_on_what_they_have_read(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    figures, data = FIGURES.format(log=str(folder.parent / "log")), folder.parent / "data"
+    data.write_text("1")
+    (folder / "figures.py").write_text(
+        figures.replace("    return", f"    Path({str(data)!r}).read_text()\n    return")
+    )
+    for arguments in ((), ("--single",), ("--single",)):
+        run(capsys, "report", folder, "--out", "out", *arguments)
+    assert (folder.parent / "log").read_text().count("drawn") == 1
+    data.write_text("2")
+    run(capsys, "report", folder, "--out", "out", "--single")
+    assert (folder.parent / "log").read_text().count("drawn") == 2
 
 
 def test_a_report_without_its_figures_is_tried_again(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -76,6 +76,36 @@ def test_several_papers_have_a_folder_each_and_a_page_above(papers, tmp_path, ca
     assert str(out / "other" / "index.html") in said.out
 
 
+MANY = """
+import sympy as sp
+from ptproof.proof import claim, eq, exact, gt
+SECTION = "1 Many"
+x, y, k = sp.symbols("x y k", positive=True)
+"""
+SUM = " + ".join(f"{power} * x**{power} * sp.exp(y)" for power in range(2, 40))
+
+
+def test_two_processes_write_the_bytes_of_one(tmp_path):
+    for name in ("one", "two"):
+        folder = tmp_path / name
+        folder.mkdir()
+        said = "eq({n} * x + ({sum}), ({sum}) + {n} * x), given=[gt(x, {n})], labels=['eq:{n}']"
+        claims = (f"c{n} = claim('{n}', 'No. {n}', {said.format(n=n, sum=SUM)})(exact)" for n in range(40))
+        (folder / "claims.py").write_text(MANY + "\n".join(claims))
+        (folder / "__init__.py").touch()
+        (folder / "notation.toml").write_text('letters = { x = "x", y = "y" }')
+        (folder / "printed.toml").write_text("[printed]\n'eq:7' = 'y = 2 x'")
+        (folder / "figures.py").write_text(FIGURES.replace("{body}", "pass"))
+    written = []
+    for jobs in (1, 2):
+        out = tmp_path / f"out-{jobs}"
+        with pytest.raises(SystemExit):
+            main(["report", "--jobs", str(jobs), "--out", str(out), str(tmp_path / "one"), str(tmp_path / "two")])
+        written.append({file.relative_to(out): file.read_bytes() for file in out.rglob("*") if file.is_file()})
+    assert written[0] == written[1]
+    assert len(written[0]) > 20
+
+
 def test_a_paper_that_cannot_be_loaded_is_bad_input_and_nothing_is_written(papers, tmp_path):
     (papers[1] / "claims.py").write_text("nonsense(")
     assert status(*papers, "--out", tmp_path / "out") == 2

@@ -42,6 +42,27 @@ def test_the_same_figure_gives_the_same_bytes_without_a_date_or_a_place():
     assert len(drawn) < 300_000
 
 
+def test_the_layout_alone_gives_the_bytes_that_drawing_twice_gives(monkeypatch):
+    from contextlib import nullcontext
+
+    from matplotlib.figure import Figure
+
+    draw, count = Figure.draw, []
+    monkeypatch.setattr(Figure, "draw", lambda *arguments: [count.append(1), draw(*arguments)])
+    once, drawn = wave(), len(count)
+    monkeypatch.setattr("ptproof.simulation.drawing._placed", lambda figure: nullcontext())
+    assert wave() == once
+    assert (drawn, len(count)) == (1, 3)
+
+
+def test_a_figure_keeps_its_layout_for_other_formats():
+    figure, axes = new_figure()
+    axes.plot([0, 1], [0, 1])
+    layout, canvas = figure.get_layout_engine(), figure.canvas
+    svg(figure)
+    assert (figure.get_layout_engine(), figure.canvas) == (layout, canvas)
+
+
 def test_every_colour_has_its_partner_in_the_dark():
     root = ElementTree.fromstring(wave())
     styles = [item.get("style", "") for item in root.iter()]
