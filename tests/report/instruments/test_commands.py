@@ -25,10 +25,8 @@ NAMES = ("gain", "critical", "clip", "bounded-drift", "vanishing", "nonvanishing
 
 
 @pytest.fixture(scope="module")
-def papers():
-    from derivations.pt_seeker.instruments import instruments
-
-    return {tool.name: tool for tool in instruments()}
+def papers(of_papers):
+    return {tool.name: tool for tool in of_papers["pt_seeker"]}
 
 
 def placed(tool, moved):

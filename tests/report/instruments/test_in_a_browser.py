@@ -68,13 +68,6 @@ def same(found, exact):
 LOOK = Path(__file__).with_name("papers.html").read_text("utf-8")
 
 
-def papers():
-    from derivations.newton_seeker.instruments import instruments as newton
-    from derivations.pt_seeker.instruments import instruments as prescribed
-
-    return [*prescribed(), *newton()]
-
-
 def spoilt(tool):
     """The same with its first number off by a hundred-millionth."""
     place = next(n for n, part in enumerate(tool.parts) if isinstance(part, Quantity))
@@ -101,9 +94,9 @@ def positions(tool, count, seed):
 
 
 @pytest.fixture(scope="module")
-def asked(tmp_path_factory):
+def asked(of_papers, tmp_path_factory):
     """The instruments of both papers, and a spoilt one; where they were looked at, and what was found there."""
-    tools = papers()
+    tools = [tool for tools in of_papers.values() for tool in tools]
     tools.append(spoilt(tools[0]))
     places = [list(positions(tool, 25, seed)) for seed, tool in enumerate(tools)]
     folder = tmp_path_factory.mktemp("papers")
