@@ -28,7 +28,9 @@ _FIRST = ("proof/kernel", "derivations", "report", "test_quality.py", "test_tuto
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     first = tuple(str(Path(__file__).parent / name) for name in _FIRST)
-    items.sort(key=lambda item: next((n for n, name in enumerate(first) if str(item.path).startswith(name)), len(first)))
+    items.sort(
+        key=lambda item: next((n for n, name in enumerate(first) if str(item.path).startswith(name)), len(first))
+    )
 
 
 def pytest_collection_finish() -> None:

@@ -14,7 +14,6 @@ from typing import Any
 
 import pytest
 
-from ptproof.proof.claim import Claim
 from ptproof.proof.kernel import Confirmation, check, coq
 from ptproof.proof.kernel.check import Effort
 
