@@ -108,12 +108,13 @@ def _compiled() -> tempfile.TemporaryDirectory[str]:
     """A folder with the compiled library, made once in a process and removed with it."""
     made = tempfile.TemporaryDirectory(prefix="ptproof-coq-")
     folder = Path(made.name)
-    for name in LIBRARY:
-        shutil.copy(Path(__file__).parent / "theory" / f"{name}.v", folder)
-    (folder / f"{_THEORY}.v").write_text("".join(f"Load {name}.\n" for name in LIBRARY), encoding="utf-8")
+    parts = (Path(__file__).parent / "theory" / f"{name}.v" for name in LIBRARY)
+    text = "".join(part.read_text(encoding="utf-8") for part in parts)
+    (folder / f"{_THEORY}.v").write_text(text, encoding="utf-8")
     done = compile_file(folder, f"{_THEORY}.v", 300)
     if done.error or done.late:
-        raise RuntimeError(f"Coq refuses the library of tactics: {done.error.strip() or 'time limit'}")
+        said = done.error.strip() or "time limit"
+        raise RuntimeError(f"Coq refuses the library of tactics ({', '.join(LIBRARY)}, as one file): {said}")
     return made
 
 
