@@ -62,7 +62,7 @@ def test_a_derivation_that_ends_its_process_while_it_is_read_is_bad_input(
 
 def test_what_a_derivation_prints_is_not_on_standard_output(tmp_path: Path) -> None:
     body = "print('p'); os.write(1, b'w'); os.system('echo s'); ctypes.CDLL(None).puts(b'c'); os.fork()\n"
-    body += "threading.Thread(target=lambda: [print('t', flush=True) or time.sleep(0.01) for _ in range(200)]).start()"
+    body += "threading.Thread(target=lambda: [print('t', flush=True) or time.sleep(0.01) for _ in range(100)]).start()"
     status, out, err = ended(start("verify", write(tmp_path, body), "--json"))
     assert (status, json.loads(out)["summary"]["proved"]) == (0, 1)
     assert "t\n" in err

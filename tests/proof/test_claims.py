@@ -161,7 +161,7 @@ def test_a_hang_and_a_dying_process_cost_one_claim_each(tmp_path: Path) -> None:
         last = claim('last', 'last', eq(2 * x, x + x))(exact)
         """,
     )
-    verification = verify(load([folder]), workers=2, timeout=6)
+    verification = verify(load([folder]), workers=2, timeout=2)
     found = {result.claim.id: result.verdict for result in verification.results}
     assert found == {
         "good": Verdict.PROVED, "hang": Verdict.UNDECIDED, "dies": Verdict.UNDECIDED, "last": Verdict.PROVED,

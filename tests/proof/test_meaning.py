@@ -51,8 +51,8 @@ half = sp.Rational(1, 2)
 
 @pytest.fixture(autouse=True)
 def short_search(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Most that is not proved here has no witness: a search to its end would only take time."""
-    monkeypatch.setattr("ptproof.proof.settling.SEARCH_SECONDS", 0.5)
+    """Most that is not proved here has no witness, and a search can only refute: to its end it would only take time."""
+    monkeypatch.setattr("ptproof.proof.settling.SEARCH_SECONDS", 0.05)
 
 
 def verdict(statement: Any, proof: Callable[[Goal], Evidence] = exact, *given: Any, **options: Any) -> Verdict:

@@ -90,20 +90,37 @@ def folder(report, tmp_path_factory):
     return place
 
 
+@pytest.fixture(scope="module")
+def tab(chromium):
+    """One for all: a new one costs more than most of what is looked at in it."""
+    tab = chromium.new_page(reduced_motion="reduce")
+    yield tab
+    tab.close()
+
+
+def afresh(tab):
+    """The tab as a new one, at a desk; what was open in it is left."""
+    tab.goto("about:blank")
+    tab.emulate_media(media="null", color_scheme="null", reduced_motion="reduce")
+    tab.set_viewport_size({"width": DESK, "height": 900})
+    tab.mouse.move(0, 0)
+    return tab
+
+
 @pytest.fixture
-def page(chromium):
-    page = chromium.new_page(viewport={"width": DESK, "height": 900}, reduced_motion="reduce")
-    page.set_default_timeout(10_000)
-    yield page
-    page.close()
+def page(tab):
+    return afresh(tab)
 
 
-def look_at(browser, file):
+def look_at(tab, file):
     """What is seen of a page: at three widths, on paper, and by axe on a phone in the dark and at a desk by day."""
-    page = browser.new_page(reduced_motion="reduce")
+    page, seen = afresh(tab), defaultdict(list)
+    hears = {"pageerror": lambda error: seen["told"].append(str(error)),
+             "console": lambda said: seen["told"].extend([said.text] if said.type == "error" else [])}  # fmt: skip
+    for event, hear in hears.items():
+        page.on(event, hear)
     page.goto(file.as_uri())
     page.evaluate(AXE_SCRIPT)
-    seen = defaultdict(list)
     for width in (PHONE, DESK, WIDE):
         page.set_viewport_size({"width": width, "height": 900})
         look = page.evaluate(LOOK)
@@ -121,18 +138,15 @@ def look_at(browser, file):
     page.emulate_media(media="print")
     look = page.evaluate(LOOK)
     seen["print"] = [*look["cut"], *look["overlap"]]
-    seen["told"] = [
-        *map(str, page.page_errors()),
-        *(said.text for said in page.console_messages() if said.type == "error"),
-    ]
-    page.close()
+    for event, hear in hears.items():
+        page.remove_listener(event, hear)
     return seen
 
 
 @pytest.fixture(scope="module")
-def seen(chromium, folder):
+def seen(tab, folder):
     files = sorted(file for file in folder.rglob("*.html") if "two" not in file.parts)
-    return {str(file.relative_to(folder)): look_at(chromium, file) for file in files}
+    return {str(file.relative_to(folder)): look_at(tab, file) for file in files}
 
 
 @pytest.mark.parametrize("fault", ["wide", "flat", "axe", "faint", "print", "told"])
@@ -153,9 +167,9 @@ BAD = """<!doctype html><html><body style="margin:0"><div style="width:3000px">w
 <script src="missing.js"></script></body></html>"""
 
 
-def test_every_fault_would_be_found(chromium, tmp_path):
+def test_every_fault_would_be_found(tab, tmp_path):
     (tmp_path / "bad.html").write_text(BAD)
-    found = look_at(chromium, tmp_path / "bad.html")
+    found = look_at(tab, tmp_path / "bad.html")
     assert [name for name in ("wide", "flat", "axe", "faint", "print", "told") if not found[name]] == []
     assert {said.split(" ")[2] for said in found["axe"]} >= {"button-name:", "html-has-lang:"}
     assert len(found["print"]) == 2

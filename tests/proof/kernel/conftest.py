@@ -14,7 +14,6 @@ from typing import Any
 
 import pytest
 
-from ptproof.proof.claim import Claim
 from ptproof.proof.kernel import Confirmation, check, coq
 from ptproof.proof.kernel.check import Effort
 
@@ -44,7 +43,7 @@ def _once(factory: pytest.TempPathFactory, name: str, make: Callable[[Path], Any
 
 @pytest.fixture(scope="session")
 def library(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
-    """The library of tactics, compiled once for all workers: Coq takes twenty seconds for it."""
+    """The library of tactics, compiled once for all workers: Coq takes five seconds for it."""
     place = _once(tmp_path_factory, "library", _compiled)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(coq, "_compiled", lambda: SimpleNamespace(name=place))
@@ -60,7 +59,7 @@ def _compiled(folder: Path) -> str:
 def answers(
     request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory, library: None
 ) -> dict[str, Confirmation]:
-    """Of the module's ``TRUE`` and ``NOT_CONFIRMED`` with its ``EFFORT``; the latter have three seconds each.
+    """Of the module's ``TRUE`` and ``NOT_CONFIRMED`` with its ``EFFORT``.
 
     Coq is asked once for all modules of one effort that are to be tested, however many of pytest's workers share them.
     """
@@ -68,7 +67,7 @@ def answers(
     collected = {item.module for item in request.session.items if isinstance(item, pytest.Function)}
     modules = [module for module in collected if hasattr(module, "NOT_CONFIRMED") and _effort(module) == effort]
     modules.sort(key=_own)
-    told = _once(tmp_path_factory, effort, lambda folder: _asked(modules, effort))
+    told = _once(tmp_path_factory, effort, lambda folder: _asked(modules, effort, folder))
     here = f"{_own(request.module)}/"
     return {id.removeprefix(here): answer for id, answer in told.items() if id.startswith(here)}
 
@@ -81,13 +80,14 @@ def _own(module: Any) -> str:
     return str(module.__name__).rpartition(".")[2]
 
 
-def _asked(modules: Sequence[Any], effort: Effort) -> dict[str, Confirmation]:
-    """One file for what is true and one for what is not: Coq reads the library for each, and finds axioms once."""
-
-    def named(kind: str) -> list[Claim]:
-        return [replace(item, id=f"{_own(module)}/{item.id}") for module in modules for item in getattr(module, kind)]
-
+def _asked(modules: Sequence[Any], effort: Effort, folder: Path) -> dict[str, Confirmation]:
+    """One file for all: Coq reads the library and finds axioms once, and neither misses any nor is asked again."""
+    claims = [
+        replace(item, id=f"{_own(module)}/{item.id}")
+        for kind in ("TRUE", "NOT_CONFIRMED") for module in modules for item in getattr(module, kind)
+    ]  # fmt: skip
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(import_module("ptproof.proof.kernel.check"), "_IN_A_FILE", 100)
-        true = check(named("TRUE"), timeout=20.0, efforts=[effort])
-        return true | check(named("NOT_CONFIRMED"), timeout=3.0, efforts=[effort])
+        patch.setattr(import_module("ptproof.proof.kernel.check"), "_IN_A_FILE", (len(claims), len(claims)))
+        told = check(claims, timeout=20.0, efforts=[effort], keep=folder)
+    assert len(list(folder.glob("claims_*.v"))) == 1
+    return told

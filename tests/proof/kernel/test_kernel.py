@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -86,6 +87,19 @@ def test_verify_adds_the_evidence(tmp_path: Path, capsys: pytest.CaptureFixture[
     (entry,) = json.loads(capsys.readouterr().out)["claims"]
     assert [item["engine"] for item in entry["evidence"]][-1] == "coq"
     assert "fun_2" in next(kept.glob("claims_*.v")).read_text("utf-8")
+
+
+@pytest.mark.parametrize(("count", "files"), [(1, 1), (6, 1), (20, 2), (60, 3)])
+def test_a_file_has_many_claims_and_every_process_one(
+    count: int, files: int, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setattr(coq, "missing", lambda: "")
+    monkeypatch.setattr(coq, "prepare", lambda folder: None)
+    monkeypatch.setattr(coq, "ask", lambda *_: coq.Printed("", "", False))
+    told = check([replace(TRUE[0], id=str(n)) for n in range(count)], workers=2, keep=tmp_path, efforts=["quick"])
+    assert {item.reason for item in told.values()} == {"Coq gave no answer"}
+    assert len(told) == count
+    assert len(list(tmp_path.glob("claims_*.v"))) == files
 
 
 def test_without_coq_every_claim_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:

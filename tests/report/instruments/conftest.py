@@ -7,6 +7,7 @@ import pytest
 from ptproof.proof.load import load
 from ptproof.proof.result import Verification
 from ptproof.proof.run import conclude
+from ptproof.proof.shipped import shipped
 from ptproof.report.compose import compose
 from ptproof.report.instruments import instruments_of
 from ptproof.report.letters import notation_of
@@ -103,3 +104,9 @@ def tooled_report(tooled, tools):
     decided = {claim.id: replace(claim.prove(claim.goal()), content=claim.content) for claim in tooled.claims}
     verification = Verification(conclude(tooled.claims, decided), 1.0)
     return compose(verification, tooled, title="Tooled", notation=notation_of(tooled), instruments=tools)
+
+
+@pytest.fixture(scope="session")
+def of_papers():
+    """The instruments of both papers, each as it is loaded for everything else."""
+    return {name: tuple(instruments_of(load([shipped() / name]))) for name in ("pt_seeker", "newton_seeker")}

@@ -18,6 +18,7 @@ from ptproof.report.pages import report_files
 from tests.report.instruments.chromium import looked
 from tests.report.test_browser import chromium as chromium
 from tests.report.test_browser import look_at
+from tests.report.test_browser import tab as tab
 
 x, y = sp.symbols("x y", real=True)
 POINTS = [(a, b) for a in (-2.5, -1, -0.25, 0, 0.5, 1, 3) for b in (-3, -0.5, 0, 1, 2.25)]
@@ -67,13 +68,6 @@ def same(found, exact):
 LOOK = Path(__file__).with_name("papers.html").read_text("utf-8")
 
 
-def papers():
-    from derivations.newton_seeker.instruments import instruments as newton
-    from derivations.pt_seeker.instruments import instruments as prescribed
-
-    return [*prescribed(), *newton()]
-
-
 def spoilt(tool):
     """The same with its first number off by a hundred-millionth."""
     place = next(n for n, part in enumerate(tool.parts) if isinstance(part, Quantity))
@@ -100,9 +94,9 @@ def positions(tool, count, seed):
 
 
 @pytest.fixture(scope="module")
-def asked(tmp_path_factory):
+def asked(of_papers, tmp_path_factory):
     """The instruments of both papers, and a spoilt one; where they were looked at, and what was found there."""
-    tools = papers()
+    tools = [tool for tools in of_papers.values() for tool in tools]
     tools.append(spoilt(tools[0]))
     places = [list(positions(tool, 25, seed)) for seed, tool in enumerate(tools)]
     folder = tmp_path_factory.mktemp("papers")
@@ -222,9 +216,9 @@ def test_the_vehicle_of_the_page_runs_to_its_end(page):
     assert page["path"] > 200
 
 
-def test_the_page_has_no_fault(chromium, tooled_report, tmp_path):
+def test_the_page_has_no_fault(tab, tooled_report, tmp_path):
     """At three widths, on paper, light and dark, and by axe, as every page is looked at; its script is asked above."""
     for name, content in report_files(tooled_report).items():
         (tmp_path / name).write_bytes(content)
-    seen = look_at(chromium, tmp_path / "instruments.html")
+    seen = look_at(tab, tmp_path / "instruments.html")
     assert {fault: seen[fault] for fault in FAULTS if seen[fault]} == {}

@@ -1,5 +1,5 @@
 (* What the restated claims are said with, and the tactics that are tried on them. Everything here is proved. *)
-From Coq Require Import Reals Lra Psatz Nsatz FunctionalExtensionality.
+From Coq Require Import Reals Lra Lia Psatz Nsatz FunctionalExtensionality.
 From Coquelicot Require Import Coquelicot.
 From Interval Require Import Tactic.
 Open Scope R_scope.

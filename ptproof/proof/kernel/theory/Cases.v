@@ -1,9 +1,4 @@
 (* Cases, roots, bounds of one variable, and sums of multiples of facts. Everything here is proved. *)
-From Coq Require Import Reals Lra Psatz Nsatz FunctionalExtensionality.
-From Coquelicot Require Import Coquelicot.
-From Interval Require Import Tactic.
-From Ptproof Require Import Base.
-Open Scope R_scope.
 
 (* Minima, maxima, absolute values and branches, one at a time. *)
 Lemma Rmax_case_of : forall a b, (b <= a /\ Rmax a b = a) \/ (a <= b /\ Rmax a b = b).

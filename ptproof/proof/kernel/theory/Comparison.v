@@ -1,8 +1,4 @@
 (* Inequalities between sums of products, and what follows from differential inequalities. Everything here is proved. *)
-From Coq Require Import Reals Lra Psatz.
-From Coquelicot Require Import Coquelicot.
-From Ptproof Require Import Base.
-Open Scope R_scope.
 
 (* A sum of products, of which each factor is not negative: known so, or by its structure. *)
 Ltac nonneg_sum :=

@@ -1,8 +1,4 @@
 (* Powers whose base may be 0, and limits of powers. Everything here is proved. *)
-From Coq Require Import Reals Lra Lia Psatz Nsatz FunctionalExtensionality.
-From Coquelicot Require Import Coquelicot.
-From Ptproof Require Import Base Smooth.
-Open Scope R_scope.
 
 (* Powers of one exponent, and inequalities by structure: what grows in each part that is not the same. *)
 Lemma Rpower_grows : forall x y e, 0 < e -> 0 < x < y -> Rpower x e < Rpower y e.

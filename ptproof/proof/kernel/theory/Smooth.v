@@ -1,8 +1,4 @@
 (* Tactics that do not lose themselves in definitions, and smoothness. Everything here is proved. *)
-From Coq Require Import Reals Lra Lia Psatz Nsatz FunctionalExtensionality.
-From Coquelicot Require Import Coquelicot.
-From Ptproof Require Import Base.
-Open Scope R_scope.
 
 (* smooth_on n D f: f is n times continuously differentiable on the open set D. The derivative is Frechet's. *)
 Fixpoint smooth_on (n : nat) {V : NormedModule R_AbsRing} (D : V -> Prop) (f : V -> R) : Prop :=
