@@ -3,40 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import Any, Protocol, TypeVar
 
 import sympy as sp
 
+from ptproof.averaging.average import Derived
 from ptproof.averaging.second import PoweredAverage
 from ptproof.proof.attack import insist
 from ptproof.proof.claim import Goal
 from ptproof.proof.statement import Relation
-from ptproof.system import DitherSystem, System
 
 
-class Averaged(Protocol):
-    """What is attacked: a dither system with its average and its coefficients v_ji."""
-
-    @property
-    def dithered(self) -> DitherSystem:
-        """The system that was averaged."""
-        ...
-
-    @property
-    def system(self) -> System:
-        """The average."""
-        ...
-
-    @property
-    def v(self) -> Any:
-        """{(j, i): v_ji}."""
-        ...
-
-
-A = TypeVar("A", bound=Averaged)
-
-
-def coefficient_goals(derived: Averaged) -> Iterator[Goal]:
+def coefficient_goals(derived: Derived) -> Iterator[Goal]:
     """v_ji = (1/P) ∫₀^P u_j(θ) ∫₀^θ u_i(s) ds dθ for each pair, the integrals left as they are."""
     system = derived.dithered
     inner = sp.Dummy("s", real=True)
@@ -48,7 +25,7 @@ def coefficient_goals(derived: Averaged) -> Iterator[Goal]:
         yield Goal(f"v_{j}{i}", Relation(double / system.period, "=", value), where_defined=True)
 
 
-def average_goal(derived: Averaged) -> Goal:
+def average_goal(derived: Derived) -> Goal:
     """dx/dτ = b₀ + Σ v_ji ((∂b_j/∂x) b_i − (∂b_i/∂x) b_j), the derivatives left as they are."""
     system, state = derived.dithered, derived.dithered.state
 
@@ -67,13 +44,13 @@ def average_goal(derived: Averaged) -> Goal:
     )
 
 
-def unshaken(derived: A, *, points: int = 6, coefficients: int | None = None) -> A:
+def unshaken(derived: Derived, *, points: int = 6, coefficients: int | None = None) -> Derived:
     """The average, if an attack on it is in vain; raises as :func:`attack_average`."""
     attack_average(derived, points=points, coefficients=coefficients)
     return derived
 
 
-def attack_average(derived: Averaged, *, points: int = 6, coefficients: int | None = None) -> int:
+def attack_average(derived: Derived, *, points: int = 6, coefficients: int | None = None) -> int:
     """At how many points the average, and ``coefficients`` of its v_ji (None: all), were attacked in vain.
 
     Raises

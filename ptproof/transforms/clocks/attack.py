@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Protocol
+from typing import Any
 
 import sympy as sp
 
@@ -11,39 +11,8 @@ from ptproof.proof.claim import Goal
 from ptproof.proof.statement import Relation, every, ge, gt, lt
 
 
-class ChangeOfTime(Protocol):
-    """What is attacked of a clock."""
-
-    @property
-    def t(self) -> sp.Symbol: ...
-
-    @property
-    def tau(self) -> sp.Symbol: ...
-
-    @property
-    def to_tau(self) -> sp.Expr: ...
-
-    @property
-    def to_t(self) -> sp.Expr: ...
-
-    @property
-    def rate(self) -> sp.Expr: ...
-
-    @property
-    def rate_back(self) -> sp.Expr: ...
-
-    @property
-    def start(self) -> sp.Expr: ...
-
-    @property
-    def horizon(self) -> sp.Expr: ...
-
-    @property
-    def name(self) -> str: ...
-
-
-def goals(clock: ChangeOfTime) -> tuple[Goal, ...]:
-    """What a clock promises, as goals: on its interval in t, and at the times in τ that these lead to.
+def goals(clock: Any) -> tuple[Goal, ...]:
+    """What a clock, capped or not, promises, as goals: on its interval in t, and at the times in τ that these lead to.
 
     What is ``given`` of the letters of a capped clock is assumed. Derivatives and compositions stay unevaluated, so
     that the clock's own are held against others.
@@ -78,7 +47,7 @@ def goals(clock: ChangeOfTime) -> tuple[Goal, ...]:
     )
 
 
-def unshaken(clock: ChangeOfTime, *, points: int = 12) -> int:
+def unshaken(clock: Any, *, points: int = 12) -> int:
     """At how many points the clock was attacked in vain.
 
     Raises
