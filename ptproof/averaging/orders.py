@@ -81,15 +81,6 @@ class Orders:
         rhs = tuple(sp.Add(*(entry / root**power for power, entry in enumerate(row))) for row in rows)
         return System(system.time, system.state, rhs, name=f"average of {system.name} to order {self.order}")
 
-    @property
-    def transformed(self) -> Vector:
-        """X in terms of τ, θ, x, y and ω."""
-        root = sp.sqrt(self.problem.system.omega)
-        return tuple(
-            symbol + sp.Add(*(row[place] / root**power for power, row in enumerate(self.correctors, start=1)))
-            for place, symbol in enumerate(self.problem.system.state)
-        )
-
     @functools.cached_property
     def leading(self) -> Vector:
         """The limit of ``remainder`` as ω → ∞."""

@@ -65,11 +65,6 @@ class Box:
         return max(range(len(sizes)), key=sizes.__getitem__)
 
 
-def all_faces(n: int) -> tuple[Face, ...]:
-    """The faces of the cube in n dimensions."""
-    return tuple(Face(axis, sign, ((-1, 1),) * (n - 1)) for axis in range(n) for sign in (-1, 1))
-
-
 def shell(faces: Sequence[Face], low: arb, high: arb, pieces: int = 1) -> list[Box]:
     """Boxes that cover ``low`` ≤ ‖y‖ ≤ ``high`` in the directions of ``faces``, ``pieces`` along a whole side."""
     ends = [arb(2 * i) / pieces - 1 for i in range(pieces + 1)]
