@@ -128,7 +128,7 @@ def first_correction(system: DitherSystem) -> Correction:
 def _drift(system: DitherSystem, found: tuple[Signal, ...]) -> Vector:
     fields = [SparseField(entries, system.state) for entries in system.fields]
     mean = triple_means(found)
-    rows: dict[int, list[sp.Expr]] = {}
+    rows: list[list[sp.Expr]] = [[] for _ in system.state]
     for i, j in itertools.combinations(range(len(fields)), 2):
         weights = {k: tidy_constant(sp.expand(mean(j, i, k) - mean(i, j, k))) for k in range(len(fields))}
         weights = {k: weight for k, weight in weights.items() if weight != 0}
@@ -137,5 +137,5 @@ def _drift(system: DitherSystem, found: tuple[Signal, ...]) -> Vector:
         inner = sparse_bracket(fields[i], fields[j])
         for k, weight in weights.items():
             for row, entry in sparse_bracket(inner, fields[k]).entries.items():
-                rows.setdefault(row, []).append(-weight * entry / 3)
-    return tuple(tidy(sp.Add(*rows[row])) if row in rows else sp.S.Zero for row in range(len(system.state)))
+                rows[row].append(-weight * entry / 3)
+    return tuple(tidy(sp.Add(*terms)) if terms else sp.S.Zero for terms in rows)

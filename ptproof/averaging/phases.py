@@ -8,14 +8,13 @@ period.
 from __future__ import annotations
 
 import functools
-import itertools
 from abc import ABC, abstractmethod
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import sympy as sp
 
-from ptproof.averaging.quasipolynomial import QuasiPolynomial, exact_sign
+from ptproof.averaging.quasipolynomial import QuasiPolynomial, exact_sign, ordered
 from ptproof.averaging.refusal import AveragingUndecided
 from ptproof.averaging.ring import Coefficient, Ring
 from ptproof.averaging.signal import Signal, read_signal
@@ -194,10 +193,6 @@ class Pieces(Phases):
         return self._terms(shifted.primitive)
 
 
-def _compared(first: sp.Expr, second: sp.Expr) -> int:
-    return exact_sign(first - second)
-
-
 def phases_for(ring: Ring, phase: sp.Symbol, period: sp.Expr, expressions: Iterable[sp.Expr]) -> Phases:
     """The basis that holds these functions of the phase: :class:`Harmonics`, or :class:`Pieces` where there are jumps.
 
@@ -212,11 +207,6 @@ def phases_for(ring: Ring, phase: sp.Symbol, period: sp.Expr, expressions: Itera
             points.update(read_signal(expression, phase, period, f"dither {i}").points)
     if not points:
         return Harmonics(ring, phase, period)
-    ordered = sorted(points, key=functools.cmp_to_key(_compared))
-    merged = [ordered[0]]
-    for before, point in itertools.pairwise(ordered):
-        if exact_sign(point - before) > 0:
-            merged.append(point)
-    if len(merged) < 2:
+    if len(apart := ordered(points)) < 2:
         raise AveragingUndecided("the pieces of the dithers are not told apart")
-    return Pieces(ring, phase, period, merged)
+    return Pieces(ring, phase, period, apart)

@@ -99,7 +99,7 @@ def derive_powered(system: PoweredSystem, order: int = 2) -> PoweredAverage:
         for start, entries in zip(system.plain.drift, total, strict=True)
     )
     averaged = System(system.plain.time, system.state, rhs, name=f"average of {system.name}")
-    shown = {letters: _whole(value, system) for letters, value in left.items() if value.entries}
+    shown = {letters: value.vector for letters, value in left.items() if value.entries}
     return PoweredAverage(system, averaged, own.v, gammas, shown, tuple(account))
 
 
@@ -274,10 +274,6 @@ class _Derivation:
     ) -> None:
         """The sum by the coefficients from 0 on, as they are defined, must be the one by centred antiderivatives."""
         for row, entries in enumerate(total):
-            terms = [gammas[letters].mean * value.entries.get(row, sp.S.Zero) for letters, value in left.items()]
+            terms = [gammas[letters].mean * value.vector[row] for letters, value in left.items()]
             if not vanishes(sp.Add(*terms, *(-entry for entry in entries))):
                 raise AveragingUndecided("limit: two ways to the average are not shown to agree")
-
-
-def _whole(value: SparseField, system: PoweredSystem) -> Vector:
-    return tuple(value.entries.get(row, sp.S.Zero) for row in range(len(system.state)))

@@ -6,18 +6,16 @@ exact switching points.
 
 from __future__ import annotations
 
-import functools
 import itertools
 from collections.abc import Iterator
 
 import sympy as sp
 
-from ptproof.averaging.quasipolynomial import exact_sign, linear_part, read
+from ptproof.averaging.quasipolynomial import exact_sign, linear_part, ordered, read
 from ptproof.averaging.refusal import AveragingUndecided
 from ptproof.proof.kinks import branch, innermost, level, switching
 
 _MOST_PIECES = 4096
-_BITS = 96
 
 
 def pieces(
@@ -86,13 +84,7 @@ def _switching_points(node: sp.Basic, variable: sp.Symbol, start: sp.Expr, end: 
             candidates += zeros(side, variable, start, end, where)
         elif not side.is_number:
             raise AveragingUndecided(f"{where}: which branch of {node} holds depends on symbols")
-    inside = [root for root in candidates if exact_sign(root - start) > 0 and exact_sign(end - root) > 0]
-    ordered = sorted(inside, key=functools.cmp_to_key(_order))
-    distinct: list[sp.Expr] = []
-    for point in ordered:
-        if not distinct or exact_sign(point - distinct[-1]) > 0:
-            distinct.append(point)
-    return distinct
+    return ordered(root for root in candidates if exact_sign(root - start) > 0 and exact_sign(end - root) > 0)
 
 
 def _real_roots(polynomial: sp.Poly, where: str) -> list[sp.Expr]:
@@ -103,10 +95,6 @@ def _real_roots(polynomial: sp.Poly, where: str) -> list[sp.Expr]:
     if any(root.is_real is False for root in roots):
         raise AveragingUndecided(f"{where}: the zeros of {polynomial.as_expr()} are not known exactly")
     return roots
-
-
-def _order(a: sp.Expr, b: sp.Expr) -> int:
-    return exact_sign(a - b)
 
 
 def _level_crossings(level: sp.Expr, variable: sp.Symbol, start: sp.Expr, end: sp.Expr, where: str) -> list[sp.Expr]:
