@@ -152,15 +152,11 @@ def average_to_order(problem: DitherProblem | DitherSystem, order: int = 1) -> O
     expansion = normal_form(oscillation, order + 1)
     found = Orders(problem, expansion, put_back(expansion), _smooth(problem, oscillation.meaning, order))
     if not oscillation.fast:
-        _same_as_brackets(found)
+        lie = derive(problem.reduced(tuple(_steady(problem)))).system
+        for ours, brackets in zip(found.averages[0], lie.rhs, strict=True):
+            if not is_zero(ours - brackets):
+                raise ArithmeticError(f"the first order {ours} is not shown to be the Lie bracket average {brackets}")
     return found
-
-
-def _same_as_brackets(found: Orders) -> None:
-    steady = [*_steady(found.problem)]
-    for ours, brackets in zip(found.averages[0], derive(found.problem.reduced(tuple(steady))).system.rhs, strict=True):
-        if not is_zero(ours - brackets):
-            raise ArithmeticError(f"the first order {ours} is not shown to be the Lie bracket average {brackets}")
 
 
 def _steady(problem: DitherProblem) -> Sequence[sp.Expr]:
@@ -179,9 +175,10 @@ def _smooth(problem: DitherProblem, fast: dict[sp.Symbol, sp.Expr], order: int) 
     ]
     for place, entry, needed in asked:
         own = (problem.system.time,) if place.startswith("dither") else variables
-        declared = problem.functions is not None
-        assumed = {node if declared else node.func: sp.oo for node in problem.smooth_functions}
-        evidence = smoothness(entry, own, needed, {**assumed, **_applied(entry, declared)}, problem.domain)
+        assumed: dict[Any, Any] = dict.fromkeys(problem.smooth_functions, sp.oo)
+        if problem.functions is None:
+            assumed = {node.func: sp.oo for node in (*assumed, *entry.atoms(AppliedUndef))}
+        evidence = smoothness(entry, own, needed, assumed, problem.domain)
         if evidence.verdict is not Verdict.PROVED:
             return Evidence(evidence.engine, evidence.verdict, f"{place}: {evidence.detail}", witness=evidence.witness)
     return Evidence("smoothness", Verdict.PROVED, f"fields and drift are C^{order + 1}")
@@ -189,7 +186,3 @@ def _smooth(problem: DitherProblem, fast: dict[sp.Symbol, sp.Expr], order: int) 
 
 def _readable(entry: sp.Expr) -> sp.Expr:
     return tidy(entry) if len(sp.Add.make_args(entry)) <= _TIDIED else entry
-
-
-def _applied(entry: sp.Expr, declared: bool) -> dict[Any, Any]:
-    return {} if declared else {node.func: sp.oo for node in entry.atoms(AppliedUndef)}

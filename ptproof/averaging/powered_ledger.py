@@ -17,7 +17,7 @@ from ptproof.averaging.brackets import SparseField, Vector, sparse_bracket
 from ptproof.averaging.exponents import told
 from ptproof.averaging.ledger import Ledger, bounded_fields, judged, period_and_mean, smooth_fields, unread
 from ptproof.averaging.powers import PoweredProblem
-from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided
+from ptproof.averaging.refusal import unless_refused
 from ptproof.averaging.second import PoweredAverage, check_powered_form, derive_powered
 from ptproof.proof.claim import Goal
 from ptproof.proof.engines.exact import exact
@@ -51,15 +51,11 @@ def examine_powered(problem: PoweredProblem) -> tuple[Ledger, PoweredAverage | N
         entries["bounded"] = judged(bounded_fields, plain)
     if any(entries[letter].verdict is not Verdict.PROVED for letter in ("form", "1.3")):
         return Ledger(entries, None), None
-    found: PoweredAverage | None = None
-    try:
-        found = derive_powered(problem.system, problem.order)
-        limit = Evidence(_LIMIT, Verdict.PROVED, f"{'; '.join(found.account) or 'no bracket counts'}{_for(problem)}")
-    except AveragingRefused as refusal:
-        limit = Evidence(_LIMIT, Verdict.REFUTED, str(refusal))
-    except AveragingUndecided as unknown:
-        limit = Evidence(_LIMIT, Verdict.UNDECIDED, str(unknown))
+    derived: list[PoweredAverage] = []
+    limit = unless_refused(_LIMIT, lambda: derived.append(derive_powered(problem.system, problem.order)), "")
+    found = derived[0] if derived else None
     if found is not None:
+        limit = replace(limit, detail=f"{'; '.join(found.account) or 'no bracket counts'}{_for(problem)}")
         entries["2.1"] = judged(_brackets, problem, found, 2)
         entries["2.2"] = judged(_brackets, problem, found, 3)
         entries["2.3"] = judged(_quadruples, problem)
@@ -102,11 +98,8 @@ def _entries(problem: PoweredProblem) -> Iterator[sp.Expr]:
 
 
 def _form(problem: PoweredProblem) -> Evidence:
-    try:
-        check_powered_form(problem.system)
-    except AveragingRefused as refusal:
-        return Evidence("form", Verdict.REFUTED, str(refusal))
-    return Evidence("form", Verdict.PROVED, "drift + sum of field * omega^power * dither")
+    fine = "drift + sum of field * omega^power * dither"
+    return unless_refused("form", lambda: check_powered_form(problem.system), fine)
 
 
 def _bounded_dithers(problem: PoweredProblem) -> Evidence:

@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import sympy as sp
-
 from ptproof.averaging.answer import Average
 from ptproof.averaging.attack import attack_powered
 from ptproof.averaging.expected import compare
 from ptproof.averaging.powered_ledger import CONDITIONS, examine_powered
 from ptproof.averaging.powers import PoweredProblem
-from ptproof.averaging.second import PoweredAverage
 from ptproof.proof.verdict import Evidence, Verdict
 
 
@@ -27,11 +24,8 @@ def study_powered(problem: PoweredProblem) -> Average:
         return Average(problem, None, {} if found is None else found.v, {}, ledger, expected)
     attack_powered(found, points=2)
     domain = problem.plain.domain
-    if any(power.free_symbols & _free(problem, found) for power in problem.system.powers):
+    free = set().union(*(entry.free_symbols for entry in (*found.system.rhs, *(problem.expected or ()))))
+    if any(power.free_symbols & free for power in problem.system.powers):
         domain = (*domain, *problem.system.exponents.relations)
     expected = None if problem.expected is None else compare(found.system.rhs, problem.expected, domain)
     return Average(problem, found.system, found.v, found.brackets, ledger, expected, powered=found)
-
-
-def _free(problem: PoweredProblem, found: PoweredAverage) -> set[sp.Symbol]:
-    return set().union(*(entry.free_symbols for entry in (*found.system.rhs, *(problem.expected or ()))))

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import functools
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -161,7 +161,10 @@ def exact_sign(number: sp.Expr) -> int:
 
 def ordered(points: Iterable[sp.Expr]) -> list[sp.Expr]:
     """Exact real numbers from the smallest on, each once."""
-    compared: Callable[[sp.Expr, sp.Expr], int] = lambda first, second: exact_sign(first - second)
+
+    def compared(first: sp.Expr, second: sp.Expr) -> int:
+        return exact_sign(first - second)
+
     found: list[sp.Expr] = []
     for point in sorted(points, key=functools.cmp_to_key(compared)):
         if not found or exact_sign(point - found[-1]) > 0:

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
+from ptproof.proof.verdict import Evidence, Verdict
+
 
 class AveragingRefused(ValueError):
     """The system is well formed, but Lie bracket averaging does not apply to it.
@@ -25,3 +29,14 @@ class NotAPeriod(AveragingRefused):
 
 class AveragingUndecided(ValueError):
     """No exact route that is trusted here leads to a value; ``str`` says what was met and where."""
+
+
+def unless_refused(engine: str, work: Callable[[], object], fine: str) -> Evidence:
+    """Proved, in the words ``fine``, where ``work`` comes to its end, and else what it was stopped by."""
+    try:
+        work()
+    except AveragingRefused as refusal:
+        return Evidence(engine, Verdict.REFUTED, str(refusal))
+    except AveragingUndecided as unknown:
+        return Evidence(engine, Verdict.UNDECIDED, str(unknown))
+    return Evidence(engine, Verdict.PROVED, fine)

@@ -14,7 +14,7 @@ from ptproof.averaging.orders import Orders, average_to_order
 from ptproof.averaging.powered_study import study_powered
 from ptproof.averaging.powers import PoweredProblem, PoweredSystem
 from ptproof.averaging.problem import DitherProblem
-from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided
+from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided, unless_refused
 from ptproof.averaging.scaled import linear
 from ptproof.errors import InputError
 from ptproof.proof.verdict import Evidence, Verdict
@@ -87,13 +87,9 @@ def _filter_of(problem: DitherProblem) -> Ledger | None:
     """Why fast states cannot keep their own dynamics, where they should: nothing else has to be asked then."""
     if problem.mu_omega is None or problem.fast is None:
         return None
-    try:
-        linear(problem.fast)
-    except AveragingRefused as error:
-        return Ledger({"mu_omega": Evidence("linear", Verdict.REFUTED, str(error))}, None)
-    except AveragingUndecided as error:
-        return Ledger({"mu_omega": Evidence("linear", Verdict.UNDECIDED, str(error))}, None)
-    return None
+    fast = problem.fast
+    found = unless_refused("linear", lambda: linear(fast), "")
+    return None if found.verdict is Verdict.PROVED else Ledger({"mu_omega": found}, None)
 
 
 def _orders(problem: DitherProblem, order: int | None) -> tuple[Orders | None, str]:

@@ -8,7 +8,6 @@ either sign for each letter, is 0.
 
 from __future__ import annotations
 
-import functools
 import itertools
 import math
 from collections.abc import Sequence
@@ -53,7 +52,8 @@ class Words:
             if own is None and count:
                 return True
             for _ in range(count):
-                sums = {_modulo(s + sign * rate, beside) for s in sums for rate in own or () for sign in (1, -1)}
+                sums = {s + sign * rate for s in sums for rate in own or () for sign in (1, -1)}
+                sums = {s % beside for s in sums} if beside else sums
         return 0 in sums
 
     def counting(self) -> tuple[Word, ...]:
@@ -92,7 +92,7 @@ class Words:
 
     def _longer(self, word: Word) -> list[Word]:
         """The words with one letter more that may count; none where nothing that begins so resonates."""
-        letters = [letter for letter in range(len(word)) if self._may_grow(word, letter)]
+        letters = [letter for letter in range(len(word)) if self.may_count(_added(word, letter))]
         steps = [self.frequencies[letter] for letter in letters]
         if letters and all(step is not None for step in steps):
             # What is added moves the sum by multiples of this.
@@ -101,10 +101,6 @@ class Words:
             if not self.resonates(fixed, beside):
                 return []
         return [_added(word, letter) for letter in letters]
-
-    @functools.lru_cache(maxsize=4096)  # noqa: B019 (a value that lives as long as one study)
-    def _may_grow(self, word: Word, letter: int) -> bool:
-        return self.may_count(_added(word, letter))
 
 
 def frequencies_of(found: Sequence[Signal]) -> tuple[frozenset[int] | None, ...]:
@@ -135,7 +131,3 @@ def _word(count: int, letters: Sequence[int]) -> Word:
 
 def _added(word: Word, letter: int) -> Word:
     return tuple(count + (own == letter) for own, count in enumerate(word))
-
-
-def _modulo(value: int, beside: int) -> int:
-    return value % beside if beside else value
