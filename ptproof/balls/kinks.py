@@ -8,8 +8,8 @@ import flint
 from flint import arb, arb_mat
 
 from ptproof.balls.ball import BALLS, interval
-from ptproof.balls.jet import JETS, Jet, variables
-from ptproof.balls.matrices import Vector, grown, identity, magnitudes, times
+from ptproof.balls.jet import JETS, Jet, slopes_of, variables
+from ptproof.balls.matrices import grown, identity, magnitudes, times
 from ptproof.balls.pieces import Piece
 from ptproof.balls.region import Region
 from ptproof.balls.tape import Tape, Undefined
@@ -35,9 +35,9 @@ def across(tape: Tape, region: Region, start: arb, length: arb) -> tuple[Piece, 
     known = region.errors
     # Along the line the slope is taken first and its hull over both sides of a kink then: terms that cancel do so.
     along = [Jet(clock, (arb(1),)), *(Jet(p, (v,)) for p, v in zip(line, velocity, strict=True))]
-    bends = [output.slopes[0] if isinstance(output, Jet) else None for output in tape.run(along, JETS)]
+    bends = [slopes_of(output, 1)[0].abs_upper() for output in tape.run(along, JETS)]
     off = [
-        (length * ((f - v).abs_upper() + (arb(0) if bend is None else bend.abs_upper() * length))).upper()
+        (length * ((f - v).abs_upper() + bend * length)).upper()
         for f, v, bend in zip(values, velocity, bends, strict=True)
     ]
     guess = [(2 * a + arb(2) ** (-flint.ctx.prec)).upper() for a in off]
@@ -57,23 +57,10 @@ def across(tape: Tape, region: Region, start: arb, length: arb) -> tuple[Piece, 
 
 
 def _rates(tape: Tape, box: Sequence[arb], length: arb) -> arb_mat:
-    n = len(box) - 1
-    entries: Vector = []
-    for i, output in enumerate(tape.run(variables(box), JETS)):
-        slopes = output.slopes[1:] if isinstance(output, Jet) else (None,) * n
-        for j, slope in enumerate(slopes):
-            if slope is None:
-                entries.append(arb(0))
-            else:
-                entries.append((length * slope).upper() if i == j else (length * slope).abs_upper())
-    if not all(entry.is_finite() for entry in entries):
+    rows = [[length * slope for slope in slopes_of(output, len(box))[1:]] for output in tape.run(variables(box), JETS)]
+    if not all(entry.is_finite() for row in rows for entry in row):
         raise Undefined("slopes without bounds")
-    return arb_mat(n, n, entries)
-
-
-def certainly_positive(tape: Tape, region: Region, time: arb) -> list[bool]:
-    """For each output of ``tape`` (time and states) whether it is shown to be positive on the region at ``time``."""
-    return [low > 0 for low in lowest(tape, region, time)]
+    return arb_mat([[e.upper() if i == j else e.abs_upper() for j, e in enumerate(row)] for i, row in enumerate(rows)])
 
 
 def lowest(tape: Tape, region: Region, time: arb) -> list[arb]:
@@ -81,10 +68,8 @@ def lowest(tape: Tape, region: Region, time: arb) -> list[arb]:
     middle = tape.run([time.mid(), *region.centre], BALLS)
     outputs = tape.run(variables([time, *region.box]), JETS)
     bounds = []
+    radii = [time.rad(), *region.errors]
     for value, output in zip(middle, outputs, strict=True):
-        spread = arb(0)
-        if isinstance(output, Jet):
-            for slope, radius in zip(output.slopes, [time.rad(), *region.errors], strict=True):
-                spread += arb(0) if slope is None else slope.abs_upper() * radius
+        spread = sum((s.abs_upper() * r for s, r in zip(slopes_of(output, len(radii)), radii, strict=True)), arb(0))
         bounds.append((value - spread).lower())
     return bounds

@@ -86,14 +86,11 @@ class Piece:
     def at(self, time: arb) -> list[arb]:
         """A ball for each state at every instant in ``time`` that lies in the step."""
         s = (2 * (time - self.start) / self.length - 1).intersection(interval(-1, 1))
-        n, count = self.path.nrows(), self.path.ncols()
-        entries = self.path.entries()
-        rows = [flint.arb_poly(entries[i * count : (i + 1) * count]) for i in range(n)]
+        rows = map(flint.arb_poly, self.path.tolist())
         return [row(s) + arb(0, error) for row, error in zip(rows, self.errors, strict=True)]
 
 
 def hull(path: arb_mat, errors: Sequence[arb]) -> list[arb]:
     """A ball for each row of the path that holds it for all s from −1 to 1, and what lies within the errors."""
-    count, flat = path.ncols(), spectra(path).entries()
-    parts = [flat[i : i + count] for i in range(0, len(flat), count)]
-    return [part[0] + arb(0, largest(part[1:]) + error) for part, error in zip(parts, errors, strict=True)]
+    rows = zip(spectra(path).tolist(), errors, strict=True)
+    return [row[0] + arb(0, largest(row[1:]) + error) for row, error in rows]

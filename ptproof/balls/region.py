@@ -10,7 +10,6 @@ from flint import arb, arb_mat
 
 from ptproof.balls.matrices import (
     Vector,
-    column,
     floats,
     identity,
     inverse,
@@ -68,10 +67,6 @@ class Region:
         if not all(entry.is_finite() for entry in (*centre, *found)):
             raise Undefined("a region without bounds")
         return Region(centre, frame, tuple(found))
-
-    def difference(self, point: Sequence[arb]) -> arb_mat:
-        """The centre less ``point``, as a column."""
-        return column(list(self.centre)) - column(list(point))
 
 
 def _orthogonal(columns: np.ndarray) -> np.ndarray:

@@ -173,10 +173,8 @@ def refined(trial: Trial, tape: Tape, centre: Sequence[arb], now: arb, length: a
 
 
 def _rates(tape: Tape, times: Sequence[arb], stages: arb_mat) -> arb_mat:
-    degree, n = stages.nrows(), stages.ncols()
-    flat = stages.entries()
-    rows = [tape.run([time, *flat[k * n : (k + 1) * n]], BALLS) for k, time in enumerate(times)]
-    return arb_mat(degree, n, [entry.mid() for row in rows for entry in row])
+    rows = (tape.run([time, *row], BALLS) for time, row in zip(times, stages.tolist(), strict=True))
+    return arb_mat([[entry.mid() for entry in row] for row in rows])
 
 
 def proposal(
@@ -194,12 +192,11 @@ def proposal(
     """
     degree, n = trial.stages.shape
     plan, half = scheme(degree), length / 2
-    slopes = plan.exact * (rates * arb(half))  # the coefficients of p' as rows, one per power
-    entries = slopes.entries()
+    slopes = (plan.exact * (rates * arb(half))).transpose().tolist()  # for each state the coefficients of p'
     rows = []
-    for i, c in enumerate(centre):
-        higher = [(entries[k * n + i] * fmpq(1, k + 1)).mid() for k in range(degree)]
-        rows += [(c - sum((a * (-1) ** (k + 1) for k, a in enumerate(higher)), arb(0))).mid(), *higher]
+    for c, row in zip(centre, slopes, strict=True):
+        higher = [(entry * fmpq(1, k)).mid() for k, entry in enumerate(row, start=1)]
+        rows.append([(c - sum((a * (-1) ** k for k, a in enumerate(higher, start=1)), arb(0))).mid(), *higher])
     right = np.tile(begin, (degree, 1))
     spreads = np.linalg.solve(trial.solver, right).reshape(degree, n, n)
     slopes_of = half * np.einsum("iab,ibc->iac", trial.jacobians, spreads)
@@ -208,7 +205,7 @@ def proposal(
     higher_terms = [part / (k + 1) for k, part in enumerate(terms)]
     first = begin - sum(part * (-1) ** (k + 1) for k, part in enumerate(higher_terms))
     spread = tuple(matrix(part) for part in (first, *higher_terms))
-    return Proposal(arb_mat(n, degree + 1, rows), spread, matrix(basis), matrix(np.diag(scale)))
+    return Proposal(arb_mat(rows), spread, matrix(basis), matrix(np.diag(scale)))
 
 
 def extended(trial: Trial, begin: Array, before: float, length: float) -> Array:

@@ -14,7 +14,7 @@ from numpy.polynomial import legendre
 
 from ptproof.balls.ball import ball_from
 from ptproof.balls.flow import GuardCrossed, flow
-from ptproof.balls.kinks import across, certainly_positive, lowest
+from ptproof.balls.kinks import across, lowest
 from ptproof.balls.pieces import Piece, Proposal
 from ptproof.balls.region import Region
 from ptproof.balls.tape import Undefined
@@ -126,7 +126,7 @@ class _Walk:
             return True
         mode = self.choices.mode(self.choices.choice(float(self.now), self.state))
         try:
-            if not all(certainly_positive(mode.guards, self.march.region, self.now)):
+            if not all(low > 0 for low in lowest(mode.guards, self.march.region, self.now)):
                 return False
         except Undefined:
             return False
