@@ -12,7 +12,7 @@ from ptproof.balls.arithmetic import Undefined
 from ptproof.balls.ball import ball_from
 from ptproof.balls.rounding import up
 from ptproof.certify.loop.levels import fallen
-from ptproof.certify.loop.scene import NEAR, Scene, held, reached_distance
+from ptproof.certify.loop.scene import NEAR, Scene, Task, held, reached_distance
 from ptproof.certify.loop.setup import Unfit
 from ptproof.certify.loop.stage import NoCertificate
 from ptproof.problem import Problem
@@ -85,7 +85,7 @@ def promising(problem: Problem, radius: sp.Expr, gap: sp.Expr, shape: str) -> bo
     slack = _MARGIN * scene.typical * stage.levels.edges[1:]
     for at, part in enumerate(scene.work):
         if seen is None or at % step == 0 or at == len(scene.work) - 1:
-            seen = scene.expected(at) + slack
+            seen = Task(*part, stage).expected() + slack
         level = fallen(level, seen, stage.levels, part[1].shortest, part[1].longest)
         if not level < stage.levels.edges[-1]:
             return False

@@ -99,7 +99,9 @@ def certify_loop(
     size, gap = _sizes(problem, radius, filter_gap)
     reasons, places, tuning = [], dict[str, Place | None](), problem.tuning
     found: _Curve | None = None
-    for shape in _shapes(problem) if shapes is None else shapes:
+    if shapes is None:  # along a slope all of a level set of F falls about equally fast
+        shapes = SHAPES if problem.drift.matrix is None else SHAPES[::-1]
+    for shape in shapes:
         try:
             with precision(_PRECISION):
                 found = _curve(problem, size, gap, shape, tolerance, workers, client)
@@ -134,11 +136,6 @@ def _sizes(problem: Problem, radius: Any, filter_gap: Any) -> tuple[sp.Expr, sp.
         if not value >= 0:
             raise InputError(f"{where}: must not be negative, got {value}")
     return size, gap
-
-
-def _shapes(problem: Problem) -> tuple[str, ...]:
-    """In the order in which they are tried. Along a slope all of a level set of F falls about equally fast."""
-    return SHAPES if problem.drift.matrix is None else SHAPES[::-1]
 
 
 def start_distance(problem: Problem) -> sp.Expr:

@@ -13,7 +13,6 @@ from typing import Any
 
 import numpy as np
 
-from ptproof.balls.arrays import Array
 from ptproof.certify.loop.boxes import Boxes
 from ptproof.certify.loop.cover import Tried, tried
 from ptproof.certify.loop.setup import drift_factor
@@ -90,9 +89,8 @@ def failing(problem: Problem, shape: str, place: Place) -> tuple[Failing, ...]:
     factor = drift_factor(place.model.jets, place.start, place.end)
     source = [float(value) for value in problem.source]
     found = []
-    for item in _spread(looked, _APART * place.half):
-        sides = (item.first, item.second)
-        position = tuple((c + a - item.half, c + a + item.half) for c, a in zip(source, sides, strict=True))
+    for item in _spread(looked, _APART * place.stage.half):
+        position = tuple((c + a - item.half, c + a + item.half) for c, a in zip(source, item.place, strict=True))
         found.append(
             Failing(
                 shape, (place.start, place.end), position, (0.0, 2 * math.pi),
@@ -105,33 +103,23 @@ def failing(problem: Problem, shape: str, place: Place) -> tuple[Failing, ...]:
 
 def _inside(place: Place, level: float) -> list[Tried]:
     """Boxes that the band of a level touches, by the bound of the rate on it."""
-    levels = place.levels
+    stage, levels = place.stage, place.stage.levels
     band = int(np.clip(np.searchsorted(levels.edges, level, side="right") - 1, 0, levels.bands - 1))
-    boxes, last = Boxes.square(place.half), list[Tried]()
+    boxes, last = Boxes.square(stage.half), list[Tried]()
     while len(boxes):
-        found = tried(place.model, boxes, levels, place.filter_bands, place.time, band)
+        found = tried(place.model, boxes, levels, stage.filter_bands, place.time, band)
         found.sort(key=lambda item: -item.rate)
         last = [item for item in found if item.rate >= 0] or last
         if boxes.half < place.model.reach * _FINEST:
             break
-        kept = found[:_KEPT]
-        boxes = Boxes(_column(kept, "first"), _column(kept, "second"), boxes.half).quarters()
+        boxes = Boxes(np.array([item.place for item in found[:_KEPT]]).T, boxes.half).quarters()
     return last
-
-
-def _column(items: Sequence[Tried], name: str) -> Array:
-    return np.array([getattr(item, name) for item in items])
 
 
 def _border(place: Place) -> list[Tried]:
     """Boxes on the border of the square, by the lowest level of W there."""
-    marks = np.linspace(-place.half, place.half, 65)
-    middles, edge = (marks[1:] + marks[:-1]) / 2, np.full(64, place.half)
-    border = Boxes(
-        np.concatenate([middles, middles, edge, -edge]), np.concatenate([edge, -edge, middles, middles]),
-        2.0 ** math.ceil(math.log2(place.half / 64)),
-    )  # fmt: skip
-    found = tried(place.model, border, place.levels, place.filter_bands, place.time, None)
+    stage = place.stage
+    found = tried(place.model, Boxes.border(stage.half, 64), stage.levels, stage.filter_bands, place.time, None)
     return sorted(found, key=lambda item: item.level[0])
 
 
@@ -139,7 +127,7 @@ def _spread(items: Sequence[Tried], apart: float) -> list[Tried]:
     """The first few that are not next to each other."""
     found: list[Tried] = []
     for item in items:
-        if all(math.hypot(item.first - other.first, item.second - other.second) > apart for other in found):
+        if all(math.dist(item.place, other.place) > apart for other in found):
             found.append(item)
         if len(found) == _SHOWN:
             break

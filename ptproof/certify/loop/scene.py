@@ -67,15 +67,7 @@ class Scene:
     def place(self, at: int, level: float) -> Place:
         """Where a proof fails on the stretch of that number."""
         model, part = self.work[at]
-        stage = self.stage
-        return Place(
-            model, stage.half, stage.filter_bands, stage.levels, part.interval, part.start, part.end, level
-        )  # fmt: skip
-
-    def expected(self, at: int) -> Array:
-        """About what the rates are on the stretch of that number."""
-        model, part = self.work[at]
-        return guide(model, self.stage.levels, self.stage.half, part.interval)
+        return Place(model, self.stage, part.interval, part.start, part.end, level)
 
     @property
     def still(self) -> bool:

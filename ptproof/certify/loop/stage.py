@@ -21,13 +21,23 @@ _FILTER = np.concatenate([[0.0], 2.0 ** np.arange(-12, 1)])
 
 
 @dataclass(frozen=True, eq=False)
+class Stage:
+    """Where everything happens: the squares' half side, the bands of |q|, the levels, and the level of the start."""
+
+    half: float
+    filter_bands: Array
+    levels: Levels
+    start: float
+
+
+@dataclass(frozen=True, eq=False)
 class Place:
     """Where a proof fails.
 
     Attributes
     ----------
-    model, half, filter_bands, levels
-        W on [−half, half]², the bands of |q|, and the levels.
+    model, stage
+        W, and where it is looked at.
     time, start, end
         The stretch of time, as an interval in t and as floats for people.
     level
@@ -35,9 +45,7 @@ class Place:
     """
 
     model: Model
-    half: float
-    filter_bands: Array
-    levels: Levels
+    stage: Stage
     time: Intervals
     start: float
     end: float
@@ -50,16 +58,6 @@ class NoCertificate(Exception):
     def __init__(self, why: str, place: Place | None = None) -> None:
         super().__init__(why)
         self.place = place
-
-
-@dataclass(frozen=True, eq=False)
-class Stage:
-    """Where everything happens: the squares' half side, the bands of |q|, the levels, and the level of the start."""
-
-    half: float
-    filter_bands: Array
-    levels: Levels
-    start: float
 
 
 def set_stage(prepared: Sequence[Model], spans: Sequence[Phase], reach: float, filter_start: float) -> Stage:
@@ -81,21 +79,18 @@ def set_stage(prepared: Sequence[Model], spans: Sequence[Phase], reach: float, f
             top = min(top, 5 * start) * (1 - 1e-9)
             bottom = min(_bottom(prepared[0]), start / 10)
             count = math.ceil(_BANDS * math.log10(top / bottom))
-            return Stage(half, bands, Levels.geometric(bottom, top, count), start)
+            return Stage(half, bands, Levels(np.geomspace(bottom, top, count + 1)), start)
         tried.append((top, half, bands))
         half *= 1.3
     top, half, bands = max(tried, key=lambda item: item[0])
+    # The border on which W is too small, with levels that show how small.
+    levels, span = Levels(np.linspace(min(0.5 * top, 2 * top, 0.9 * start), 1.5 * start, 401)), spans[0]
+    border = Stage(half, bands, levels, start)
     raise NoCertificate(
         f"the level sets of W around the start are not shown to be closed (W ≤ {start:.4g} at the start, ≥ {top:.4g} "
         "around it): a larger omega or a smaller start would help",
-        _open_border(prepared[0], spans[0], half, bands, min(0.5 * top, 2 * top, 0.9 * start), 1.5 * start),
+        Place(prepared[0], border, span.interval(), float(span.start), float(span.end)),
     )
-
-
-def _open_border(model: Model, span: Phase, half: float, bands: Array, low: float, high: float) -> Place:
-    """The border on which W is too small, with levels that show how small."""
-    levels = Levels(np.linspace(low, high, 401))
-    return Place(model, half, bands, levels, span.interval(), float(span.start), float(span.end))
 
 
 def _start(model: Model, half: float, reach: float, filter_start: float, time: Intervals) -> tuple[float, float]:
@@ -121,13 +116,7 @@ def _start(model: Model, half: float, reach: float, filter_start: float, time: I
 
 def _ceiling(model: Model, half: float, bands: Array, time: Intervals) -> float:
     """A level that W is above on the boundary of [−half, half]² × {|q| ≤ the last of ``bands``}."""
-    marks = np.linspace(-half, half, 513)
-    middles, edge = (marks[1:] + marks[:-1]) / 2, np.full(512, half)
-    border = Boxes(
-        np.concatenate([middles, middles, edge, -edge]), np.concatenate([edge, -edge, middles, middles]),
-        2.0 ** math.ceil(math.log2(half / 512)),
-    )  # fmt: skip
-    function = model.still(border, time)[0].ranges()
+    function = model.still(Boxes.border(half, 512), time)[0].ranges()
     lowest = min(float(function.below(*pair).min()) for pair in pairwise(bands))
     function = model.still(Boxes.square(half, 64), time)[0].ranges()
     return min(lowest, float(function.below(bands[-1], bands[-1]).min()))
@@ -135,7 +124,6 @@ def _ceiling(model: Model, half: float, bands: Array, time: Intervals) -> float:
 
 def _bottom(model: Model) -> float:
     """A level that is reached at a fifth of δ around the source or so, for orientation."""
-    angles = np.linspace(0, 2 * np.pi, 16, endpoint=False)
-    around = Boxes(0.2 * model.reach * np.cos(angles), 0.2 * model.reach * np.sin(angles), 0.0)
+    around = Boxes.circles(np.array([0.2 * model.reach]), 16)
     found = float(model.still(around, Intervals.point(0.0))[0].ranges().most[0].min())
     return found if found > 0 else math.inf
