@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 from flint import arb
 
@@ -90,9 +91,9 @@ class Evaluator:
         whole = self.quotients.is_polynomial
         forms: list[Callable[[Box], Bound]] = []
         if low > 0:
-            forms.append(self._joint)
+            forms.append(partial(self._direct, rest=True))
             if not (whole or self.quotients.polynomial.is_zero):
-                forms.append(self._separate)
+                forms.append(partial(self._direct, rest=False))
         if low.is_zero() or box.outer or high < 2:
             first = low.is_zero() or (not box.outer and (whole or high > 4 * low or high < 0.1))
             forms.insert(0 if first else len(forms), self._series)
@@ -112,13 +113,10 @@ class Evaluator:
             raise Undefined("no form of the quotient has a finite value there")
         return best
 
-    def _joint(self, box: Box) -> Bound:
-        function = self.quotients.direct(box.face, box.outer, self.goal.slope)
-        return self._with_tail(function, arb(0), box)
-
-    def _separate(self, box: Box) -> Bound:
-        function = self.quotients.direct(box.face, box.outer, self.goal.slope, rest=False)
-        return self._with_tail(function, self.quotients.direct_rest(box, self.goal.slope), box)
+    def _direct(self, box: Box, rest: bool) -> Bound:
+        """By the defining form, together with what is not polynomial or with that apart."""
+        function = self.quotients.direct(box.face, box.outer, self.goal.slope, rest=rest)
+        return self._with_tail(function, arb(0) if rest else self.quotients.direct_rest(box, self.goal.slope), box)
 
     def _series(self, box: Box) -> Bound:
         function = self.quotients.leading(box.face, box.outer, self.goal.slope)

@@ -227,10 +227,7 @@ class _Search:
 
     def conclude(self, found: dict[str, Extremum]) -> FieldCertificate:
         ranges = {name: extremum.range() for name, extremum in found.items()}
-        good = len(found) == len(GOALS) and all(
-            item.lower is not None and item.lower > 0 and item.width <= self.rtol for item in ranges.values()
-        )
-        if good:
+        if len(found) == len(GOALS) and all(item.width <= self.rtol for item in ranges.values()):
             return self.certificate(Verdict.PROVED, **ranges)
         return self.certificate(Verdict.UNDECIDED, **ranges, detail=self.tried(found, ranges))
 
