@@ -65,8 +65,6 @@ class Problem:
             if length != n:
                 raise InputError(f"{what}: {length} entries for {n} coordinates; give one for each")
         self._check_drift()
-        if self.kappa > 1000:
-            raise InputError(f"field.kappa: must be a positive integer (up to 1000), got {self.kappa}")
         for i, value in enumerate(self.source):
             number(value, f"field.source[{i}]")
         for where, point in (("field.source", self.source), ("initial.x", self.initial.x)):

@@ -44,10 +44,9 @@ def save_columns(path: str | Path, columns: Mapping[str, Any], settings: Mapping
         with file.open("w", encoding="utf-8", newline="") as out:
             out.write(",".join(columns) + "\n")
             for row in zip(*columns.values(), strict=True):
-                out.write(",".join(map(_entry, row)) + "\n")
+                # A float of NumPy prints its type too.
+                out.write(
+                    ",".join(repr(float(v)) if isinstance(v, float | np.floating) else str(v) for v in row) + "\n"
+                )
     except OSError as error:
         raise InputError(f"save: {path} can't be written: {error.strerror or error}") from None
-
-
-def _entry(value: Any) -> str:
-    return repr(float(value)) if isinstance(value, (float, np.floating)) else str(value)

@@ -81,8 +81,7 @@ class Trajectory:
 
     def __getitem__(self, name: str) -> Array:
         """The samples (m) of the state, or input, ``name``; ``field``, ``distance``, ``t`` and ``tau`` work too."""
-        times = {"t": self.t, "tau": self.tau, "field": self.field, "distance": self.distance}
-        found = (times | dict(self.inputs) | dict(zip(self.states, self.x, strict=True))).get(name)
+        found = self._columns().get(name)
         if found is None:
             known = ", ".join([*self.states, *self.inputs, "t"])
             raise InputError(f"{name!r} is not part of this trajectory (known: {known})")
@@ -104,12 +103,15 @@ class Trajectory:
     def save(self, path: str | Path) -> None:
         """Write the samples to a .csv file, a column for each of t, tau, the states, field, distance, the source's
         place and the inputs, or to an .npz file of these arrays; :class:`InputError` where that can't be done."""
-        columns: dict[str, Any] = {"t": self.t, "tau": self.tau} | dict(zip(self.states, self.x, strict=True))
-        columns |= {"field": self.field, "distance": self.distance}
-        if self.source is not None:
-            columns |= {f"source_{name}": row for name, row in zip(self.states, self.source, strict=False)}
-        known = {name: values for name, values in (columns | dict(self.inputs)).items() if values is not None}
+        source = () if self.source is None else zip(self.states, self.source, strict=False)
+        columns = self._columns({f"source_{name}": row for name, row in source})
+        known = {name: values for name, values in columns.items() if values is not None}
         save_columns(path, known, dict(self.settings) | {"outcome": self.outcome, "message": self.message})
+
+    def _columns(self, more: Mapping[str, Array] | None = None) -> dict[str, Array | None]:
+        """All samples by name, in the order of a table."""
+        times = {"t": self.t, "tau": self.tau} | dict(zip(self.states, self.x, strict=True))
+        return times | {"field": self.field, "distance": self.distance} | dict(more or {}) | dict(self.inputs)
 
     def plot(self, ax: Any = None) -> Any:
         """Draw the path in the plane (two positions), or the states against time; the Matplotlib ``Axes``."""

@@ -12,7 +12,6 @@ from ptproof.problem import Problem
 from ptproof.problem.smooth import roughness
 from ptproof.simulation.run import simulate
 from ptproof.simulation.settings import Outcome
-from ptproof.simulation.trajectory import Trajectory
 
 _RTOL = 1e-11  # where a bound is attained exactly, a coarser run would seem to violate it
 _ATOL = 1e-18
@@ -45,7 +44,6 @@ def worst_distance(problem: Problem, distance: sp.Expr, *, starts: int = 64, dra
         point = source + float(distance) * np.array([np.cos(angle), np.sin(angle)])
         start = dict(zip(names, point, strict=True))
         run = simulate(problem, model="average", initial=start, samples=100, rtol=_RTOL, atol=_ATOL)
-        assert isinstance(run, Trajectory)
         if run.outcome is not Outcome.REACHED:
             return Simulated(None, (), f"a run of the average ended early: {run.outcome}")
         away = np.hypot(*(run[name] - centre for name, centre in zip(names, source, strict=True)))
