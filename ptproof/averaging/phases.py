@@ -1,24 +1,20 @@
 """Functions of the phase over one period, as combinations of a basis: products, derivatives, means, antiderivatives.
 
 A basis function is named by a key; what multiplies it is a polynomial of :mod:`ptproof.averaging.ring`. Sines and
-cosines have one basis, dithers with jumps and kinks another: powers times sines and cosines, each on one piece of the
-period.
+cosines have one basis, dithers with jumps and kinks another (:mod:`ptproof.averaging.damped`).
 """
 
 from __future__ import annotations
 
 import functools
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import sympy as sp
 
-from ptproof.averaging.quasipolynomial import QuasiPolynomial, exact_sign, ordered
-from ptproof.averaging.refusal import AveragingUndecided
 from ptproof.averaging.ring import Coefficient, Ring
-from ptproof.averaging.signal import Signal, read_signal
-from ptproof.proof.kinks import innermost
+from ptproof.averaging.signal import read_signal
 
 Key = tuple[Any, ...]
 Terms = tuple[tuple[Key, Coefficient], ...]
@@ -124,89 +120,3 @@ class Harmonics(Phases):
             return ()
         value = self.ring.number(sp.Rational(1, r)) * self._slower
         return (((r, 1 - kind), -value if kind else value),)
-
-
-class Pieces(Phases):
-    """φ^n cos(rφ), key (p, n, r, 0), and φ^n sin(rφ), key (p, n, r, 1), on the piece p of the period, 0 elsewhere."""
-
-    def __init__(self, ring: Ring, phase: sp.Symbol, period: sp.Expr, points: Sequence[sp.Expr]) -> None:
-        super().__init__(ring, phase, period)
-        self.points = tuple(points)
-        self._signals = functools.cache(self._signal)
-
-    @property
-    def one(self) -> Terms:
-        return tuple(((p, 0, sp.S.Zero, 0), self.ring.one) for p in range(len(self.points) - 1))
-
-    def read(self, expression: sp.Expr, where: str) -> Terms:
-        return self._terms(read_signal(expression, self.phase, self.period, where))
-
-    def _terms(self, signal: Signal) -> Terms:
-        result: list[tuple[Key, Coefficient]] = []
-        place = 0
-        for p, end in enumerate(self.points[1:]):
-            for (n, rate), values in signal.pieces[place].terms.items():
-                result.extend(
-                    ((p, n, rate, kind), self.ring.read(value)) for kind, value in enumerate(values) if value != 0
-                )
-            place += place + 1 < len(signal.pieces) and exact_sign(signal.points[place + 1] - end) <= 0
-        return tuple(result)
-
-    def expression(self, terms: Mapping[Key, sp.Expr]) -> sp.Expr:
-        pieces = [
-            QuasiPolynomial.collect(
-                ((n, rate), (sp.S.Zero, value) if kind else (value, sp.S.Zero))
-                for (q, n, rate, kind), value in terms.items()
-                if q == p
-            )
-            for p in range(len(self.points) - 1)
-        ]
-        if all(piece == pieces[0] for piece in pieces):
-            return Signal(self.period, (self.points[0], self.points[-1]), (pieces[0],)).expression(self.phase)
-        return Signal(self.period, self.points, tuple(pieces)).expression(self.phase)
-
-    def _signal(self, key: Key) -> Signal:
-        p, n, rate, kind = key
-        own = QuasiPolynomial({(n, rate): (sp.S.Zero, sp.S.One) if kind else (sp.S.One, sp.S.Zero)})
-        blank = QuasiPolynomial()
-        return Signal(self.period, self.points, tuple(own if q == p else blank for q in range(len(self.points) - 1)))
-
-    def _multiply(self, first: Key, second: Key) -> Terms:
-        if first[0] != second[0]:
-            return ()
-        place = first[0]
-        product = self._signals(first).pieces[place] * self._signals(second).pieces[place]
-        return tuple(
-            ((place, n, rate, kind), self.ring.read(value))
-            for (n, rate), values in product.terms.items()
-            for kind, value in enumerate(values)
-            if value != 0
-        )
-
-    def _mean(self, key: Key) -> Coefficient:
-        return self.ring.read(sp.expand(self._signals(key).mean))
-
-    def _primitive(self, key: Key) -> Terms:
-        signal = self._signals(key)
-        mean = QuasiPolynomial.constant(-signal.mean)
-        shifted = Signal(self.period, self.points, tuple(piece + mean for piece in signal.pieces))
-        return self._terms(shifted.primitive)
-
-
-def phases_for(ring: Ring, phase: sp.Symbol, period: sp.Expr, expressions: Iterable[sp.Expr]) -> Phases:
-    """The basis that holds these functions of the phase: :class:`Harmonics`, or :class:`Pieces` where there are jumps.
-
-    Raises
-    ------
-    AveragingRefused, AveragingUndecided
-        If the period is not one of them all, or no exact integral is known.
-    """
-    points: set[sp.Expr] = set()
-    for i, expression in enumerate(expressions, start=1):
-        if innermost(expression, {phase}) is not None:
-            points.update(read_signal(expression, phase, period, f"dither {i}").points)
-    if not points:
-        return Harmonics(ring, phase, period)
-    if len(apart := ordered(points)) < 2:
-        raise AveragingUndecided("the pieces of the dithers are not told apart")
-    return Pieces(ring, phase, period, apart)

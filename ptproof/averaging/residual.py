@@ -11,10 +11,10 @@ from collections.abc import Iterator
 
 import sympy as sp
 
+from ptproof.averaging.damped import Pieces
 from ptproof.averaging.expansion import Expansion
 from ptproof.averaging.fractions import Fractions, Sum, reading, total
 from ptproof.averaging.oscillation import DELTA, Oscillation
-from ptproof.averaging.phases import Pieces
 from ptproof.averaging.quasipolynomial import exact_sign
 from ptproof.averaging.refusal import AveragingUndecided
 from ptproof.proof.kinks import branch, innermost
