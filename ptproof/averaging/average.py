@@ -10,8 +10,8 @@ import sympy as sp
 
 from ptproof.averaging.brackets import SparseField, Vector, sparse_bracket, tidy
 from ptproof.averaging.coefficients import Coefficients, v_matrix
-from ptproof.averaging.form import check_form
 from ptproof.averaging.powers import PoweredSystem
+from ptproof.averaging.refusal import check_form
 from ptproof.averaging.second import derive_powered
 from ptproof.system import DitherSystem, System
 

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import functools
 import itertools
 from collections import defaultdict
+from typing import Any
 
 import sympy as sp
 from sympy.simplify.fu import TR10i
@@ -171,3 +173,27 @@ def tidy_constant(value: sp.Expr) -> sp.Expr:
     if value.has(sp.sin, sp.cos) and value.free_symbols and sp.count_ops(value) < 200:
         value = min((value, sp.factor_terms(TR10i(value))), key=sp.count_ops)
     return sp.radsimp(value) if value.is_number else value
+
+
+def triple_means(found: tuple[Signal, ...]) -> Any:
+    """⟨u_b U_a U_c⟩ as a function of (b, a, c), each product formed once."""
+    rates = [
+        frozenset(rate for _, rate in signal.pieces[0].terms) if signal.is_trigonometric else None for signal in found
+    ]
+
+    @functools.cache
+    def product(a: int, c: int) -> Signal:
+        return found[a].primitive * found[c].primitive
+
+    @functools.cache
+    def mean(b: int, a: int, c: int) -> sp.Expr:
+        if a > c:
+            return mean(b, c, a)
+        first, second, third = rates[a], rates[b], rates[c]
+        if first is not None and second is not None and third is not None:
+            sums = {sign * p + q for p in first for q in second for sign in (1, -1)}
+            if not any(total in third or -total in third for total in sums):
+                return sp.S.Zero
+        return (found[b] * product(a, c)).mean
+
+    return mean

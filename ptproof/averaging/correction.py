@@ -12,9 +12,8 @@ from sympy.core.function import AppliedUndef
 
 from ptproof.averaging.average import derive
 from ptproof.averaging.brackets import SparseField, Vector, sparse_bracket, tidy
-from ptproof.averaging.coefficients import signals, tidy_constant
-from ptproof.averaging.form import parts
-from ptproof.averaging.means import triple_means
+from ptproof.averaging.coefficients import signals, tidy_constant, triple_means
+from ptproof.averaging.refusal import parts
 from ptproof.averaging.signal import Signal
 from ptproof.proof.engines.smoothness import smoothness
 from ptproof.proof.statement import Relation

@@ -15,9 +15,8 @@ from ptproof.averaging.bounded import bounded_in_time
 from ptproof.averaging.brackets import Vector
 from ptproof.averaging.coefficients import signals
 from ptproof.averaging.fast import quasi_steady_state
-from ptproof.averaging.form import check_form, parts
 from ptproof.averaging.problem import DitherProblem, FastStates
-from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided, unless_refused
+from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided, check_form, parts, unless_refused
 from ptproof.averaging.signal import read_signal
 from ptproof.errors import InputError
 from ptproof.proof.engines.smoothness import smoothness

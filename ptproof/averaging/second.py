@@ -9,15 +9,11 @@ from dataclasses import dataclass, field
 import sympy as sp
 
 from ptproof.averaging.brackets import SparseField, Vector, sparse_bracket, tidy
-from ptproof.averaging.coefficients import Coefficients, signals, tidy_constant, v_matrix
-from ptproof.averaging.exponents import Point, told
-from ptproof.averaging.form import check_form
-from ptproof.averaging.gamma import Gamma
-from ptproof.averaging.means import triple_means
+from ptproof.averaging.coefficients import Coefficients, signals, tidy_constant, triple_means, v_matrix
+from ptproof.averaging.exponents import Gamma, Point, told
 from ptproof.averaging.powers import PoweredSystem
-from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided
-from ptproof.averaging.words import Word, Words, frequencies_of, letters_of, word_of
-from ptproof.averaging.wordwise import long_words
+from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided, check_form
+from ptproof.averaging.words import Word, Words, frequencies_of, letters_of, long_words, word_of
 from ptproof.proof.claim import Goal
 from ptproof.proof.engines.exact import exact
 from ptproof.proof.settling import settle
@@ -104,7 +100,7 @@ def derive_powered(system: PoweredSystem, order: int = 2) -> PoweredAverage:
 
 
 def check_powered_form(system: PoweredSystem) -> None:
-    """As :func:`ptproof.averaging.form.check_form`; a dither depends on the phase alone."""
+    """As :func:`ptproof.averaging.refusal.check_form`; a dither depends on the phase alone."""
     plain = system.plain
     check_form(plain, "the amplitude omega^power")
     for i, dither in enumerate(plain.dithers, start=1):
