@@ -182,6 +182,8 @@ _MOST = 4
 def rotating(system: DitherSystem, turned: sp.Symbol) -> tuple[sp.Expr, Vector] | None:
     """(A, Σ b_i u_i as a function of ``turned`` = θ − A), or None where no such A is found among the fields' angles.
 
+    Where dithers turn with the state, so that all fields depend on θ − A(x, z) only, that is the better phase.
+
     Guaranteed by exact algebra: with θ = turned + A the sum is what is returned, and that is free of A's sine and
     cosine. A vehicle whose heading is θ − kz is averaged with the heading as its phase this way.
     """

@@ -15,8 +15,7 @@ from ptproof.errors import InputError
 from ptproof.problem.drift import Drift
 from ptproof.problem.field import Field
 from ptproof.problem.model import GAIN, PHASE, TAU, TIME, parameters
-from ptproof.problem.seekers.law import Letters
-from ptproof.problem.seekers.seeker import Law, Seeker
+from ptproof.problem.seekers.seeker import Law, Letters, Seeker
 from ptproof.system import System
 from ptproof.transforms.clocks import CappedClock, Clock, capped, constant_clock, named_clock
 from ptproof.transforms.states import change_variable, solve_state

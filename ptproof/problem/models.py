@@ -12,8 +12,7 @@ from ptproof.problem.drift import Drift, bounded_drift
 from ptproof.problem.field import Field
 from ptproof.problem.loops import FRAMES, check_word, in_frame, reduced_loop, states_of
 from ptproof.problem.model import GAIN, TAU, TIME, parameters
-from ptproof.problem.seekers.law import letters
-from ptproof.problem.seekers.seeker import Law, Seeker
+from ptproof.problem.seekers.seeker import Law, Seeker, letters
 from ptproof.problem.smooth import require_smooth
 from ptproof.system import DitherSystem, System, substitute
 from ptproof.transforms.clocks import CappedClock, Clock

@@ -12,8 +12,7 @@ from flint import arb
 import ptproof
 from ptproof.balls import flow as flows
 from ptproof.balls.ball import ball_from
-from ptproof.balls.flow import flow
-from ptproof.balls.kinks import across
+from ptproof.balls.flow import across, flow
 from ptproof.balls.matrices import grown, identity, matrix
 from ptproof.balls.pieces import Proposal, VectorField
 from ptproof.balls.polynomials import not_below

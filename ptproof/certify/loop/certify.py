@@ -10,7 +10,7 @@ exists on the whole stretch and W ≤ w. Its distance from the source is at most
 Proof. As long as (y, q) stays inside, W ≤ w by comparison; W < c_n keeps it from the boundary; F and the drift are
 smooth on a neighbourhood of B, so a solution that stays in a compact set exists. And x − x* = y + δn, |n| = 1. ∎
 
-W is a corrected V (:mod:`ptproof.certify.loop.lyapunov`), but nothing rests on where it came from. The hypotheses are
+W is a corrected V (:mod:`ptproof.certify.loop.flow`), but nothing rests on where it came from. The hypotheses are
 checked in ball arithmetic on covers of B, for all headings and all |q| ≤ Q.
 """
 

@@ -40,7 +40,7 @@ def enclose(
 
     What is enclosed is the right-hand side that :func:`ptproof.simulate` integrates. Each step's theorem, with its
     hypotheses and its proof, stands at :func:`ptproof.balls.flow.flow`; steps across kinks (Max, Min, Abs), at
-    :func:`ptproof.balls.kinks.across`.
+    :func:`ptproof.balls.flow.across`.
 
     Parameters
     ----------

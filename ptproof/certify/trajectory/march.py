@@ -13,14 +13,12 @@ from flint import arb
 from numpy.polynomial import legendre
 
 from ptproof.balls.ball import ball_from
-from ptproof.balls.flow import GuardCrossed, flow
-from ptproof.balls.kinks import across, lowest
+from ptproof.balls.flow import GuardCrossed, across, flow, lowest
 from ptproof.balls.pieces import Piece, Proposal
 from ptproof.balls.region import Region
 from ptproof.balls.tape import Undefined
 from ptproof.certify.trajectory import collocation
-from ptproof.certify.trajectory.basis import scales, slow_part, split
-from ptproof.certify.trajectory.collocation import DEGREE, Trial
+from ptproof.certify.trajectory.collocation import DEGREE, Trial, scales, slow_part, split
 from ptproof.certify.trajectory.modes import Choices, Mode, mode_of
 
 Progress = Callable[[float], None]
