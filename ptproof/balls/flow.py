@@ -20,9 +20,8 @@ from ptproof.balls.matrices import (
     magnitudes,
     times,
 )  # fmt: skip
-from ptproof.balls.pieces import Piece, Proposal, VectorField, hull
+from ptproof.balls.pieces import Piece, Proposal, Region, VectorField, hull
 from ptproof.balls.polynomials import around, highest, largest, not_below, spectra
-from ptproof.balls.region import Region
 from ptproof.balls.series import SERIES, series_length
 from ptproof.balls.tape import Tape, Undefined
 

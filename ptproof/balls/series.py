@@ -181,13 +181,8 @@ class _Taylors(Lifted):
     def floor(self, value: Any) -> Any:
         return value.compose(SERIES.floor)
 
-    def integer_power(self, base: Any, exponent: int) -> Any:
-        if exponent < 0:
-            return self.integer_power(base, -exponent).compose(lambda series: SERIES.integer_power(series, -1))
-        result = base.constant(arb(1))
-        for bit in bin(exponent)[2:]:
-            result = result * result * base if bit == "1" else result * result
-        return result
+    def inverse(self, value: Any) -> Any:
+        return value.compose(lambda series: SERIES.integer_power(series, -1))
 
     def order(self, value: Any) -> int | None:
         return BALLS.order(value.start) or None  # where the polynomial starts at 0 its sign changes

@@ -19,8 +19,7 @@ from ptproof.balls.tape import Undefined
 from ptproof.certify.attack import unshaken
 from ptproof.certify.certificate import FieldCertificate, FieldWitness, Range
 from ptproof.certify.domain import Domain
-from ptproof.certify.evaluator import Goal, Place, start_boxes
-from ptproof.certify.optimum import Extremum
+from ptproof.certify.evaluator import Extremum, Goal, Place, start_boxes
 from ptproof.certify.quotients import Quotients
 from ptproof.certify.radius import RadiusSearch
 from ptproof.certify.source import degenerate_direction, source_order

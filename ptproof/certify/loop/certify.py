@@ -29,10 +29,9 @@ from ptproof.balls.arithmetic import Undefined
 from ptproof.balls.arrays import Array
 from ptproof.balls.ball import ball_from, precision
 from ptproof.balls.rounding import at_most, up
-from ptproof.certify.loop.advice import Advice, advice
 from ptproof.certify.loop.certificate import LoopCertificate
 from ptproof.certify.loop.cover import farthest
-from ptproof.certify.loop.failing import Failing, failing
+from ptproof.certify.loop.failing import Advice, Failing, advice, failing
 from ptproof.certify.loop.levels import fallen
 from ptproof.certify.loop.model import Model
 from ptproof.certify.loop.scene import NEAR, ORDERS, Scene, Task, held, hover, no_long_run, tasks

@@ -11,8 +11,7 @@ import sympy as sp
 from flint import arb
 
 from ptproof.balls.ball import ball_from, interval
-from ptproof.balls.pieces import Piece
-from ptproof.balls.region import Region
+from ptproof.balls.pieces import Piece, Region
 from ptproof.balls.rounding import down, up
 from ptproof.balls.tape import Undefined
 from ptproof.certify.trajectory.enclosure import Enclosure

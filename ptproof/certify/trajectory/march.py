@@ -14,8 +14,7 @@ from numpy.polynomial import legendre
 
 from ptproof.balls.ball import ball_from
 from ptproof.balls.flow import GuardCrossed, across, flow, lowest
-from ptproof.balls.pieces import Piece, Proposal
-from ptproof.balls.region import Region
+from ptproof.balls.pieces import Piece, Proposal, Region
 from ptproof.balls.tape import Undefined
 from ptproof.certify.trajectory import collocation
 from ptproof.certify.trajectory.collocation import DEGREE, Trial, scales, slow_part, split
