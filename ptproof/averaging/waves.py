@@ -11,6 +11,7 @@ import sympy as sp
 from ptproof.averaging.phases import Harmonics, Key, Phases
 from ptproof.averaging.refusal import AveragingUndecided
 from ptproof.averaging.ring import Coefficient, Ring
+from ptproof.balls.arithmetic import collected
 from ptproof.proof.kinks import innermost
 
 Powers = tuple[int, ...]
@@ -34,10 +35,7 @@ class Waves:
 
     def total(self, parts: Iterable[Wave]) -> Wave:
         """The sum."""
-        sums: dict[tuple[Key, Powers], Coefficient] = {}
-        for part in parts:
-            for key, value in part.items():
-                sums[key] = sums[key] + value if key in sums else value
+        sums = collected(item for part in parts for item in part.items())
         return {key: value for key, value in sums.items() if value != 0}
 
     def scaled(self, wave: Wave, factor: Coefficient) -> Wave:

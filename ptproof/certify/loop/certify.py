@@ -34,9 +34,20 @@ from ptproof.certify.loop.cover import farthest
 from ptproof.certify.loop.failing import Advice, Failing, advice, failing
 from ptproof.certify.loop.levels import fallen
 from ptproof.certify.loop.model import Model
-from ptproof.certify.loop.scene import NEAR, ORDERS, Scene, Task, held, hover, no_long_run, tasks
+from ptproof.certify.loop.scene import (
+    NEAR,
+    ORDERS,
+    NoCertificate,
+    Place,
+    Scene,
+    Stage,
+    Task,
+    held,
+    hover,
+    no_long_run,
+    tasks,
+)
 from ptproof.certify.loop.setup import Phase, Unfit
-from ptproof.certify.loop.stage import NoCertificate, Place, Stage
 from ptproof.errors import InputError
 from ptproof.problem import Problem
 from ptproof.problem.model import number

@@ -21,9 +21,8 @@ from ptproof.balls.rounding import up
 from ptproof.certify.loop.boxes import Boxes
 from ptproof.certify.loop.cover import Tried, tried
 from ptproof.certify.loop.levels import fallen
-from ptproof.certify.loop.scene import NEAR, Scene, Task, held, reached_distance
+from ptproof.certify.loop.scene import NEAR, NoCertificate, Place, Scene, Task, held, reached_distance
 from ptproof.certify.loop.setup import Unfit, drift_factor
-from ptproof.certify.loop.stage import NoCertificate, Place
 from ptproof.problem import Problem
 
 _SHOWN = 3
