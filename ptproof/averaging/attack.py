@@ -27,18 +27,10 @@ def coefficient_goals(derived: Derived) -> Iterator[Goal]:
 
 def average_goal(derived: Derived) -> Goal:
     """dx/dτ = b₀ + Σ v_ji ((∂b_j/∂x) b_i − (∂b_i/∂x) b_j), the derivatives left as they are."""
-    system, state = derived.dithered, derived.dithered.state
-
-    def slope(expression: sp.Expr, variable: sp.Symbol) -> sp.Expr:
-        return sp.Derivative(expression, variable, evaluate=False)
-
-    total = list(system.drift)
+    system, total = derived.dithered, list(derived.dithered.drift)
     for (j, i), value in derived.v.items():
-        first, second = system.fields[i - 1], system.fields[j - 1]
-        for row in range(len(state)):
-            for column, variable in enumerate(state):
-                total[row] += value * slope(second[row], variable) * first[column]
-                total[row] -= value * slope(first[row], variable) * second[column]
+        bracket = _left_bracket(system.fields[i - 1], system.fields[j - 1], system.state)
+        total = [entry + value * own for entry, own in zip(total, bracket, strict=True)]
     return Goal(
         f"average of {system.name}", Relation(sp.Matrix(derived.system.rhs), "=", sp.Matrix(total)), where_defined=True
     )

@@ -42,18 +42,14 @@ class Correction:
     shift
         Σ b_i U_i in terms of time, phase and states, n expressions.
     drift
-        g, n expressions in time and states; zero for many dithers (cos θ and sin θ, square waves), not for all.
+        g, n expressions in time and states; zero for many dithers (cos θ and sin θ, square waves), not for all. Where
+        it is, the plain average already serves as x̄.
     """
 
     system: DitherSystem
     average: System
     shift: Vector
     drift: Vector
-
-    @property
-    def drift_vanishes(self) -> bool:
-        """Whether g is identically zero, so that the plain average already serves as x̄."""
-        return all(entry == 0 for entry in self.drift)
 
     @property
     def corrected_average(self) -> System:
