@@ -13,11 +13,11 @@ from collections.abc import Iterable, Mapping, Sequence
 
 import sympy as sp
 
-from ptproof.averaging.phases import Harmonics, Key, Phases, Terms
 from ptproof.averaging.quasipolynomial import QuasiPolynomial, exact_sign, ordered
 from ptproof.averaging.refusal import AveragingUndecided
 from ptproof.averaging.ring import Coefficient, Ring
 from ptproof.averaging.signal import Signal, read_signal
+from ptproof.averaging.waves import Harmonics, Key, Phases, Terms
 from ptproof.proof.kinks import innermost
 from ptproof.proof.signs import sign_of
 
@@ -33,7 +33,7 @@ class Pieces(Phases):
     Parameters
     ----------
     ring, phase, period
-        As for :class:`~ptproof.averaging.phases.Phases`.
+        As for :class:`~ptproof.averaging.waves.Phases`.
     points
         Where the pieces end, from 0 to the period.
     decays

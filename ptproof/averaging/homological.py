@@ -11,9 +11,8 @@ from collections.abc import Iterable, Sequence
 import sympy as sp
 
 from ptproof.averaging.damped import Pieces
-from ptproof.averaging.phases import Harmonics
 from ptproof.averaging.ring import Coefficient
-from ptproof.averaging.waves import Powers, Wave, Waves, degree
+from ptproof.averaging.waves import Harmonics, Powers, Wave, Waves, degree
 
 Matrix = tuple[tuple[Coefficient, ...], ...]
 

@@ -36,16 +36,8 @@ def pieces(
     for point in (start, *points):
         _value_at(node, variable, point, where)
     for left, right in itertools.pairwise([start, *points, end]):
-        middle = _between(left, right)
-
-        def sign_of(side: sp.Expr, middle: sp.Rational = middle) -> int:
-            return exact_sign(side.subs(variable, middle))
-
-        def floor_of(level: sp.Expr, middle: sp.Rational = middle) -> int:
-            return int(sp.floor(level.subs(variable, middle)))
-
-        replacement = branch(node, sign_of, floor_of)
-        assert replacement is not None  # both callbacks always answer
+        replacement = branch_at(node, variable, between(left, right))
+        assert replacement is not None  # signs and integer parts always answer
         if replacement.has(sp.nan):
             raise _no_value(node, where)
         yield from pieces(expression.xreplace({node: replacement}), variable, left, right, where)
@@ -60,12 +52,21 @@ def _no_value(node: sp.Basic, where: str) -> AveragingUndecided:
 def _value_at(node: sp.Basic, variable: sp.Symbol, point: sp.Expr, where: str) -> None:
     """Refuse a ``Piecewise`` that has no value at a point where it switches."""
     if isinstance(node, sp.Piecewise):
-        there = branch(node, lambda side: exact_sign(side.subs(variable, point)))
+        there = branch_at(node, variable, point)
         if there is None or there.has(sp.nan):
             raise _no_value(node, where)
 
 
-def _between(left: sp.Expr, right: sp.Expr) -> sp.Rational:
+def branch_at(node: sp.Basic, variable: sp.Symbol, point: sp.Expr) -> sp.Expr | None:
+    """What holds of a switch at an exact place; None where none of its conditions does."""
+    return branch(
+        node,
+        lambda side: exact_sign(side.subs(variable, point)),
+        lambda counted: int(sp.floor(counted.subs(variable, point))),
+    )
+
+
+def between(left: sp.Expr, right: sp.Expr) -> sp.Rational:
     """A rational number strictly between two exact numbers."""
     for digits in (20, 60):
         middle = sp.Rational(str(((left + right) / 2).evalf(digits)))

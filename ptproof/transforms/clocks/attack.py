@@ -23,18 +23,17 @@ def goals(clock: Any) -> tuple[Goal, ...]:
     if clock.horizon is not sp.oo:
         in_t.append(lt(t, clock.start + clock.horizon))
     forth, back = clock.to_tau, clock.to_t
-    slope = sp.Derivative(forth, t, evaluate=False)
-    there = every(
-        Relation(sp.Subs(back, tau, forth), "=", t),
-        Relation(slope, "=", clock.rate),
-        gt(clock.rate, 0),
-        ge(forth, clock.start),
-    )
-    again = every(
-        Relation(sp.Subs(forth, t, back), "=", tau),
-        Relation(sp.Derivative(back, tau, evaluate=False), "=", clock.rate_back),
-        gt(clock.rate_back, 0),
-        ge(back, clock.start),
+    there, again = (
+        every(
+            Relation(sp.Subs(inverse, other, map_), "=", time),
+            Relation(sp.Derivative(map_, time, evaluate=False), "=", rate),
+            gt(rate, 0),
+            ge(map_, clock.start),
+        )
+        for map_, inverse, time, other, rate in (
+            (forth, back, t, tau, clock.rate),
+            (back, forth, tau, t, clock.rate_back),
+        )
     )
     at_start = every(
         Relation(sp.Subs(forth, t, clock.start), "=", clock.start),
