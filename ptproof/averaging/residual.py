@@ -80,7 +80,8 @@ class _Substituted:
         expansion, order = self._expansion, self._expansion.order
         for power in range(1, order + 1 if expansion.closed else max((*expansion.rest, order)) + 1):
             for place, observable in enumerate(expansion.observables):
-                terms = [*self._derivative(place, power), *map(_negative, self._said(place, power))]
+                said = ({below: -value for below, value in entry.items()} for entry in self._said(place, power))
+                terms = [*self._derivative(place, power), *said]
                 if not self._algebra.vanishes(terms):
                     return f"at delta^{power} something is left over in the equation of {observable}"
         return None
@@ -135,10 +136,6 @@ class _Substituted:
                     product = algebra.product(product, algebra.read(sp.factorial(r)))
             result = total(result, product)
         return result
-
-
-def _negative(entry: Sum) -> Sum:
-    return {below: -value for below, value in entry.items()}
 
 
 def _by_powers(own: Oscillation, highest: int | None) -> list[list[sp.Expr]]:
