@@ -109,9 +109,8 @@ def certify_loop(
     size, gap = _sizes(problem, radius, filter_gap)
     reasons, places, tuning = [], dict[str, Place | None](), problem.tuning
     found: _Curve | None = None
-    if shapes is None:  # along a slope all of a level set of F falls about equally fast
-        shapes = SHAPES if problem.drift.matrix is None else SHAPES[::-1]
-    for shape in shapes:
+    own = SHAPES if problem.drift.matrix is None else SHAPES[::-1]  # along a slope a level set of F falls about evenly
+    for shape in own if shapes is None else shapes:
         try:
             with precision(_PRECISION):
                 found = _curve(problem, size, gap, shape, tolerance, workers, client)
