@@ -118,12 +118,11 @@ def certify_loop(
         except (NoCertificate, Unfit, Undefined) as error:
             reasons.append(f"with V {_NAMES[shape]}: {error}")
             places[shape] = error.place if isinstance(error, NoCertificate) else None
-    verdict = Verdict.UNDECIDED if found is None else Verdict.PROVED
     times, distances, resting, detail = ((), (), None, "; ".join(reasons)) if found is None else found
     boxes, help_ = _explained(problem, size, gap, places) if explain and found is None else ((), None)
     return LoopCertificate(
-        verdict, float(tuning.omega), float(tuning.mu), float(size), float(gap), times, distances, resting, detail,
-        clock.perf_counter() - begin, boxes, help_,
+        Verdict.UNDECIDED if found is None else Verdict.PROVED, float(tuning.omega), float(tuning.mu), float(size),
+        float(gap), times, distances, resting, detail, clock.perf_counter() - begin, boxes, help_,
     )  # fmt: skip
 
 
