@@ -1,4 +1,3 @@
-from .answer import Average as Average
 from .average import Derived as Derived
 from .average import average as average
 from .average import derive as derive
@@ -28,4 +27,5 @@ from .scaled import of_turning as of_turning
 from .second import PoweredAverage as PoweredAverage
 from .second import derive_powered as derive_powered
 from .split import split_dithers as split_dithers
+from .study import Average as Average
 from .study import study as study

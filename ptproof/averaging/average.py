@@ -10,8 +10,8 @@ import sympy as sp
 
 from ptproof.averaging.brackets import SparseField, Vector, sparse_bracket, tidy
 from ptproof.averaging.coefficients import Coefficients, v_matrix
-from ptproof.averaging.form import check_form
 from ptproof.averaging.powers import PoweredSystem
+from ptproof.averaging.refusal import check_form
 from ptproof.averaging.second import derive_powered
 from ptproof.system import DitherSystem, System
 
@@ -88,7 +88,7 @@ def derive(system: DitherSystem) -> Derived:
         if value == 0 or not (fields[i - 1].entries and fields[j - 1].entries):
             continue
         bracket = sparse_bracket(fields[i - 1], fields[j - 1])
-        brackets[i, j] = tuple(bracket.entries.get(row, sp.S.Zero) for row in range(len(system.state)))
+        brackets[i, j] = bracket.vector
         for row, entry in bracket.entries.items():
             sums[row].append(value * entry)
     added = (tidy(sp.Add(*terms)) if len(terms) > 1 else sp.Add(*terms) for terms in sums)

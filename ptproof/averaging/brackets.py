@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import operator
 from collections.abc import Mapping, Sequence
 
 import sympy as sp
@@ -28,18 +29,18 @@ class SparseField:
             for row, entry in self.entries.items()
         }
 
-    def along(self, direction: SparseField) -> dict[int, sp.Expr]:
-        """The derivative of this field along ``direction``: (∂self/∂x) direction, nonzero rows only."""
-        result = {}
+    @property
+    def vector(self) -> Vector:
+        """All entries, n expressions."""
+        return tuple(self.entries.get(row, sp.S.Zero) for row in range(len(self.state)))
+
+    def along(self, direction: SparseField) -> SparseField:
+        """The derivative of this field along ``direction``: (∂self/∂x) direction."""
+        result: list[sp.Expr] = [sp.S.Zero] * len(self.state)
         for row, columns in self.depends.items():
-            terms = [
-                self._derivative(row, column) * direction.entries[column]
-                for column in columns
-                if column in direction.entries
-            ]
-            if terms:
-                result[row] = sp.Add(*terms)
-        return result
+            moving = (column for column in columns if column in direction.entries)
+            result[row] = sp.Add(*(self._derivative(row, column) * direction.entries[column] for column in moving))
+        return SparseField(result, self.state)
 
 
 def sparse_bracket(f: SparseField, g: SparseField, factored: int = _FACTORED) -> SparseField:
@@ -47,8 +48,7 @@ def sparse_bracket(f: SparseField, g: SparseField, factored: int = _FACTORED) ->
 
     ``factored`` as in :func:`tidy`.
     """
-    forward, backward = g.along(f), f.along(g)
-    entries = [forward.get(row, sp.S.Zero) - backward.get(row, sp.S.Zero) for row in range(len(f.state))]
+    entries = map(operator.sub, g.along(f).vector, f.along(g).vector)
     return SparseField([tidy(entry, factored) if entry != 0 else entry for entry in entries], f.state)
 
 

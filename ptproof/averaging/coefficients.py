@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+import functools
 import itertools
 from collections import defaultdict
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import sympy as sp
+from flint import arb, fmpq
 from sympy.simplify.fu import TR10i
 
-from ptproof.averaging.enclosure import check_coefficients, sample
 from ptproof.averaging.quasipolynomial import exact_sign
 from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided, NotAPeriod
 from ptproof.averaging.signal import Signal, common_pieces, period_of, rates_of, read_signal
-from ptproof.balls.ball import separated
+from ptproof.balls.ball import enclose, precision, separated
+from ptproof.balls.nested import Functions
 from ptproof.proof.declarations import SIGNS, declared
 from ptproof.proof.definedness import obligations
 from ptproof.proof.engines.reals import follows
@@ -171,3 +175,60 @@ def tidy_constant(value: sp.Expr) -> sp.Expr:
     if value.has(sp.sin, sp.cos) and value.free_symbols and sp.count_ops(value) < 200:
         value = min((value, sp.factor_terms(TR10i(value))), key=sp.count_ops)
     return sp.radsimp(value) if value.is_number else value
+
+
+def triple_means(found: tuple[Signal, ...]) -> Any:
+    """⟨u_b U_a U_c⟩ as a function of (b, a, c), each product formed once."""
+    rates = [
+        frozenset(rate for _, rate in signal.pieces[0].terms) if signal.is_trigonometric else None for signal in found
+    ]
+
+    @functools.cache
+    def product(a: int, c: int) -> Signal:
+        return found[a].primitive * found[c].primitive
+
+    @functools.cache
+    def mean(b: int, a: int, c: int) -> sp.Expr:
+        if a > c:
+            return mean(b, c, a)
+        first, second, third = rates[a], rates[b], rates[c]
+        if first is not None and second is not None and third is not None:
+            sums = {sign * p + q for p in first for q in second for sign in (1, -1)}
+            if not any(total in third or -total in third for total in sums):
+                return sp.S.Zero
+        return (found[b] * product(a, c)).mean
+
+    return mean
+
+
+_BITS = 80
+_COARSEST = arb("1e-6")
+
+
+def check_coefficients(
+    system: DitherSystem, values: Mapping[tuple[int, int], sp.Expr], hints: Sequence[sp.Expr] = ()
+) -> None:
+    """Raise ``ArithmeticError`` if an exact v_ji lies outside its enclosure.
+
+    ``hints`` are points where a dither may switch; wrong or missing ones cost time, not rigour.
+    """
+    with precision(_BITS):
+        symbols = sample(set().union(*(dither.free_symbols for dither in system.dithers)) - {system.phase})
+        period = enclose(system.period, bits=_BITS)
+        dithers = Functions(system.dithers, system.phase, period, symbols)
+        enclosures, sizes = dithers.nested_integrals(hints), dithers.sizes
+        for (j, i), exact in values.items():
+            ball = enclosures[j - 1, i - 1] / period
+            if not ball.rad() <= _COARSEST * period * sizes[j - 1] * sizes[i - 1]:
+                raise ArithmeticError(f"the enclosure {ball} of v_{j},{i} is too wide to check anything")
+            if not ball.overlaps(enclose(exact, symbols, bits=_BITS) if exact != 0 else arb(0)):
+                raise ArithmeticError(f"v_{j},{i} = {exact} lies outside its enclosure {ball}; please report this")
+
+
+def sample(symbols: set[sp.Symbol]) -> dict[sp.Symbol, arb]:
+    """Exact values for symbols, as balls, that respect their assumptions: the same ones each time."""
+    values = {}
+    for place, symbol in enumerate(sorted(symbols, key=lambda symbol: symbol.name)):
+        size = fmpq(place + 1) if symbol.is_integer else fmpq(7 * place + 5, 3 * place + 8)
+        values[symbol] = arb(-size if symbol.is_negative or symbol.is_nonpositive else size)
+    return values

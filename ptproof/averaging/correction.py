@@ -12,9 +12,8 @@ from sympy.core.function import AppliedUndef
 
 from ptproof.averaging.average import derive
 from ptproof.averaging.brackets import SparseField, Vector, sparse_bracket, tidy
-from ptproof.averaging.coefficients import signals, tidy_constant
-from ptproof.averaging.form import parts
-from ptproof.averaging.means import triple_means
+from ptproof.averaging.coefficients import signals, tidy_constant, triple_means
+from ptproof.averaging.refusal import parts
 from ptproof.averaging.signal import Signal
 from ptproof.proof.engines.smoothness import smoothness
 from ptproof.proof.statement import Relation
@@ -43,18 +42,14 @@ class Correction:
     shift
         Σ b_i U_i in terms of time, phase and states, n expressions.
     drift
-        g, n expressions in time and states; zero for many dithers (cos θ and sin θ, square waves), not for all.
+        g, n expressions in time and states; zero for many dithers (cos θ and sin θ, square waves), not for all. Where
+        it is, the plain average already serves as x̄.
     """
 
     system: DitherSystem
     average: System
     shift: Vector
     drift: Vector
-
-    @property
-    def drift_vanishes(self) -> bool:
-        """Whether g is identically zero, so that the plain average already serves as x̄."""
-        return all(entry == 0 for entry in self.drift)
 
     @property
     def corrected_average(self) -> System:
@@ -128,7 +123,7 @@ def first_correction(system: DitherSystem) -> Correction:
 def _drift(system: DitherSystem, found: tuple[Signal, ...]) -> Vector:
     fields = [SparseField(entries, system.state) for entries in system.fields]
     mean = triple_means(found)
-    rows: dict[int, list[sp.Expr]] = {}
+    rows: list[list[sp.Expr]] = [[] for _ in system.state]
     for i, j in itertools.combinations(range(len(fields)), 2):
         weights = {k: tidy_constant(sp.expand(mean(j, i, k) - mean(i, j, k))) for k in range(len(fields))}
         weights = {k: weight for k, weight in weights.items() if weight != 0}
@@ -137,5 +132,5 @@ def _drift(system: DitherSystem, found: tuple[Signal, ...]) -> Vector:
         inner = sparse_bracket(fields[i], fields[j])
         for k, weight in weights.items():
             for row, entry in sparse_bracket(inner, fields[k]).entries.items():
-                rows.setdefault(row, []).append(-weight * entry / 3)
-    return tuple(tidy(sp.Add(*rows[row])) if row in rows else sp.S.Zero for row in range(len(system.state)))
+                rows[row].append(-weight * entry / 3)
+    return tuple(tidy(sp.Add(*terms)) if terms else sp.S.Zero for terms in rows)

@@ -1,28 +1,30 @@
-"""Functions of the phase between switches that decay as linear filters do: powers, sines, cosines and exponentials.
+"""Functions of the phase between switches: powers, sines and cosines, and exponentials that decay as linear filters do.
 
 A filter that is driven by a dither with jumps answers, between two jumps, by what the dither is plus a free motion.
-So the basis of :class:`~ptproof.averaging.phases.Pieces` is enlarged by the free motions, and then it is closed under
-products, antiderivatives and periodic responses.
+So the basis has the free motions too, and then it is closed under products, antiderivatives and periodic responses.
 """
 
 from __future__ import annotations
 
 import functools
+import itertools
 import math
 from collections.abc import Iterable, Mapping, Sequence
 
 import sympy as sp
 
-from ptproof.averaging.phases import Key, Pieces, Terms
+from ptproof.averaging.quasipolynomial import QuasiPolynomial, exact_sign, ordered
 from ptproof.averaging.refusal import AveragingUndecided
 from ptproof.averaging.ring import Coefficient, Ring
-from ptproof.averaging.signal import Signal
+from ptproof.averaging.signal import Signal, read_signal
+from ptproof.averaging.waves import Harmonics, Key, Phases, Terms
+from ptproof.proof.kinks import innermost
 from ptproof.proof.signs import sign_of
 
 Turns = tuple[int, ...]
 
 
-class Damped(Pieces):
+class Pieces(Phases):
     """φ^n e^(a(φ − φ_p)) cos(rφ), key (p, n, r, 0, k), and with sin (p, n, r, 1, k), on the piece p, 0 elsewhere.
 
     φ_p is the end of the piece, so that nothing in it is larger than at its end, and a = Σ k_c μ_c ≥ 0 for the decay
@@ -30,21 +32,27 @@ class Damped(Pieces):
 
     Parameters
     ----------
-    ring, phase, period, points
-        As for :class:`~ptproof.averaging.phases.Pieces`.
+    ring, phase, period
+        As for :class:`~ptproof.averaging.waves.Phases`.
+    points
+        Where the pieces end, from 0 to the period.
     decays
         The rate at which each fast state decays in the phase, positive; those whose ratio is rational share a unit.
     """
 
     def __init__(
-        self, ring: Ring, phase: sp.Symbol, period: sp.Expr, points: Sequence[sp.Expr], decays: Sequence[sp.Expr]
+        self, ring: Ring, phase: sp.Symbol, period: sp.Expr, points: Sequence[sp.Expr], decays: Sequence[sp.Expr] = ()
     ) -> None:
-        super().__init__(ring, phase, period, points)
+        super().__init__(ring, phase, period)
+        self.points = tuple(points)
         self._units, self.turns = _shared(decays)
-        lengths = [end - start for start, end in zip(self.points, self.points[1:], strict=False)]
-        units, counts = _shared(lengths)
-        self._spans = [(units[place], count) for places in counts for place, count in enumerate(places) if count]
         self.response = functools.cache(self._response)
+
+    @functools.cached_property
+    def _spans(self) -> list[tuple[sp.Expr, int]]:
+        """The length of each piece as a unit and how often it stands in it."""
+        units, counts = _shared([end - start for start, end in itertools.pairwise(self.points)])
+        return [(units[place], count) for places in counts for place, count in enumerate(places) if count]
 
     @property
     def _still(self) -> Turns:
@@ -54,12 +62,36 @@ class Damped(Pieces):
     def one(self) -> Terms:
         return tuple(((p, 0, sp.S.Zero, 0, self._still), self.ring.one) for p in range(len(self.points) - 1))
 
-    def _terms(self, signal: Signal) -> Terms:
-        return tuple(((*key, self._still), value) for key, value in super()._terms(signal))
+    def read(self, expression: sp.Expr, where: str) -> Terms:
+        signal = read_signal(expression, self.phase, self.period, where)
+        result: list[tuple[Key, Coefficient]] = []
+        place = 0
+        for p, end in enumerate(self.points[1:]):
+            result.extend(self._keyed(p, signal.pieces[place], self._still))
+            place += place + 1 < len(signal.pieces) and exact_sign(signal.points[place + 1] - end) <= 0
+        return tuple(result)
+
+    def _keyed(self, p: int, piece: QuasiPolynomial, turns: Turns) -> Terms:
+        return tuple(
+            ((p, n, rate, kind, turns), self.ring.read(value))
+            for (n, rate), values in piece.terms.items()
+            for kind, value in enumerate(values)
+            if value != 0
+        )
 
     def expression(self, terms: Mapping[Key, sp.Expr]) -> sp.Expr:
         if all(key[4] == self._still for key in terms):
-            return super().expression({key[:4]: value for key, value in terms.items()})
+            pieces = [
+                QuasiPolynomial.collect(
+                    ((n, rate), (sp.S.Zero, value) if kind else (value, sp.S.Zero))
+                    for (q, n, rate, kind, _), value in terms.items()
+                    if q == p
+                )
+                for p in range(len(self.points) - 1)
+            ]
+            same = all(piece == pieces[0] for piece in pieces)
+            points, pieces = ((self.points[0], self.points[-1]), pieces[:1]) if same else (self.points, pieces)
+            return Signal(self.period, points, tuple(pieces)).expression(self.phase)
         inside = self.phase - self.period * sp.floor(self.phase / self.period)
         branches = []
         for p, end in enumerate(self.points[1:]):
@@ -84,8 +116,14 @@ class Damped(Pieces):
         return result
 
     def _multiply(self, first: Key, second: Key) -> Terms:
+        if first[0] != second[0]:
+            return ()
+        one, other = (
+            QuasiPolynomial({(n, rate): (sp.S.Zero, sp.S.One) if kind else (sp.S.One, sp.S.Zero)})
+            for _, n, rate, kind, _ in (first, second)
+        )
         turns = tuple(a + b for a, b in zip(first[4], second[4], strict=True))
-        return tuple(((*key, turns), value) for key, value in super()._multiply(first[:4], second[:4]))
+        return self._keyed(first[0], one * other, turns)
 
     def _at_ends(self, terms: Iterable[tuple[Key, Coefficient]]) -> tuple[Coefficient, Coefficient]:
         """The values at the start and at the end of the piece of functions on one and the same piece."""
@@ -170,6 +208,25 @@ class Damped(Pieces):
     def _without_zeros(self, sums: Mapping[Key, Coefficient]) -> Terms:
         reduced = ((key, self.ring.reduced(value)) for key, value in sums.items())
         return tuple((key, value) for key, value in reduced if value != 0)
+
+
+def phases_for(ring: Ring, phase: sp.Symbol, period: sp.Expr, expressions: Iterable[sp.Expr]) -> Phases:
+    """The basis that holds these functions of the phase: :class:`Harmonics`, or :class:`Pieces` where there are jumps.
+
+    Raises
+    ------
+    AveragingRefused, AveragingUndecided
+        If the period is not one of them all, or no exact integral is known.
+    """
+    points: set[sp.Expr] = set()
+    for i, expression in enumerate(expressions, start=1):
+        if innermost(expression, {phase}) is not None:
+            points.update(read_signal(expression, phase, period, f"dither {i}").points)
+    if not points:
+        return Harmonics(ring, phase, period)
+    if len(apart := ordered(points)) < 2:
+        raise AveragingUndecided("the pieces of the dithers are not told apart")
+    return Pieces(ring, phase, period, apart)
 
 
 def _shared(values: Sequence[sp.Expr]) -> tuple[list[sp.Expr], list[Turns]]:

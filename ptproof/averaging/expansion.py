@@ -22,10 +22,9 @@ from typing import Any
 import sympy as sp
 
 from ptproof.averaging.brackets import Vector
-from ptproof.averaging.damped import Damped
+from ptproof.averaging.damped import Pieces, phases_for
 from ptproof.averaging.homological import Homological, in_order
 from ptproof.averaging.oscillation import Oscillation
-from ptproof.averaging.phases import Pieces, phases_for
 from ptproof.averaging.refusal import AveragingUndecided
 from ptproof.averaging.ring import Coefficient, Ring, RingFull
 from ptproof.averaging.waves import Wave, Waves, together
@@ -250,7 +249,7 @@ def _with_filter(phases: Pieces, oscillation: Oscillation) -> Pieces:
             f"the fast states drive each other in a circle, {matrix.tolist()}; with dithers that jump or have kinks "
             "exact averages are for filters in series and in parallel, whose free motions are real exponentials"
         )
-    return Damped(phases.ring, phases.phase, phases.period, phases.points, [-matrix[i, i] for i in range(matrix.rows)])
+    return Pieces(phases.ring, phases.phase, phases.period, phases.points, [-matrix[i, i] for i in range(matrix.rows)])
 
 
 def _exponents(count: int, depth: int) -> list[tuple[int, ...]]:

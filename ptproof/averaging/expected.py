@@ -84,16 +84,13 @@ def summary(expectations: Sequence[Expectation]) -> dict[str, Any]:
     >>> summary([Expectation(1, (sp.S.Zero,), (sp.S.Zero,), Evidence("exact", Verdict.PROVED, ""))])
     {'verdict': 'proved', 'witness': None}
     """
-    worst = max(expectations, key=lambda found: _badness(found.evidence.verdict))
+    badness = {Verdict.PROVED: 0, Verdict.REFUTED: 2}
+    worst = max(expectations, key=lambda found: badness.get(found.evidence.verdict, 1))
     witness = worst.evidence.witness
     found = {"verdict": str(worst.evidence.verdict), "witness": witness and witness.to_json()}
     if all(expectation.order == 1 for expectation in expectations):
         return found
     return found | {"orders": [expectation.to_json() for expectation in expectations]}
-
-
-def _badness(verdict: Verdict) -> int:
-    return {Verdict.PROVED: 0, Verdict.REFUTED: 2}.get(verdict, 1)
 
 
 def open_ones(claimed: Mapping[int, Vector], reason: str) -> tuple[Expectation, ...]:

@@ -10,10 +10,9 @@ from collections.abc import Iterable, Sequence
 
 import sympy as sp
 
-from ptproof.averaging.damped import Damped
-from ptproof.averaging.phases import Harmonics
+from ptproof.averaging.damped import Pieces
 from ptproof.averaging.ring import Coefficient
-from ptproof.averaging.waves import Powers, Wave, Waves, degree
+from ptproof.averaging.waves import Harmonics, Powers, Wave, Waves, degree
 
 Matrix = tuple[tuple[Coefficient, ...], ...]
 
@@ -28,7 +27,7 @@ class Homological:
     Parameters
     ----------
     waves
-        The algebra. With fast states its phases are sines and cosines, or ``Damped``.
+        The algebra. With fast states its phases are sines and cosines, or ``Pieces`` that decay as these do.
     matrix
         A (q × q), free of states and phase.
     forcing
@@ -59,7 +58,7 @@ class Homological:
     def _solve_degree(self, part: Wave, level: int) -> Wave:
         """∂W/∂φ + B W = −part on one degree: (B² + r²) a = r s − B c and (B² + r²) b = −r c − B s for each harmonic."""
         ring, phases = self.waves.ring, self.waves.phases
-        if isinstance(phases, Damped):
+        if isinstance(phases, Pieces):
             return self._respond(part, level, phases)
         assert isinstance(phases, Harmonics)
         monomials, action = self._on_degree(level)
@@ -83,7 +82,7 @@ class Homological:
                         result[(turns, kind), powers] = value
         return result
 
-    def _respond(self, part: Wave, level: int, phases: Damped) -> Wave:
+    def _respond(self, part: Wave, level: int, phases: Pieces) -> Wave:
         """The same between switches, monomial by monomial: w′ − a w = −(what drives it), a its rate of decay."""
         waves = self.waves
         monomials, action = self._on_degree(level)

@@ -15,9 +15,8 @@ from ptproof.averaging.bounded import bounded_in_time
 from ptproof.averaging.brackets import Vector
 from ptproof.averaging.coefficients import signals
 from ptproof.averaging.fast import quasi_steady_state
-from ptproof.averaging.form import check_form, parts
 from ptproof.averaging.problem import DitherProblem, FastStates
-from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided
+from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided, check_form, parts, unless_refused
 from ptproof.averaging.signal import read_signal
 from ptproof.errors import InputError
 from ptproof.proof.engines.smoothness import smoothness
@@ -107,18 +106,15 @@ def _crash(error: Exception) -> Evidence:
 
 
 def _form(problem: DitherProblem) -> Evidence:
-    try:
-        check_form(problem.system)
-    except AveragingRefused as refusal:
-        return Evidence("form", Verdict.REFUTED, str(refusal))
-    if problem.fast is not None:
-        own = {problem.system.time, problem.system.phase, problem.system.omega}
-        for i, rate in enumerate(problem.fast.rate, start=1):
-            if found := rate.free_symbols & own:
-                names = ", ".join(sorted(symbol.name for symbol in found))
-                detail = f"fast rate {i}: g(x, z) may depend on the states only, but it contains {names}"
-                return Evidence("form", Verdict.REFUTED, detail)
-    return Evidence("form", Verdict.PROVED, "drift + sqrt(omega) * sum of field * dither")
+    fine = "drift + sqrt(omega) * sum of field * dither"
+    evidence = unless_refused("form", lambda: check_form(problem.system), fine)
+    own = {problem.system.time, problem.system.phase, problem.system.omega}
+    for i, rate in enumerate(problem.fast.rate if problem.fast else (), start=1):
+        if evidence.verdict is Verdict.PROVED and (found := rate.free_symbols & own):
+            names = ", ".join(sorted(symbol.name for symbol in found))
+            detail = f"fast rate {i}: g(x, z) may depend on the states only, but it contains {names}"
+            return Evidence("form", Verdict.REFUTED, detail)
+    return evidence
 
 
 def _states(problem: DitherProblem) -> tuple[sp.Symbol, ...]:
@@ -236,14 +232,8 @@ def _dithers(problem: DitherProblem) -> Evidence:
 
 def period_and_mean(problem: DitherProblem) -> Evidence:
     """Whether each dither has the declared period and the mean 0."""
-    try:
-        signals(problem.system)
-    except AveragingRefused as refusal:
-        return Evidence("exact integrals", Verdict.REFUTED, str(refusal))
-    except AveragingUndecided as unknown:
-        return Evidence("exact integrals", Verdict.UNDECIDED, str(unknown))
-    detail = f"each dither has the period {problem.system.period} and the exact mean 0"
-    return Evidence("exact integrals", Verdict.PROVED, detail)
+    fine = f"each dither has the period {problem.system.period} and the exact mean 0"
+    return unless_refused("exact integrals", lambda: signals(problem.system), fine)
 
 
 def _lipschitz_rates(problem: DitherProblem, fast: FastStates) -> Evidence:

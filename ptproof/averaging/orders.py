@@ -14,9 +14,9 @@ from ptproof.averaging.average import derive
 from ptproof.averaging.brackets import Vector, tidy
 from ptproof.averaging.coefficients import signals
 from ptproof.averaging.expansion import Expansion, normal_form
-from ptproof.averaging.form import check_form, parts
+from ptproof.averaging.oscillation import DELTA
 from ptproof.averaging.problem import DitherProblem, check_order
-from ptproof.averaging.remainder import remainder
+from ptproof.averaging.refusal import check_form, parts
 from ptproof.averaging.residual import put_back
 from ptproof.averaging.scaled import linear, of_problem
 from ptproof.proof.algebra import is_zero
@@ -80,15 +80,6 @@ class Orders:
         root = sp.sqrt(system.omega)
         rhs = tuple(sp.Add(*(entry / root**power for power, entry in enumerate(row))) for row in rows)
         return System(system.time, system.state, rhs, name=f"average of {system.name} to order {self.order}")
-
-    @property
-    def transformed(self) -> Vector:
-        """X in terms of τ, θ, x, y and ω."""
-        root = sp.sqrt(self.problem.system.omega)
-        return tuple(
-            symbol + sp.Add(*(row[place] / root**power for power, row in enumerate(self.correctors, start=1)))
-            for place, symbol in enumerate(self.problem.system.state)
-        )
 
     @functools.cached_property
     def leading(self) -> Vector:
@@ -161,15 +152,11 @@ def average_to_order(problem: DitherProblem | DitherSystem, order: int = 1) -> O
     expansion = normal_form(oscillation, order + 1)
     found = Orders(problem, expansion, put_back(expansion), _smooth(problem, oscillation.meaning, order))
     if not oscillation.fast:
-        _same_as_brackets(found)
+        lie = derive(problem.reduced(tuple(_steady(problem)))).system
+        for ours, brackets in zip(found.averages[0], lie.rhs, strict=True):
+            if not is_zero(ours - brackets):
+                raise ArithmeticError(f"the first order {ours} is not shown to be the Lie bracket average {brackets}")
     return found
-
-
-def _same_as_brackets(found: Orders) -> None:
-    steady = [*_steady(found.problem)]
-    for ours, brackets in zip(found.averages[0], derive(found.problem.reduced(tuple(steady))).system.rhs, strict=True):
-        if not is_zero(ours - brackets):
-            raise ArithmeticError(f"the first order {ours} is not shown to be the Lie bracket average {brackets}")
 
 
 def _steady(problem: DitherProblem) -> Sequence[sp.Expr]:
@@ -188,9 +175,10 @@ def _smooth(problem: DitherProblem, fast: dict[sp.Symbol, sp.Expr], order: int) 
     ]
     for place, entry, needed in asked:
         own = (problem.system.time,) if place.startswith("dither") else variables
-        declared = problem.functions is not None
-        assumed = {node if declared else node.func: sp.oo for node in problem.smooth_functions}
-        evidence = smoothness(entry, own, needed, {**assumed, **_applied(entry, declared)}, problem.domain)
+        assumed: dict[Any, Any] = dict.fromkeys(problem.smooth_functions, sp.oo)
+        if problem.functions is None:
+            assumed = {node.func: sp.oo for node in (*assumed, *entry.atoms(AppliedUndef))}
+        evidence = smoothness(entry, own, needed, assumed, problem.domain)
         if evidence.verdict is not Verdict.PROVED:
             return Evidence(evidence.engine, evidence.verdict, f"{place}: {evidence.detail}", witness=evidence.witness)
     return Evidence("smoothness", Verdict.PROVED, f"fields and drift are C^{order + 1}")
@@ -200,5 +188,62 @@ def _readable(entry: sp.Expr) -> sp.Expr:
     return tidy(entry) if len(sp.Add.make_args(entry)) <= _TIDIED else entry
 
 
-def _applied(entry: sp.Expr, declared: bool) -> dict[Any, Any]:
-    return {} if declared else {node.func: sp.oo for node in entry.atoms(AppliedUndef)}
+def remainder(expansion: Expansion, omega: sp.Symbol) -> Vector:
+    """ω^((n+1)/2) times dX/dσ along the system less Σ δ^j G_j(X), for each slow state, where n is the highest power.
+
+    Nothing is expanded: X stands in the unknown functions of the means as it is. SymPy is quick about everything but
+    large expressions inside of ``Subs`` and repeated derivatives of the same term, so each of both is made once.
+    """
+    own, delta = expansion.oscillation, 1 / sp.sqrt(omega)
+    moved = {
+        symbol: symbol + sp.Add(*(delta**n * row[i] for n, row in enumerate(expansion.correctors, start=1)))
+        for i, symbol in enumerate(own.slow)
+    }
+    rates = [rate.subs(DELTA, delta) for rate in own.right_hand_side]
+    slopes, there = _Slopes(), _Moved(moved)
+    result = []
+    for place, symbol in enumerate(own.slow):
+        along = sp.Add(*(slopes(moved[symbol], s) * rate for s, rate in zip(own.states, rates, strict=True)))
+        means = sp.Add(*there([delta**j * row[place] for j, row in enumerate(expansion.means, start=1)]))
+        result.append((along - means) / delta ** (expansion.order + 1))
+    return tuple(result)
+
+
+class _Slopes:
+    """Derivatives of sums of products, each calculated once."""
+
+    def __init__(self) -> None:
+        self._known: dict[tuple[sp.Expr, sp.Symbol], sp.Expr] = {}
+
+    def __call__(self, entry: sp.Expr, symbol: sp.Symbol) -> sp.Expr:
+        key = entry, symbol
+        if key not in self._known:
+            self._known[key] = self._slope(entry, symbol) if symbol in entry.free_symbols else sp.S.Zero
+        return self._known[key]
+
+    def _slope(self, entry: sp.Expr, symbol: sp.Symbol) -> sp.Expr:
+        if entry.is_Add:
+            return sp.Add(*(self(term, symbol) for term in entry.args))
+        if entry.is_Mul:
+            factors = entry.args
+            slopes = ((i, self(factor, symbol)) for i, factor in enumerate(factors))
+            return sp.Add(*(sp.Mul(*factors[:i], slope, *factors[i + 1 :]) for i, slope in slopes if slope != 0))
+        return sp.diff(entry, symbol)
+
+
+class _Moved:
+    """Expressions with every symbol replaced at once, also inside of derivatives of unknown functions."""
+
+    def __init__(self, values: dict[sp.Symbol, sp.Expr]) -> None:
+        # A short mark that is no symbol stands for the value, so that SymPy makes a Subs of a derivative at it.
+        moving = [symbol for symbol, value in values.items() if value != symbol]
+        marks = {symbol: sp.Function(f"X{i}", real=True)(sp.Dummy(real=True)) for i, symbol in enumerate(moving)}
+        self._marks: dict[sp.Symbol, AppliedUndef] = marks
+        self._values = {mark: values[symbol] for symbol, mark in marks.items()}
+        self._subs: dict[sp.Subs, sp.Expr] = {}
+
+    def __call__(self, entries: list[sp.Expr]) -> list[sp.Expr]:
+        marked = [entry.subs(self._marks, simultaneous=True) for entry in entries]
+        for node in set().union(*(entry.atoms(sp.Subs) for entry in marked)) - self._subs.keys():
+            self._subs[node] = node.xreplace(self._values)
+        return [entry.xreplace({**self._values, **self._subs}) for entry in marked]

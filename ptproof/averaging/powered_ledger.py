@@ -17,7 +17,7 @@ from ptproof.averaging.brackets import SparseField, Vector, sparse_bracket
 from ptproof.averaging.exponents import told
 from ptproof.averaging.ledger import Ledger, bounded_fields, judged, period_and_mean, smooth_fields, unread
 from ptproof.averaging.powers import PoweredProblem
-from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided
+from ptproof.averaging.refusal import unless_refused
 from ptproof.averaging.second import PoweredAverage, check_powered_form, derive_powered
 from ptproof.proof.claim import Goal
 from ptproof.proof.engines.exact import exact
@@ -51,17 +51,13 @@ def examine_powered(problem: PoweredProblem) -> tuple[Ledger, PoweredAverage | N
         entries["bounded"] = judged(bounded_fields, plain)
     if any(entries[letter].verdict is not Verdict.PROVED for letter in ("form", "1.3")):
         return Ledger(entries, None), None
-    found: PoweredAverage | None = None
-    try:
-        found = derive_powered(problem.system, problem.order)
-        limit = Evidence(_LIMIT, Verdict.PROVED, f"{'; '.join(found.account) or 'no bracket counts'}{_for(problem)}")
-    except AveragingRefused as refusal:
-        limit = Evidence(_LIMIT, Verdict.REFUTED, str(refusal))
-    except AveragingUndecided as unknown:
-        limit = Evidence(_LIMIT, Verdict.UNDECIDED, str(unknown))
+    derived: list[PoweredAverage] = []
+    limit = unless_refused(_LIMIT, lambda: derived.append(derive_powered(problem.system, problem.order)), "")
+    found = derived[0] if derived else None
     if found is not None:
-        entries["2.1"] = judged(_pairs, problem, found)
-        entries["2.2"] = judged(_triples, problem, found)
+        limit = replace(limit, detail=f"{'; '.join(found.account) or 'no bracket counts'}{_for(problem)}")
+        entries["2.1"] = judged(_brackets, problem, found, 2)
+        entries["2.2"] = judged(_brackets, problem, found, 3)
         entries["2.3"] = judged(_quadruples, problem)
         if any(entries[letter].verdict is not Verdict.PROVED for letter in CONDITIONS):
             entries["smooth"] = judged(_smooth_enough, problem)
@@ -102,11 +98,8 @@ def _entries(problem: PoweredProblem) -> Iterator[sp.Expr]:
 
 
 def _form(problem: PoweredProblem) -> Evidence:
-    try:
-        check_powered_form(problem.system)
-    except AveragingRefused as refusal:
-        return Evidence("form", Verdict.REFUTED, str(refusal))
-    return Evidence("form", Verdict.PROVED, "drift + sum of field * omega^power * dither")
+    fine = "drift + sum of field * omega^power * dither"
+    return unless_refused("form", lambda: check_powered_form(problem.system), fine)
 
 
 def _bounded_dithers(problem: PoweredProblem) -> Evidence:
@@ -114,17 +107,8 @@ def _bounded_dithers(problem: PoweredProblem) -> Evidence:
     return unread(problem.system.plain) or Evidence("dithers", Verdict.PROVED, detail)
 
 
-def _pairs(problem: PoweredProblem, found: PoweredAverage) -> Evidence:
-    """p_i + p_j > 1 only where [f_i, f_j] or its coefficient vanishes."""
-    return _brackets(problem, found, 2)
-
-
-def _triples(problem: PoweredProblem, found: PoweredAverage) -> Evidence:
-    """p_i + p_j + p_m > 2 only where [[f_i, f_j], f_m] or its coefficient vanishes."""
-    return _brackets(problem, found, 3)
-
-
 def _brackets(problem: PoweredProblem, found: PoweredAverage, length: int) -> Evidence:
+    """p_i + p_j > 1 only where [f_i, f_j] or its coefficient vanishes; of three, > 2 and [[f_i, f_j], f_m]."""
     system, count = problem.system, 0
     fields = [SparseField(entries, system.state) for entries in system.plain.fields]
     for letters, gamma in found.gammas.items():
@@ -133,8 +117,10 @@ def _brackets(problem: PoweredProblem, found: PoweredAverage, length: int) -> Ev
         count += 1
         if gamma.mean == 0:
             continue
-        value = _nested(fields, letters)
-        evidence = _zero(value)
+        value = fields[letters[0] - 1]
+        for letter in letters[1:]:
+            value = sparse_bracket(value, fields[letter - 1], 24)
+        evidence = _zero(value.vector)
         if evidence.verdict is not Verdict.PROVED:
             where = f" for {told(gamma.signs[1])}" if gamma.signs[1] else ""
             what = "is not shown to vanish" if evidence.verdict is Verdict.UNDECIDED else "does not vanish"
@@ -149,13 +135,6 @@ def _brackets(problem: PoweredProblem, found: PoweredAverage, length: int) -> Ev
     return Evidence(
         "brackets", Verdict.PROVED, f"where {sums} ({_cases(count)}), the coefficient or the bracket vanishes"
     )
-
-
-def _nested(fields: list[SparseField], letters: tuple[int, ...]) -> Vector:
-    value = fields[letters[0] - 1]
-    for letter in letters[1:]:
-        value = sparse_bracket(value, fields[letter - 1], 24)
-    return tuple(value.entries.get(row, sp.S.Zero) for row in range(len(value.state)))
 
 
 def _zero(value: Vector) -> Evidence:
@@ -179,8 +158,8 @@ def _quadruples(problem: PoweredProblem) -> Evidence:
         for letters in dict.fromkeys(itertools.permutations(word)):
             value = fields[letters[0]]
             for letter in letters[1:]:
-                value = SparseField(_rows(value.along(fields[letter]), len(system.state)), system.state)
-            evidence = _zero(_rows(value.entries, len(system.state)))
+                value = value.along(fields[letter])
+            evidence = _zero(value.vector)
             if evidence.verdict is Verdict.PROVED:
                 continue
             names = ", ".join(str(letter + 1) for letter in letters)
@@ -196,10 +175,6 @@ def _quadruples(problem: PoweredProblem) -> Evidence:
         return Evidence("derivatives", Verdict.PROVED, "no powers of four dithers add up to 3")
     detail = f"where powers of four dithers add up to 3 or more ({_cases(count)}), the third derivatives vanish"
     return Evidence("derivatives", Verdict.PROVED, detail)
-
-
-def _rows(entries: dict[int, sp.Expr], count: int) -> Vector:
-    return tuple(entries.get(row, sp.S.Zero) for row in range(count))
 
 
 def _cases(count: int) -> str:

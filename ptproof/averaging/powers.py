@@ -69,7 +69,7 @@ class PoweredSystem:
         name, conditions = self.plain.name, Exponents(self.conditions)
         spoken = set().union(*(condition.free_symbols for condition in self.conditions), set())
         for i, power in enumerate(self.powers, start=1):
-            inside = (Relation(sp.S.Zero, "<", power), Relation(power, "<", sp.S.One))
+            inside = _inside(power)
             where = f"{name}: the power of dither {i} is {power}"
             if conditions.point(*inside) is None:
                 raise InputError(f"{where}, not between 0 and 1")
@@ -86,12 +86,8 @@ class PoweredSystem:
     @property
     def exponents(self) -> Exponents:
         """The values of the powers' parameters that are allowed."""
-        bounds = [
-            bound
-            for power in self.powers
-            for bound in (Relation(sp.S.Zero, "<", power), Relation(power, "<", sp.S.One))
-        ]
-        return Exponents((*self.conditions, *dict.fromkeys(bounds)))
+        bounds = dict.fromkeys(bound for power in self.powers for bound in _inside(power))
+        return Exponents((*self.conditions, *bounds))
 
     @property
     def name(self) -> str:
@@ -115,6 +111,10 @@ class PoweredSystem:
 
     def _repr_latex_(self) -> str:
         return self.to_system()._repr_latex_()
+
+
+def _inside(power: sp.Expr) -> tuple[Relation, Relation]:
+    return Relation(sp.S.Zero, "<", power), Relation(power, "<", sp.S.One)
 
 
 @dataclass(frozen=True)

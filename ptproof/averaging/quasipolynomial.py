@@ -6,6 +6,7 @@ trusted (SymPy's returns wrong values for some integrals over a full period).
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field
@@ -156,6 +157,19 @@ def exact_sign(number: sp.Expr) -> int:
     if sign is None:
         raise AveragingUndecided(f"the sign of {number} can't be told")
     return sign
+
+
+def ordered(points: Iterable[sp.Expr]) -> list[sp.Expr]:
+    """Exact real numbers from the smallest on, each once."""
+
+    def compared(first: sp.Expr, second: sp.Expr) -> int:
+        return exact_sign(first - second)
+
+    found: list[sp.Expr] = []
+    for point in sorted(points, key=functools.cmp_to_key(compared)):
+        if not found or exact_sign(point - found[-1]) > 0:
+            found.append(point)
+    return found
 
 
 def _short(value: sp.Expr) -> sp.Expr:

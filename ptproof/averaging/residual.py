@@ -11,13 +11,13 @@ from collections.abc import Iterator
 
 import sympy as sp
 
+from ptproof.averaging.damped import Pieces
 from ptproof.averaging.expansion import Expansion
 from ptproof.averaging.fractions import Fractions, Sum, reading, total
 from ptproof.averaging.oscillation import DELTA, Oscillation
-from ptproof.averaging.phases import Pieces
-from ptproof.averaging.quasipolynomial import exact_sign
 from ptproof.averaging.refusal import AveragingUndecided
-from ptproof.proof.kinks import branch, innermost
+from ptproof.averaging.switching import between, branch_at
+from ptproof.proof.kinks import innermost
 from ptproof.proof.verdict import Evidence, Verdict
 
 ENGINE = "substitution"
@@ -80,7 +80,8 @@ class _Substituted:
         expansion, order = self._expansion, self._expansion.order
         for power in range(1, order + 1 if expansion.closed else max((*expansion.rest, order)) + 1):
             for place, observable in enumerate(expansion.observables):
-                terms = [*self._derivative(place, power), *map(_negative, self._said(place, power))]
+                said = ({below: -value for below, value in entry.items()} for entry in self._said(place, power))
+                terms = [*self._derivative(place, power), *said]
                 if not self._algebra.vanishes(terms):
                     return f"at delta^{power} something is left over in the equation of {observable}"
         return None
@@ -137,10 +138,6 @@ class _Substituted:
         return result
 
 
-def _negative(entry: Sum) -> Sum:
-    return {below: -value for below, value in entry.items()}
-
-
 def _by_powers(own: Oscillation, highest: int | None) -> list[list[sp.Expr]]:
     """[j] holds the rates of slow states, phase and fast states at δ^j, by derivatives at δ = 0."""
     found: list[list[sp.Expr]] = []
@@ -159,25 +156,15 @@ def _pieces(expansion: Expansion) -> tuple[list[sp.Expr], list[tuple[sp.Expr, sp
     if not isinstance(phases, Pieces):
         return [sp.S.Zero], []
     points = phases.points
-    middles = [sp.Rational(str(((a + b) / 2).evalf(30))) for a, b in itertools.pairwise(points)]
-    for middle, (a, b) in zip(middles, itertools.pairwise(points), strict=True):
-        if exact_sign(middle - a) <= 0 or exact_sign(b - middle) <= 0:
-            raise AveragingUndecided(f"{a} and {b} are too close to each other")
+    middles = [between(a, b) for a, b in itertools.pairwise(points)]
     joints = [(point, point, a, b) for point, (a, b) in zip(points[1:-1], itertools.pairwise(middles), strict=True)]
     return middles, [*joints, (points[-1], points[0], middles[-1], middles[0])]
 
 
 def _at_piece(entry: sp.Expr, phase: sp.Symbol, middle: sp.Expr) -> sp.Expr:
     """The smooth expression that holds around the phase ``middle``."""
-
-    def sign_of(side: sp.Expr) -> int:
-        return exact_sign(side.subs(phase, middle))
-
-    def floor_of(level: sp.Expr) -> int:
-        return int(sp.floor(level.subs(phase, middle)))
-
     while (node := innermost(entry, {phase})) is not None:
-        value = branch(node, sign_of, floor_of)
+        value = branch_at(node, phase, middle)
         if value is None:
             raise AveragingUndecided(f"which branch of {node} holds is not known")
         entry = entry.xreplace({node: value})

@@ -9,15 +9,11 @@ from dataclasses import dataclass, field
 import sympy as sp
 
 from ptproof.averaging.brackets import SparseField, Vector, sparse_bracket, tidy
-from ptproof.averaging.coefficients import Coefficients, signals, tidy_constant, v_matrix
-from ptproof.averaging.exponents import Point, told
-from ptproof.averaging.form import check_form
-from ptproof.averaging.gamma import Gamma
-from ptproof.averaging.means import triple_means
+from ptproof.averaging.coefficients import Coefficients, signals, tidy_constant, triple_means, v_matrix
+from ptproof.averaging.exponents import Gamma, Point, told
 from ptproof.averaging.powers import PoweredSystem
-from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided
-from ptproof.averaging.words import Word, Words, frequencies_of, letters_of, word_of
-from ptproof.averaging.wordwise import long_words
+from ptproof.averaging.refusal import AveragingRefused, AveragingUndecided, check_form
+from ptproof.averaging.words import Word, Words, frequencies_of, letters_of, long_words, word_of
 from ptproof.proof.claim import Goal
 from ptproof.proof.engines.exact import exact
 from ptproof.proof.settling import settle
@@ -99,12 +95,12 @@ def derive_powered(system: PoweredSystem, order: int = 2) -> PoweredAverage:
         for start, entries in zip(system.plain.drift, total, strict=True)
     )
     averaged = System(system.plain.time, system.state, rhs, name=f"average of {system.name}")
-    shown = {letters: _whole(value, system) for letters, value in left.items() if value.entries}
+    shown = {letters: value.vector for letters, value in left.items() if value.entries}
     return PoweredAverage(system, averaged, own.v, gammas, shown, tuple(account))
 
 
 def check_powered_form(system: PoweredSystem) -> None:
-    """As :func:`ptproof.averaging.form.check_form`; a dither depends on the phase alone."""
+    """As :func:`ptproof.averaging.refusal.check_form`; a dither depends on the phase alone."""
     plain = system.plain
     check_form(plain, "the amplitude omega^power")
     for i, dither in enumerate(plain.dithers, start=1):
@@ -274,10 +270,6 @@ class _Derivation:
     ) -> None:
         """The sum by the coefficients from 0 on, as they are defined, must be the one by centred antiderivatives."""
         for row, entries in enumerate(total):
-            terms = [gammas[letters].mean * value.entries.get(row, sp.S.Zero) for letters, value in left.items()]
+            terms = [gammas[letters].mean * value.vector[row] for letters, value in left.items()]
             if not vanishes(sp.Add(*terms, *(-entry for entry in entries))):
                 raise AveragingUndecided("limit: two ways to the average are not shown to agree")
-
-
-def _whole(value: SparseField, system: PoweredSystem) -> Vector:
-    return tuple(value.entries.get(row, sp.S.Zero) for row in range(len(system.state)))

@@ -6,18 +6,16 @@ exact switching points.
 
 from __future__ import annotations
 
-import functools
 import itertools
 from collections.abc import Iterator
 
 import sympy as sp
 
-from ptproof.averaging.quasipolynomial import exact_sign, linear_part, read
+from ptproof.averaging.quasipolynomial import exact_sign, linear_part, ordered, read
 from ptproof.averaging.refusal import AveragingUndecided
 from ptproof.proof.kinks import branch, innermost, level, switching
 
 _MOST_PIECES = 4096
-_BITS = 96
 
 
 def pieces(
@@ -38,16 +36,8 @@ def pieces(
     for point in (start, *points):
         _value_at(node, variable, point, where)
     for left, right in itertools.pairwise([start, *points, end]):
-        middle = _between(left, right)
-
-        def sign_of(side: sp.Expr, middle: sp.Rational = middle) -> int:
-            return exact_sign(side.subs(variable, middle))
-
-        def floor_of(level: sp.Expr, middle: sp.Rational = middle) -> int:
-            return int(sp.floor(level.subs(variable, middle)))
-
-        replacement = branch(node, sign_of, floor_of)
-        assert replacement is not None  # both callbacks always answer
+        replacement = branch_at(node, variable, between(left, right))
+        assert replacement is not None  # signs and integer parts always answer
         if replacement.has(sp.nan):
             raise _no_value(node, where)
         yield from pieces(expression.xreplace({node: replacement}), variable, left, right, where)
@@ -62,12 +52,21 @@ def _no_value(node: sp.Basic, where: str) -> AveragingUndecided:
 def _value_at(node: sp.Basic, variable: sp.Symbol, point: sp.Expr, where: str) -> None:
     """Refuse a ``Piecewise`` that has no value at a point where it switches."""
     if isinstance(node, sp.Piecewise):
-        there = branch(node, lambda side: exact_sign(side.subs(variable, point)))
+        there = branch_at(node, variable, point)
         if there is None or there.has(sp.nan):
             raise _no_value(node, where)
 
 
-def _between(left: sp.Expr, right: sp.Expr) -> sp.Rational:
+def branch_at(node: sp.Basic, variable: sp.Symbol, point: sp.Expr) -> sp.Expr | None:
+    """What holds of a switch at an exact place; None where none of its conditions does."""
+    return branch(
+        node,
+        lambda side: exact_sign(side.subs(variable, point)),
+        lambda counted: int(sp.floor(counted.subs(variable, point))),
+    )
+
+
+def between(left: sp.Expr, right: sp.Expr) -> sp.Rational:
     """A rational number strictly between two exact numbers."""
     for digits in (20, 60):
         middle = sp.Rational(str(((left + right) / 2).evalf(digits)))
@@ -86,13 +85,7 @@ def _switching_points(node: sp.Basic, variable: sp.Symbol, start: sp.Expr, end: 
             candidates += zeros(side, variable, start, end, where)
         elif not side.is_number:
             raise AveragingUndecided(f"{where}: which branch of {node} holds depends on symbols")
-    inside = [root for root in candidates if exact_sign(root - start) > 0 and exact_sign(end - root) > 0]
-    ordered = sorted(inside, key=functools.cmp_to_key(_order))
-    distinct: list[sp.Expr] = []
-    for point in ordered:
-        if not distinct or exact_sign(point - distinct[-1]) > 0:
-            distinct.append(point)
-    return distinct
+    return ordered(root for root in candidates if exact_sign(root - start) > 0 and exact_sign(end - root) > 0)
 
 
 def _real_roots(polynomial: sp.Poly, where: str) -> list[sp.Expr]:
@@ -103,10 +96,6 @@ def _real_roots(polynomial: sp.Poly, where: str) -> list[sp.Expr]:
     if any(root.is_real is False for root in roots):
         raise AveragingUndecided(f"{where}: the zeros of {polynomial.as_expr()} are not known exactly")
     return roots
-
-
-def _order(a: sp.Expr, b: sp.Expr) -> int:
-    return exact_sign(a - b)
 
 
 def _level_crossings(level: sp.Expr, variable: sp.Symbol, start: sp.Expr, end: sp.Expr, where: str) -> list[sp.Expr]:

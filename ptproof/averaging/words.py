@@ -8,7 +8,6 @@ either sign for each letter, is 0.
 
 from __future__ import annotations
 
-import functools
 import itertools
 import math
 from collections.abc import Sequence
@@ -16,10 +15,14 @@ from dataclasses import dataclass
 
 import sympy as sp
 
+from ptproof.averaging.brackets import Vector
+from ptproof.averaging.expansion import normal_form
 from ptproof.averaging.exponents import Exponents
+from ptproof.averaging.oscillation import Oscillation
 from ptproof.averaging.refusal import AveragingUndecided
 from ptproof.averaging.signal import Signal
 from ptproof.proof.statement import Relation
+from ptproof.system import DitherSystem
 
 Word = tuple[int, ...]
 _LONGEST = 10
@@ -53,7 +56,8 @@ class Words:
             if own is None and count:
                 return True
             for _ in range(count):
-                sums = {_modulo(s + sign * rate, beside) for s in sums for rate in own or () for sign in (1, -1)}
+                sums = {s + sign * rate for s in sums for rate in own or () for sign in (1, -1)}
+                sums = {s % beside for s in sums} if beside else sums
         return 0 in sums
 
     def counting(self) -> tuple[Word, ...]:
@@ -92,7 +96,7 @@ class Words:
 
     def _longer(self, word: Word) -> list[Word]:
         """The words with one letter more that may count; none where nothing that begins so resonates."""
-        letters = [letter for letter in range(len(word)) if self._may_grow(word, letter)]
+        letters = [letter for letter in range(len(word)) if self.may_count(_added(word, letter))]
         steps = [self.frequencies[letter] for letter in letters]
         if letters and all(step is not None for step in steps):
             # What is added moves the sum by multiples of this.
@@ -101,10 +105,6 @@ class Words:
             if not self.resonates(fixed, beside):
                 return []
         return [_added(word, letter) for letter in letters]
-
-    @functools.lru_cache(maxsize=4096)  # noqa: B019 (a value that lives as long as one study)
-    def _may_grow(self, word: Word, letter: int) -> bool:
-        return self.may_count(_added(word, letter))
 
 
 def frequencies_of(found: Sequence[Signal]) -> tuple[frozenset[int] | None, ...]:
@@ -137,5 +137,34 @@ def _added(word: Word, letter: int) -> Word:
     return tuple(count + (own == letter) for own, count in enumerate(word))
 
 
-def _modulo(value: int, beside: int) -> int:
-    return value % beside if beside else value
+def long_words(system: DitherSystem, words: Sequence[Word]) -> dict[Word, Vector]:
+    """The parts of the average of dx/dσ = δ Σ f_i u_i that belong to these words: at δ^n, of n letters.
+
+    Each dither gets a factor of its own, λ_i, and the part of a word is what Π λ_i^(n_i) is multiplied by. The drift
+    is left out: brackets with it do not count as ω → ∞.
+
+    Raises
+    ------
+    AveragingUndecided
+        If the fields or the dithers are outside the class that is expanded exactly.
+    """
+    result: dict[Word, Vector] = {}
+    for word in words:
+        used = sorted({letter - 1 for letter in letters_of(word)})
+        marks = [sp.Symbol(f"lambda_{letter}_", real=True) for letter in used]
+        rates = tuple(
+            sp.Add(*(mark * system.fields[i][row] * system.dithers[i] for mark, i in zip(marks, used, strict=True)))
+            for row in range(len(system.state))
+        )
+        length = sum(word)
+        expansion = normal_form(Oscillation(system.phase, system.period, system.state, (rates,)), length)
+        counts = {mark: word[i] for mark, i in zip(marks, used, strict=True)}
+        result[word] = tuple(_coefficient(entry, counts) for entry in expansion.means[length - 1])
+    return result
+
+
+def _coefficient(entry: sp.Expr, counts: dict[sp.Symbol, int]) -> sp.Expr:
+    expanded = sp.expand(entry)
+    for mark, power in counts.items():
+        expanded = expanded.coeff(mark, power)
+    return expanded

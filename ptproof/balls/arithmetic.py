@@ -27,6 +27,10 @@ class Ring:
 
     __slots__ = ()
 
+    def square(self: Any) -> Any:
+        """The product with itself."""
+        return self * self
+
     def __radd__(self: Any, other: Any) -> Any:
         return self + other
 

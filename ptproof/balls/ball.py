@@ -31,7 +31,8 @@ def interval(low: Any, high: Any) -> arb:
     return arb(low).union(arb(high))
 
 
-def _finite(ball: arb, what: object) -> arb:
+def finite(ball: arb, what: object) -> arb:
+    """``ball``, if it is finite; raises :class:`Undefined` with ``what`` has no value otherwise."""
     if not ball.is_finite():
         raise Undefined(f"{what} has no finite value there")
     return ball
@@ -44,11 +45,11 @@ class _Balls:
         return value
 
     def call(self, name: str, value: Any) -> Any:
-        return _finite(getattr(value, name)(), name)
+        return finite(getattr(value, name)(), name)
 
     def integer_power(self, base: Any, exponent: int) -> Any:
         if exponent < 0:
-            return _finite(1 / self.integer_power(base, -exponent), "a division by something that may be zero")
+            return finite(1 / self.integer_power(base, -exponent), "a division by something that may be zero")
         if exponent < 2:
             return base if exponent == 1 else arb(1)
         if base.rel_accuracy_bits() > 20:
@@ -57,7 +58,7 @@ class _Balls:
         # go by the ends, between which the power is monotone.
         if exponent % 2 or base > 0 or base < 0:
             return interval(base.lower() ** exponent, base.upper() ** exponent)
-        top = _finite(base.abs_upper() ** exponent, "a power")
+        top = finite(base.abs_upper() ** exponent, "a power")
         return interval(0, top).nonnegative_part() if top > 0 else arb(0)
 
     def root(self, base: Any, numerator: int, denominator: int, nonnegative: bool) -> Any:
@@ -71,14 +72,14 @@ class _Balls:
         else:
             upper = base.upper()
             value = interval(0, upper.root(denominator)) if upper > 0 else arb(0)
-        return self.integer_power(_finite(value, "a root"), numerator)
+        return self.integer_power(finite(value, "a root"), numerator)
 
     def power(self, base: Any, exponent: Any) -> Any:
         if base.is_zero() and exponent > 0:
             return arb(0)
         if not base > 0:
             raise Undefined("a symbolic power of something that may not be positive")
-        return _finite((exponent * base.log()).exp(), "a power")
+        return finite((exponent * base.log()).exp(), "a power")
 
     def absolute(self, value: Any) -> Any:
         if value >= 0:
@@ -101,7 +102,7 @@ class _Balls:
     def angle(self, y: Any, x: Any) -> Any:
         if not (x > 0 or x < 0 or y > 0 or y < 0):
             raise Undefined("the angle of a point that may be the origin")
-        return _finite(arb.atan2(y, x), "an angle")
+        return finite(arb.atan2(y, x), "an angle")
 
     def either(self, values: Sequence[Any]) -> Any:
         return reduce(arb.union, values)
@@ -133,7 +134,7 @@ def ball_from(value: Any) -> arb:
         raise Undefined(f"{value!r} is not exact; give an integer, a fraction or a ball")
     if isinstance(value, flint.fmpq | flint.fmpz):
         return arb(value)
-    return _finite(_tape(sp.sympify(value), ()).run((), BALLS)[0], value)
+    return finite(_tape(sp.sympify(value), ()).run((), BALLS)[0], value)
 
 
 def enclose(expression: sp.Expr, values: Mapping[sp.Symbol, Any] | None = None, *, bits: int = 128) -> arb:
@@ -167,7 +168,7 @@ def enclose(expression: sp.Expr, values: Mapping[sp.Symbol, Any] | None = None, 
         inputs = [ball_from(table[symbol]) for symbol in symbols]
         for symbol, ball in zip(symbols, inputs, strict=True):
             _respect(symbol, ball)
-        return _finite(_tape(sp.sympify(expression), symbols).run(inputs, BALLS)[0], expression)
+        return finite(_tape(sp.sympify(expression), symbols).run(inputs, BALLS)[0], expression)
 
 
 def largest_along(
@@ -184,7 +185,7 @@ def largest_along(
 
 def _respect(symbol: sp.Symbol, ball: arb) -> None:
     # SymPy has already simplified under the assumptions of the symbol, for example sqrt(x**2) to x.
-    _finite(ball, symbol)
+    finite(ball, symbol)
     wrong = (symbol.is_positive and ball <= 0) or (symbol.is_nonnegative and ball < 0)
     if wrong or (symbol.is_negative and ball >= 0) or (symbol.is_nonpositive and ball > 0):
         raise Undefined(f"the value of {symbol} contradicts its declaration")

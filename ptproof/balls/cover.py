@@ -89,7 +89,8 @@ def holds_on_box(
     if search.point is not None:
         return _counterexample(expression, relation, start.exact_point(search.point), search.looks)
     if search.left:
-        place = _place(start.symbols, search.next or start.sides)
+        ends = zip(start.symbols, search.next or start.sides, strict=True)
+        place = ", ".join(f"{symbol} in [{float(low):.6g}, {float(high):.6g}]" for symbol, (low, high) in ends)
         detail = f"{search.looks} boxes in {time.perf_counter() - began:.1f} s, {search.left} left; resisting: {place}"
         return CoverResult(None, detail, search.looks)
     detail = f"a cover of {search.looks} boxes, each with the right sign at {BITS} bits"
@@ -154,8 +155,3 @@ def _look(tape: Tape, sides: Sides, strict: bool) -> Look[Sides, tuple[arb, ...]
         index = widest(sides)
     # The lower half is looked at last, so that the search goes on with it.
     return Look(math.inf, halves=None if index is None else lambda: halves(sides, index)[::-1])
-
-
-def _place(symbols: Sequence[sp.Symbol], sides: Sequence[Side]) -> str:
-    ends = ((symbol, float(low), float(high)) for symbol, (low, high) in zip(symbols, sides, strict=True))
-    return ", ".join(f"{symbol} in [{low:.6g}, {high:.6g}]" for symbol, low, high in ends)

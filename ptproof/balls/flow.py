@@ -1,4 +1,4 @@
-"""Solutions of ordinary differential equations, enclosed over one step around a polynomial that comes close."""
+"""Solutions of ordinary differential equations, enclosed over one step: a smooth one, or a short one across a kink."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from typing import Any
 import flint
 from flint import arb, arb_mat, arb_series
 
-from ptproof.balls.ball import interval
-from ptproof.balls.jet import JETS, Jet, variables
+from ptproof.balls.ball import BALLS, interval
+from ptproof.balls.jet import JETS, Jet, slopes_of, variables
 from ptproof.balls.matrices import (
     Growth,
     Vector,
@@ -20,11 +20,10 @@ from ptproof.balls.matrices import (
     magnitudes,
     times,
 )  # fmt: skip
-from ptproof.balls.pieces import Piece, Proposal, VectorField, hull
+from ptproof.balls.pieces import Piece, Proposal, Region, VectorField, hull
 from ptproof.balls.polynomials import around, highest, largest, not_below, spectra
-from ptproof.balls.region import Region
 from ptproof.balls.series import SERIES, series_length
-from ptproof.balls.tape import Undefined
+from ptproof.balls.tape import Tape, Undefined
 
 _JACOBIAN = 15  # so many coefficients of a Jacobian are told apart
 
@@ -73,12 +72,9 @@ class _Step:
         self.field, self.region, self.proposal = field, region, proposal
         self.half = length / 2
         self.middle = start + self.half
-        n, path = field.dimension, proposal.path
-        self.count = count = path.ncols()
-        entries = path.entries()
-        self.rows = [entries[i * count : (i + 1) * count] for i in range(n)]
+        self.rows = proposal.path.tolist()
         self.back = inverse(proposal.basis)
-        self.terms = count + 9
+        self.terms = proposal.path.ncols() + 9
         self.expand()
 
     def expand(self) -> None:
@@ -88,9 +84,8 @@ class _Step:
             time = arb_series([self.middle, self.half], terms)
             outputs = tape.run([time, *(arb_series(row, terms) for row in self.rows)], SERIES)
             self.series = [_coefficients(item, terms) for item in outputs]
-        everywhere = around(self.proposal.path, terms + 1).entries()
         with series_length(terms + 1):
-            wide = [everywhere[i : i + terms + 1] for i in range(0, len(everywhere), terms + 1)]
+            wide = around(self.proposal.path, terms + 1).tolist()
             time = arb_series([self.middle + self.half * interval(-1, 1), self.half], terms + 1)
             outputs = tape.run([time, *(arb_series(row, terms + 1) for row in wide)], SERIES)
             self.rest = [arb(0) if isinstance(item, arb) else item[terms].abs_upper() for item in outputs]
@@ -112,9 +107,9 @@ class _Step:
         for rate, row in zip(self.series[:n], self.rows, strict=True):
             slope = [*(k * c for k, c in enumerate(row[1:], start=1)), *[arb(0)] * terms]
             flat += [self.half * a - b for a, b in zip(rate, slope, strict=False)]
-        spectrum = spectra(self.back * arb_mat(n, terms, flat)).entries()
+        spectrum = spectra(self.back * arb_mat(n, terms, flat)).tolist()
         left = times(magnitudes(self.back), [(self.half * r).abs_upper() for r in self.rest[:n]])
-        return [largest(spectrum[i * terms : (i + 1) * terms]) + left[i] for i in range(n)]
+        return [largest(row) + rest for row, rest in zip(spectrum, left, strict=True)]
 
     @cached_property
     def jacobians(self) -> list[arb_mat]:
@@ -133,19 +128,16 @@ class _Step:
         """Bounds of the magnitudes of a polynomial's matrices; with ``signed`` of the values, on the diagonal."""
         n, count = self.field.dimension, len(parts)
         entries = [part.entries() for part in parts]
-        spectrum = spectra(arb_mat(n * n, count, [part[i] for i in range(n * n) for part in entries])).entries()
-        bounds = []
-        for i in range(n * n):
-            part = spectrum[i * count : (i + 1) * count]
-            bounds.append(highest(part) if signed and i % (n + 1) == 0 else largest(part))
-        return arb_mat(n, n, bounds)
+        spectrum = spectra(arb_mat(n * n, count, [part[i] for i in range(n * n) for part in entries])).tolist()
+        bounds = (highest if signed and i % (n + 1) == 0 else largest for i in range(n * n))
+        return arb_mat(n, n, [bound(row) for bound, row in zip(bounds, spectrum, strict=True)])
 
     def rates(self) -> arb_mat:
         """M: of h S⁻¹ J S along the path."""
         basis, back = self.proposal.basis, self.back
         bounds = self.bounded([back * J * basis for J in self.jacobians], signed=True)
         total = self.half * (bounds + magnitudes(back) * self.jacobian_rest * magnitudes(basis))
-        return _uppers(total)
+        return arb_mat([[entry.upper() for entry in row] for row in total.tolist()])
 
     def spreading(self) -> arb_mat:
         """Bounds of S⁻¹(h J P − P') B, in matrices of magnitudes."""
@@ -166,17 +158,10 @@ class _Step:
         time = self.middle + self.half * interval(-1, 1)
         outputs = self.field.tape.run(variables([time, *hull(self.proposal.path, errors)]), JETS)
         total = [arb(0)] * n
-        for (i, j), output in zip(places, outputs[n:], strict=False):
-            if isinstance(output, Jet):
-                for slope, error in zip(output.slopes[1:], errors, strict=True):
-                    if slope is not None:
-                        total[i] += slope.abs_upper() * error * errors[j]
-        guards = [
-            [arb(0)] * n if not isinstance(output, Jet)
-            else [arb(0) if slope is None else slope.abs_upper() for slope in output.slopes[1:]]
-            for output in outputs[n + len(places) :]
-        ]  # fmt: skip
-        return [(self.half * entry / 2).abs_upper() for entry in total], guards
+        bounds = [[slope.abs_upper() for slope in slopes_of(output, n + 1)[1:]] for output in outputs[n:]]
+        for (i, j), row in zip(places, bounds, strict=False):
+            total[i] += sum((slope * error for slope, error in zip(row, errors, strict=True)), arb(0)) * errors[j]
+        return [(self.half * entry / 2).abs_upper() for entry in total], bounds[len(places) :]
 
     def closed(self) -> tuple[Growth, Vector]:
         """Bounds of g in a tube that closes, and those of x − p."""
@@ -185,7 +170,8 @@ class _Step:
         begin = sum(((-1) ** k * part for k, part in enumerate(spread[1:], start=1)), spread[0])
         point = [sum(((-1) ** k * c for k, c in enumerate(row)), arb(0)) for row in self.rows]
         left_out = magnitudes(self.back * (identity(n) - begin) * region.frame)
-        first = _plus(times(left_out, region.radii), times(magnitudes(self.back), _bounds(region.difference(point))))
+        apart = [(c - p).abs_upper() for c, p in zip(region.centre, point, strict=True)]
+        first = _plus(times(left_out, region.radii), times(magnitudes(self.back), apart))
         rates, known = self.rates(), _plus(self.defect(), times(self.spreading(), region.radii))
         along = times(self.bounded([part * region.frame for part in spread]), region.radii)
         outward, inward = magnitudes(basis), magnitudes(self.back)
@@ -224,9 +210,61 @@ def _plus(left: Sequence[arb], right: Sequence[arb]) -> Vector:
     return [(a + b).upper() for a, b in zip(left, right, strict=True)]
 
 
-def _bounds(column_: arb_mat) -> Vector:
-    return [entry.abs_upper() for entry in column_.entries()]
+def across(tape: Tape, region: Region, start: arb, length: arb) -> tuple[Piece, Region]:
+    """Enclose all solutions that start in ``region`` at ``start``, over a short step of ``length``.
+
+    **Theorem.** Let x' = f(t, x) with f continuous and piecewise smooth in x (sums, products, smooth functions, Max,
+    Min and Abs of such), so that f is Lipschitz where the enclosure J of its slopes, over both sides of every kink, is
+    finite. With p = c + v(t − start) and x = p + e₀ + g, D⁺|g| <= length·(|f(t, p) − v| + |J| (|e₀| + |g|)) in the
+    step's own time, with signs on the diagonal of J where it meets |g|, by the mean value theorem of Lebourg. The rest
+    is as for :func:`ptproof.balls.flow.flow`: where the bound of |g| is below the radii of the tube on which J was
+    enclosed, each solution exists over the step, is unique and lies in the tube.
+
+    ``tape`` takes the time and n states and gives n rates. Raises :class:`Undefined` where this is not shown.
+    """
+    n = len(region.centre)
+    clock, centre = start + length * interval(0, 1), list(region.centre)
+    values = tape.run([start, *centre], BALLS)
+    velocity = [value.mid() for value in values]
+    line = [c + v * length * interval(0, 1) for c, v in zip(centre, velocity, strict=True)]
+    known = region.errors
+    # Along the line the slope is taken first and its hull over both sides of a kink then: terms that cancel do so.
+    along = [Jet(clock, (arb(1),)), *(Jet(p, (v,)) for p, v in zip(line, velocity, strict=True))]
+    bends = [slopes_of(output, 1)[0].abs_upper() for output in tape.run(along, JETS)]
+    off = [
+        (length * ((f - v).abs_upper() + bend * length)).upper()
+        for f, v, bend in zip(values, velocity, bends, strict=True)
+    ]
+    guess = [(2 * a + arb(2) ** (-flint.ctx.prec)).upper() for a in off]
+    for _ in range(6):
+        errors = [(a + b).upper() for a, b in zip(known, guess, strict=True)]
+        rates = _rates(tape, [clock, *(p + arb(0, e) for p, e in zip(line, errors, strict=True))], length)
+        pushed = times(magnitudes(rates), known)
+        growth = grown(rates, [(a + b).upper() for a, b in zip(off, pushed, strict=True)], [arb(0)] * n, 1)
+        if all(entry < limit for entry, limit in zip(growth.over, guess, strict=True)):
+            half = length / 2
+            rows = [row for c, v in zip(centre, velocity, strict=True) for row in (c + v * half, v * half)]
+            ends = [c + v * length for c, v in zip(centre, velocity, strict=True)]
+            after = region.moved(ends, identity(n), None, (identity(n), growth.end))
+            return Piece(start, length, arb_mat(n, 2, rows), tuple(errors), tuple(growth.end)), after
+        guess = [(3 * entry + limit).upper() for entry, limit in zip(growth.over, guess, strict=True)]
+    raise Undefined("no tube closes around the step across a kink")
 
 
-def _uppers(balls: arb_mat) -> arb_mat:
-    return arb_mat(balls.nrows(), balls.ncols(), [entry.upper() for entry in balls.entries()])
+def _rates(tape: Tape, box: Sequence[arb], length: arb) -> arb_mat:
+    rows = [[length * slope for slope in slopes_of(output, len(box))[1:]] for output in tape.run(variables(box), JETS)]
+    if not all(entry.is_finite() for row in rows for entry in row):
+        raise Undefined("slopes without bounds")
+    return arb_mat([[e.upper() if i == j else e.abs_upper() for j, e in enumerate(row)] for i, row in enumerate(rows)])
+
+
+def lowest(tape: Tape, region: Region, time: arb) -> list[arb]:
+    """A lower bound of each output of ``tape`` on the region at ``time``, by the mean value form."""
+    middle = tape.run([time.mid(), *region.centre], BALLS)
+    outputs = tape.run(variables([time, *region.box]), JETS)
+    bounds = []
+    radii = [time.rad(), *region.errors]
+    for value, output in zip(middle, outputs, strict=True):
+        spread = sum((s.abs_upper() * r for s, r in zip(slopes_of(output, len(radii)), radii, strict=True)), arb(0))
+        bounds.append((value - spread).lower())
+    return bounds

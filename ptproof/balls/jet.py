@@ -14,7 +14,7 @@ from typing import Any
 from flint import arb
 
 from ptproof.balls.arithmetic import Ring
-from ptproof.balls.ball import BALLS, interval
+from ptproof.balls.ball import BALLS, finite, interval
 from ptproof.balls.boxes import Side, middle
 from ptproof.balls.lifted import Lifted
 from ptproof.balls.tape import Undefined
@@ -68,11 +68,16 @@ def _product(u: arb, v: arb) -> arb:
     return interval(u.lower() * v.lower(), u.upper() * v.upper()) if v > 0 else -_product(u, -v)
 
 
+def slopes_of(number: Any, n: int) -> list[arb]:
+    """The n partial derivatives of a jet, or of a constant."""
+    slopes = number.slopes if isinstance(number, Jet) else (None,) * n
+    return [arb(0) if slope is None else slope for slope in slopes]
+
+
 def variables(box: Sequence[arb]) -> list[Jet]:
     """One jet per coordinate of ``box``, each with slope 1 in its own direction."""
-    n = len(box)
-    one = arb(1)
-    return [Jet(ball, tuple(one if j == i else None for j in range(n))) for i, ball in enumerate(box)]
+    one, places = arb(1), range(len(box))
+    return [Jet(ball, tuple(one if j == i else None for j in places)) for i, ball in enumerate(box)]
 
 
 _DERIVATIVES: Mapping[str, Callable[[arb, arb], arb]] = {
@@ -122,12 +127,8 @@ class _Jets(Lifted):
             return left if known >= 0 else right
         # Both may be the larger one. The slope of a maximum lies between the slopes of the two.
         n = len((left if isinstance(left, Jet) else right).slopes)
-        rows = [value.slopes if isinstance(value, Jet) else (None,) * n for value in (left, right)]
-        slopes = tuple(
-            None if all(a is None for a in column) else BALLS.either([arb(0) if a is None else a for a in column])
-            for column in zip(*rows, strict=True)
-        )
-        return Jet(_value(left).max(_value(right)), slopes)
+        columns = zip(slopes_of(left, n), slopes_of(right, n), strict=True)
+        return Jet(_value(left).max(_value(right)), tuple(map(BALLS.either, columns)))
 
     def floor(self, value: Any) -> Any:
         result = BALLS.floor(_value(value))
@@ -189,7 +190,7 @@ def upper_bound(function: Callable[[Sequence[Any], Any], Any], box: Sequence[Sid
         # Not differentiable here, or constant: what remains is the range of the function on the balls.
         natural = (function(balls, BALLS) if jet is None else jet).upper()
         widest = max(range(len(box)), key=lambda index: float(balls[index].rad()), default=None)
-        return Bound(_finite(natural), tuple(map(middle, box)), None if jet is not None else widest)
+        return Bound(finite(natural, "a function"), tuple(map(middle, box)), None if jet is not None else widest)
     point: list[arb] = []
     spread = arb(0)
     split, largest = None, -1.0
@@ -211,10 +212,4 @@ def upper_bound(function: Callable[[Sequence[Any], Any], Any], box: Sequence[Sid
     natural = jet.value.upper()
     if not upper.is_finite() or natural < upper:
         upper = natural
-    return Bound(_finite(upper), tuple(point), split, value)
-
-
-def _finite(ball: arb) -> arb:
-    if not ball.is_finite():
-        raise Undefined("no finite value there")
-    return ball
+    return Bound(finite(upper, "a function"), tuple(point), split, value)

@@ -24,7 +24,7 @@ class Lifted(Arithmetic):
     defines the operations for its own kind only, those that do not follow from others.
     """
 
-    kind: ClassVar[type]
+    kind: ClassVar[Any]
 
     def __init_subclass__(cls) -> None:
         for name in _OPERATIONS:
@@ -32,6 +32,19 @@ class Lifted(Arithmetic):
 
     def constant(self, value: arb) -> Any:
         return value
+
+    def integer_power(self, base: Any, exponent: int) -> Any:
+        if exponent < 0:
+            return self.inverse(self.integer_power(base, -exponent))
+        result: Any = arb(1)
+        for bit in bin(exponent)[2:]:
+            result = result.square() if isinstance(result, self.kind) else result
+            result = base * result if bit == "1" else result
+        return result
+
+    def inverse(self, value: Any) -> Any:
+        """1/``value``, of a number of this kind."""
+        raise NotImplementedError
 
     def power(self, base: Any, exponent: Any) -> Any:
         return self.call("exp", exponent * self.call("log", base))

@@ -33,7 +33,7 @@ def identity(size: int) -> arb_mat:
 
 def magnitudes(balls: arb_mat) -> arb_mat:
     """For each entry a number that no value of it exceeds in absolute value."""
-    return arb_mat(balls.nrows(), balls.ncols(), [entry.abs_upper() for entry in balls.entries()])
+    return arb_mat([[entry.abs_upper() for entry in row] for row in balls.tolist()])
 
 
 def floats(balls: arb_mat) -> Any:
@@ -72,21 +72,19 @@ def grown(rates: arb_mat, source: Sequence[arb], start: Sequence[arb], duration:
 
     Raises :class:`Undefined` where a bound is not finite.
     """
-    n = len(source)
-    entries = rates.entries()
-    if any(entries[i * n + j] < 0 for i in range(n) for j in range(n) if i != j):
+    rows = rates.tolist()
+    if any(entry < 0 for i, row in enumerate(rows) for j, entry in enumerate(row) if i != j):
         raise ValueError("the rates off the diagonal must not be negative")
     with flint.ctx.workprec(_BITS):
-        end = _solved(entries, source, start, duration)
-        over = _solved([entry.max(arb(0)) for entry in entries], source, start, duration)
+        end = _solved(rows, source, start, duration)
+        over = _solved([[entry.max(arb(0)) for entry in row] for row in rows], source, start, duration)
     if not all(entry.is_finite() for entry in (*end, *over)):
         raise Undefined("growth beyond all bounds")
     return Growth(end, [a.max(b).upper() for a, b in zip(end, over, strict=True)])
 
 
-def _solved(entries: Sequence[arb], source: Sequence[arb], start: Sequence[arb], duration: Any) -> Vector:
+def _solved(rates: list[Vector], source: Sequence[arb], start: Sequence[arb], duration: Any) -> Vector:
     """The solution of u' = rates·u + source from ``start`` (a constant 1 carries the source), from above."""
-    n = len(source)
-    rows = [entry for i in range(n) for entry in (*entries[i * n : (i + 1) * n], source[i])]
-    whole = (arb_mat(n + 1, n + 1, [*rows, *[arb(0)] * (n + 1)]) * duration).exp()
-    return [entry.upper() for entry in (whole * column([*start, arb(1)])).entries()[:n]]
+    rows = [[*row, entry] for row, entry in zip(rates, source, strict=True)]
+    whole = (arb_mat([*rows, [arb(0)] * (len(rows) + 1)]) * duration).exp()
+    return [entry.upper() for entry in (whole * column([*start, arb(1)])).entries()[:-1]]

@@ -8,6 +8,7 @@ from typing import Any
 from flint import arb, arb_mat
 
 from ptproof.balls.ball import BALLS
+from ptproof.balls.matrices import column, identity
 from ptproof.balls.tape import Undefined
 
 
@@ -47,9 +48,8 @@ def krawczyk(found: Sequence[arb], gradient: Any, hessian: Any) -> list[arb] | N
             value = arb_mat(n, 1, gradient.run(list(found), BALLS))
         except (Undefined, ZeroDivisionError):
             continue
-        offset = arb_mat(n, 1, [ball - centre for ball, centre in zip(box, found, strict=True)])
-        identity = arb_mat(n, n, [int(i == j) for i in range(n) for j in range(n)])
-        image = arb_mat(n, 1, list(found)) - inverse * value + (identity - inverse * slope) * offset
+        offset = column([ball - centre for ball, centre in zip(box, found, strict=True)])
+        image = column(found) - inverse * value + (identity(n) - inverse * slope) * offset
         if all(ball.contains_interior(new) for ball, new in zip(box, image.entries(), strict=True)):
             return list(image.entries())
     return None

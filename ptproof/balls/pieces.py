@@ -1,4 +1,4 @@
-"""What a step of an enclosure is made from, and what it gives: a right-hand side, a proposal, a piece."""
+"""What a step of an enclosure is made from, and what it gives: regions, a right-hand side, a proposal, a piece."""
 
 from __future__ import annotations
 
@@ -6,10 +6,20 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import flint
+import numpy as np
 import sympy as sp
 from flint import arb, arb_mat
 
 from ptproof.balls.ball import interval
+from ptproof.balls.matrices import (
+    Vector,
+    floats,
+    identity,
+    inverse,
+    magnitudes,
+    matrix,
+    times,
+)  # fmt: skip
 from ptproof.balls.polynomials import largest, spectra
 from ptproof.balls.tape import Tape, Undefined, compile_tape, switching_part
 
@@ -86,14 +96,68 @@ class Piece:
     def at(self, time: arb) -> list[arb]:
         """A ball for each state at every instant in ``time`` that lies in the step."""
         s = (2 * (time - self.start) / self.length - 1).intersection(interval(-1, 1))
-        n, count = self.path.nrows(), self.path.ncols()
-        entries = self.path.entries()
-        rows = [flint.arb_poly(entries[i * count : (i + 1) * count]) for i in range(n)]
+        rows = map(flint.arb_poly, self.path.tolist())
         return [row(s) + arb(0, error) for row, error in zip(rows, self.errors, strict=True)]
 
 
 def hull(path: arb_mat, errors: Sequence[arb]) -> list[arb]:
     """A ball for each row of the path that holds it for all s from −1 to 1, and what lies within the errors."""
-    count, flat = path.ncols(), spectra(path).entries()
-    parts = [flat[i : i + count] for i in range(0, len(flat), count)]
-    return [part[0] + arb(0, largest(part[1:]) + error) for part, error in zip(parts, errors, strict=True)]
+    rows = zip(spectra(path).tolist(), errors, strict=True)
+    return [row[0] + arb(0, largest(row[1:]) + error) for row, error in rows]
+
+
+@dataclass(frozen=True)
+class Region:
+    """All c + B·r with |rᵢ| <= ``radii``ᵢ: ``centre`` c (n exact balls), ``frame`` B (n × n, exact)."""
+
+    centre: tuple[arb, ...]
+    frame: arb_mat
+    radii: tuple[arb, ...]
+
+    @staticmethod
+    def around(balls: Sequence[arb]) -> Region:
+        """The box with these sides."""
+        return Region(
+            tuple(ball.mid() for ball in balls), identity(len(balls)), tuple(ball.rad().upper() for ball in balls)
+        )
+
+    @property
+    def errors(self) -> Vector:
+        """What the coordinates differ from the centre at most."""
+        return times(magnitudes(self.frame), self.radii)
+
+    @property
+    def box(self) -> list[arb]:
+        """The sides of the smallest box around it."""
+        return [arb(c, r) for c, r in zip(self.centre, self.errors, strict=True)]
+
+    def moved(
+        self, ends: Sequence[arb], carried: arb_mat, metric: arb_mat | None, *rest: tuple[arb_mat, Sequence[arb]]
+    ) -> Region:
+        """A region with all ``ends`` + ``carried``·(B·r) + Σ matrix·[−radii, radii] over the ``rest``.
+
+        In the coordinates whose axes are the columns of ``metric`` the new frame is orthogonal (Lohner): the longest
+        direction is kept as it is, so that errors along it do not spill over into the others. Without a metric the
+        frame is kept. Any frame would be right; only its inverse has to be enclosed.
+        """
+        centre = tuple(ball.mid() for ball in ends)
+        image, frame = carried * self.frame, self.frame
+        if metric is not None:
+            inner = floats(inverse(metric) * image) * np.array([float(r) for r in self.radii])
+            frame = (metric * matrix(_orthogonal(inner))).mid()
+        back = inverse(frame)
+        found = times(magnitudes(back * image), self.radii)
+        for part, radii in (*rest, (identity(len(centre)), [ball.rad().upper() for ball in ends])):
+            added = times(magnitudes(back * part), radii)
+            found = [(a + b).upper() for a, b in zip(found, added, strict=True)]
+        if not all(entry.is_finite() for entry in (*centre, *found)):
+            raise Undefined("a region without bounds")
+        return Region(centre, frame, tuple(found))
+
+
+def _orthogonal(columns: np.ndarray) -> np.ndarray:
+    lengths = np.linalg.norm(columns, axis=0)
+    scaled = columns / max(float(lengths.max()), 1e-300)
+    if not np.all(np.isfinite(scaled)):
+        return np.eye(len(columns))
+    return np.linalg.qr(scaled[:, np.argsort(-lengths, kind="stable")])[0]

@@ -19,7 +19,7 @@ import sympy as sp
 from flint import arb
 
 from ptproof.balls.ball import ball_from, interval, precision
-from ptproof.balls.cells import Cell, FieldOnCells, Middle, Over
+from ptproof.balls.cells import Cell, FieldOnCells, Over
 from ptproof.balls.cube import Box, Face, reduced_faces, shell
 from ptproof.balls.rounding import down, up
 from ptproof.balls.search import Look, Search
@@ -162,7 +162,9 @@ class RadialEnvelope:
             bound = self._at_most(cell, near, M, turning)
             if search.looks < len(parts) and math.isfinite(bound):
                 scale = max(scale, abs(bound))
-            return Look(bound, False, lambda: cell.halves, self._at_least(cell.middle, turning), cell.middle.box)
+            there = cell.middle
+            sure = -math.inf if there.gradient is None else down(_pair(there.u, turning, there.gradient) / there.r)
+            return Look(bound, False, lambda: cell.halves, sure, there.box)
 
         def enough() -> bool:
             return search.upper <= search.best + _TOLERANCE * finer * max(abs(search.best), _SMALL * scale)
@@ -175,10 +177,6 @@ class RadialEnvelope:
         """Cells that cover the shell, but for directions that a symmetry leads to others."""
         low, high = arb(self.boundary(index)), arb(self.boundary(index + 1))
         return [Cell(self._field, box) for box in shell(self._faces, low, high, 4)]
-
-    def _at_least(self, there: Middle, turning: _Matrix) -> float:
-        """What a point certainly reaches, −inf where the field has no value."""
-        return -math.inf if there.gradient is None else down(_pair(there.u, turning, there.gradient) / there.r)
 
     def _at_most(self, cell: Cell, near: bool, M: _Matrix, turning: _Matrix) -> float:
         """An upper bound of u·M∇F/r on the cell: the least of three enclosures; inf where the field has no value."""

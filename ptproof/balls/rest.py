@@ -11,8 +11,7 @@ from flint import arb
 from sympy.utilities.iterables import sift
 
 from ptproof.balls.ball import BALLS, interval
-from ptproof.balls.growth import Exponent, Growth, Span, coordinates, power_of
-from ptproof.balls.growths import GROWTHS
+from ptproof.balls.growth import GROWTHS, Exponent, Growth, Span, coordinates, power_of
 from ptproof.balls.tape import Undefined, compile_tape
 
 LARGEST_POLYNOMIAL = 300

@@ -32,12 +32,13 @@ class CriticalPoints:
     def near(self, start: Sequence[float]) -> FieldWitness | None:
         """One that Newton's method reaches from the offset ``start``, in all coordinates or along an axis."""
         n = self.quotients.n
-        axes = [[index] for index in range(n) if n > 1 and self._gradient_stays_on_axis(index)]
+        drop, offsets = self.quotients.drop, self.quotients.offsets
+        axes = []
+        for index in range(n if n > 1 else 0):
+            rest = {y: 0 for i, y in enumerate(offsets) if i != index}
+            if all(vanishes(sp.diff(drop, y).subs(rest)) for y in rest):  # the gradient stays on the axis
+                axes.append([index])
         return next((found for kept in [list(range(n)), *axes] if (found := self._newton(start, kept))), None)
-
-    def _gradient_stays_on_axis(self, index: int) -> bool:
-        rest = {y: 0 for i, y in enumerate(self.quotients.offsets) if i != index}
-        return all(vanishes(sp.diff(self.quotients.drop, y).subs(rest)) for y in rest)
 
     def _newton(self, start: Sequence[float], kept: Sequence[int]) -> FieldWitness | None:
         active = [self.quotients.offsets[i] for i in kept]

@@ -1,18 +1,22 @@
-"""Certified bounds of a quotient on boxes, and certified values at points, by whichever form is sharpest."""
+"""Certified bounds and values of a quotient by whichever form is sharpest, and extreme values by branch and bound."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 from flint import arb
 
 from ptproof.balls.ball import BALLS, ball_from
-from ptproof.balls.boxes import Side
+from ptproof.balls.boxes import Side, centre, is_tiny, widest
 from ptproof.balls.cube import Box
 from ptproof.balls.jet import Bound, upper_bound
+from ptproof.balls.rounding import down, up
+from ptproof.balls.search import Look, Search
 from ptproof.balls.tape import Undefined
+from ptproof.certify.certificate import Range
 from ptproof.certify.domain import Domain
 from ptproof.certify.quotients import Function, Quotients
 
@@ -90,9 +94,9 @@ class Evaluator:
         whole = self.quotients.is_polynomial
         forms: list[Callable[[Box], Bound]] = []
         if low > 0:
-            forms.append(self._joint)
+            forms.append(partial(self._direct, rest=True))
             if not (whole or self.quotients.polynomial.is_zero):
-                forms.append(self._separate)
+                forms.append(partial(self._direct, rest=False))
         if low.is_zero() or box.outer or high < 2:
             first = low.is_zero() or (not box.outer and (whole or high > 4 * low or high < 0.1))
             forms.insert(0 if first else len(forms), self._series)
@@ -112,13 +116,10 @@ class Evaluator:
             raise Undefined("no form of the quotient has a finite value there")
         return best
 
-    def _joint(self, box: Box) -> Bound:
-        function = self.quotients.direct(box.face, box.outer, self.goal.slope)
-        return self._with_tail(function, arb(0), box)
-
-    def _separate(self, box: Box) -> Bound:
-        function = self.quotients.direct(box.face, box.outer, self.goal.slope, rest=False)
-        return self._with_tail(function, self.quotients.direct_rest(box, self.goal.slope), box)
+    def _direct(self, box: Box, rest: bool) -> Bound:
+        """By the defining form, together with what is not polynomial or with that apart."""
+        function = self.quotients.direct(box.face, box.outer, self.goal.slope, rest=rest)
+        return self._with_tail(function, arb(0) if rest else self.quotients.direct_rest(box, self.goal.slope), box)
 
     def _series(self, box: Box) -> Bound:
         function = self.quotients.leading(box.face, box.outer, self.goal.slope)
@@ -133,3 +134,83 @@ class Evaluator:
         if split is None or main.value is None or tail.upper() > (main.upper - main.value).abs_upper():
             split = box.widest()
         return Bound((main.upper + tail).upper(), main.point, split)
+
+
+class Extremum:
+    """The supremum or infimum of a quotient over ``boxes``, enclosed ever more narrowly until ``rtol`` is reached.
+
+    The bounds are rigorous at any time, finished or not.
+    """
+
+    def __init__(self, quotients: Quotients, goal: Goal, boxes: Sequence[Box], rtol: float) -> None:
+        self.evaluator, self.goal, self.rtol = Evaluator(quotients, goal), goal, rtol
+        self.search = Search(self._look, reversed(boxes))
+        self._next_question = 64
+
+    @property
+    def place(self) -> Place | None:
+        """Where the best value was found."""
+        return self.search.point
+
+    @property
+    def stuck(self) -> Place | None:
+        """Where no enclosure exists at all."""
+        box = self.search.stuck
+        return None if box is None else Place(box, centre(box.sides))
+
+    @property
+    def finished(self) -> bool:
+        """Whether the wanted width has been reached."""
+        return self.place is not None and self.search.open_upper <= self._accepted(self.search.best)
+
+    def run(
+        self, deadline: float, stop: Callable[[Place, float], bool] | None = None, max_boxes: int = 400_000
+    ) -> None:
+        """Work until the width is reached, the time is over, or ``stop`` says so.
+
+        ``stop(place, best value)`` is asked now and then, and when a smallest value has turned out not positive.
+        """
+        search = self.search
+
+        def enough() -> bool:
+            if self.finished:
+                return True
+            passed = self.place is not None and not self.goal.largest and search.best >= 0
+            if stop is None or self.place is None or not (passed or search.looks >= self._next_question):
+                return False
+            self._next_question = 3 * search.looks
+            return stop(self.place, search.best) or passed
+
+        search.run(enough, deadline=deadline, most=max_boxes)
+
+    def range(self) -> Range:
+        """The constant that this value is, or whose square: what is known of it now."""
+        lower, upper = self.search.best, self.search.upper
+        if not self.goal.largest:
+            lower, upper = -upper, -lower
+        if self.goal.slope:
+            lower = math.nextafter(math.sqrt(lower), 0.0) if lower > 0 else 0.0
+            upper = math.nextafter(math.sqrt(upper), math.inf) if upper > 0 else 0.0
+        return Range(lower if math.isfinite(lower) else None, upper if math.isfinite(upper) else None)
+
+    def _accepted(self, best: float) -> float:
+        """What is not above this needs no further look."""
+        return best + self.rtol * abs(best) if math.isfinite(best) else -math.inf
+
+    def _look(self, box: Box, best: float) -> Look[Box, Place]:
+        try:
+            bound = self.evaluator.bound(box, self._accepted(best))
+            upper, split, point, known = up(bound.upper), bound.split, bound.point, bound.value
+        except Undefined:
+            upper, split, point, known = math.inf, None, centre(box.sides), None
+        if upper <= best:
+            return Look(upper, settled=True)
+        try:
+            value = down(self.evaluator.value(box, point) if known is None else known)
+        except Undefined:
+            value = -math.inf
+        settled = upper <= self._accepted(max(best, value))
+        if split is None and not (upper == math.inf and is_tiny(box.sides)):
+            split = widest(box.sides)
+        halves = None if split is None else lambda: box.split(split)
+        return Look(upper, settled, halves, value, Place(box, point))

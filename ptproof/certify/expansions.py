@@ -13,8 +13,8 @@ from functools import reduce
 from flint import arb
 
 from ptproof.balls.cube import Face
+from ptproof.balls.series import Exponents, Nested, Taylor
 from ptproof.balls.tape import Undefined
-from ptproof.balls.taylor import Exponents, Nested, Taylor
 
 ALIKE = 1.5
 """How far apart the coefficients of y₁^(2κ) … yₙ^(2κ) may be, as a factor, for a common part to be split off."""

@@ -19,12 +19,10 @@ from flint import arb
 
 from ptproof.balls.ball import BALLS, interval
 from ptproof.balls.cube import Box, Face, reduced_faces
-from ptproof.balls.growth import Growth, coordinates, power_of
-from ptproof.balls.growths import GROWTHS
+from ptproof.balls.growth import GROWTHS, Growth, coordinates, power_of
 from ptproof.balls.rest import LineBound, line_bound, split_polynomial
-from ptproof.balls.series import coefficient_along
+from ptproof.balls.series import Nested, Taylor, coefficient_along, taylor
 from ptproof.balls.tape import Tape, Undefined, compile_tape
-from ptproof.balls.taylor import Nested, Taylor, taylor
 from ptproof.certify.expansions import by_degree, in_radius
 
 EXTRA_ORDERS = {1: 9, 2: 5, 3: 3}

@@ -78,7 +78,8 @@ class RadiusSearch:
             good = good if fails(good, middle) else middle
         if not failed:
             return good, f"the largest that was tried, by {tried} doublings"
-        return good, f"the largest found by {tried} certified trials; radius {_brief(ceiling)} was not certified"
+        brief = str(ceiling) if len(str(ceiling)) < 12 else f"{float(ceiling):.6g}"
+        return good, f"the largest found by {tried} certified trials; radius {brief} was not certified"
 
     def obstacle(self, inner: sp.Expr, outer: sp.Expr, share: float) -> sp.Expr | None:
         """None if both quotients are certainly positive and finite between two radii, else where that may end.
@@ -111,10 +112,6 @@ def _short_between(low: sp.Expr, high: sp.Expr) -> sp.Rational:
         if low < value < high and abs(value - middle) <= (high - low) / 8:
             return value
     return sp.Rational(str(sp.N(middle, 30)))
-
-
-def _brief(value: sp.Expr) -> str:
-    return str(value) if len(str(value)) < 12 else f"{float(value):.6g}"
 
 
 def positive_everywhere(

@@ -19,8 +19,7 @@ from ptproof.balls.tape import Undefined
 from ptproof.certify.attack import unshaken
 from ptproof.certify.certificate import FieldCertificate, FieldWitness, Range
 from ptproof.certify.domain import Domain
-from ptproof.certify.evaluator import Goal, Place, start_boxes
-from ptproof.certify.optimum import Extremum
+from ptproof.certify.evaluator import Extremum, Goal, Place, start_boxes
 from ptproof.certify.quotients import Quotients
 from ptproof.certify.radius import RadiusSearch
 from ptproof.certify.source import degenerate_direction, source_order
@@ -227,10 +226,7 @@ class _Search:
 
     def conclude(self, found: dict[str, Extremum]) -> FieldCertificate:
         ranges = {name: extremum.range() for name, extremum in found.items()}
-        good = len(found) == len(GOALS) and all(
-            item.lower is not None and item.lower > 0 and item.width <= self.rtol for item in ranges.values()
-        )
-        if good:
+        if len(found) == len(GOALS) and all(item.width <= self.rtol for item in ranges.values()):
             return self.certificate(Verdict.PROVED, **ranges)
         return self.certificate(Verdict.UNDECIDED, **ranges, detail=self.tried(found, ranges))
 

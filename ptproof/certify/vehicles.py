@@ -21,6 +21,7 @@ from ptproof.proof.verdict import Evidence, Verdict
 from ptproof.system import System
 
 NAME = "vehicle certificate"
+_certificate = lru_cache(maxsize=8)(certify_loop)
 _ROUNDING = 1e-9  # the instants of a certificate are floats
 
 
@@ -52,7 +53,7 @@ def certified(goal: Goal, problem: Problem, *, tolerance: float = 0.12) -> Evide
     try:
         radius = _radius(said, problem)
         limits = [_limit(said, part, problem) for part in said.parts]
-        found = _certificate(problem, radius, tolerance)
+        found = _certificate(problem, radius, tolerance=tolerance, workers=1)
         bound = _bound(said, found) if found.verdict is Verdict.PROVED else math.inf
     except (InputError, Undefined) as error:
         return _undecided(str(error))
@@ -70,11 +71,6 @@ def certified(goal: Goal, problem: Problem, *, tolerance: float = 0.12) -> Evide
 
 def _undecided(reason: str) -> Evidence:
     return Evidence(NAME, Verdict.UNDECIDED, reason)
-
-
-@lru_cache(maxsize=8)
-def _certificate(problem: Problem, radius: sp.Expr, tolerance: float) -> LoopCertificate:
-    return certify_loop(problem, radius, tolerance=tolerance, workers=1)
 
 
 def _other(said: Runs, problem: Problem) -> str:

@@ -12,8 +12,7 @@ import sympy as sp
 from flint import arb
 
 from ptproof.balls.ball import ball_from, enclose, enclosure_text, fraction, separated
-from ptproof.balls.growth import Exponent, Growth, coordinates
-from ptproof.balls.growths import GROWTHS
+from ptproof.balls.growth import GROWTHS, Exponent, Growth, coordinates
 from ptproof.balls.tape import Undefined
 from ptproof.certify.certificate import FieldWitness, distance_to
 from ptproof.certify.critical import CriticalPoints, length, short_points, values_at

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from ptproof.gains.problem import Study
     from ptproof.problem import Problem
     from ptproof.problem.field import FieldBounds
-    from ptproof.simulation.worst import Simulated
+    from ptproof.simulation.fleet import Simulated
 
 _CONSTANTS = ("kappa", "a1", "a2", "b1", "b2")
 _NUMBERS = {
@@ -123,7 +123,7 @@ def _from_numbers(values: dict[str, Any], plot: str | None) -> _Found:
 def _from_problem(name: str, values: dict[str, Any], plot: str | None) -> _Found:
     from ptproof.gains import study
     from ptproof.problem import EXAMPLES, example, load
-    from ptproof.simulation.worst import worst_distance
+    from ptproof.simulation.fleet import worst_distance
 
     problem = _changed(example(name) if name in EXAMPLES else load(name), values)
     bounds = _declared(problem, values)

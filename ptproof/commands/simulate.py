@@ -27,7 +27,7 @@ def _seeker(context: click.Context, option: click.Parameter, name: str | None) -
 
 
 def _table(context: click.Context, option: click.Parameter, name: str | None) -> str | None:
-    from ptproof.simulation.saving import check_name
+    from ptproof.simulation.trajectory import check_name
 
     if name is not None:
         check_name(name)
@@ -100,7 +100,7 @@ def simulate(
     from ptproof.problem import example, load
     from ptproof.problem.doubts import run_doubt, source_doubt
     from ptproof.simulation import Ensemble, run
-    from ptproof.simulation.ccode import feedback_code
+    from ptproof.simulation.blocks import feedback_code
 
     target = load(problem) if _is_file(problem) else example(problem)
     how["seeker"] = seeker or target.default_seeker

@@ -7,8 +7,7 @@ from functools import cached_property
 
 import sympy as sp
 
-from ptproof.comparison.power import PowerBound, holds, sympify_members
-from ptproof.comparison.regular import check_regular
+from ptproof.comparison.power import PowerBound, check_regular, holds, sympify_members
 from ptproof.errors import InputError
 
 

@@ -102,13 +102,11 @@ class DilatedBound:
         """max A = T(√g − √h)² for g ≥ h, reached at :attr:`turning_elapsed`."""
         return self.horizon * (sp.sqrt(self.growth) - sp.sqrt(self.decay)) ** 2
 
-    @property
-    def critical_initial(self) -> sp.Expr:
-        """The smallest initial value whose bound escapes: [σT(√g − √h)²]^(−1/σ), for g > h and σ > 0."""
-        return (self.sigma * self.largest_integral) ** (-1 / self.sigma)
-
     def critical_initial_at(self, elapsed: sp.Expr) -> sp.Expr:
-        """The initial value whose denominator vanishes at s = ``elapsed`` (critical-V_0): (σA(s))^(−1/σ), A(s) > 0."""
+        """The initial value whose denominator vanishes at s = ``elapsed`` (critical-V_0): (σA(s))^(−1/σ), A(s) > 0.
+
+        At :attr:`turning_elapsed` it is the smallest whose bound escapes.
+        """
         T = self.horizon
         stretch = 1 + elapsed / T
         return (stretch / (self.sigma * elapsed * (self.growth - self.decay * stretch))) ** (1 / self.sigma)

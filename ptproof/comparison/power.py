@@ -8,8 +8,9 @@ from typing import Any
 
 import sympy as sp
 
-from ptproof.comparison.regular import check_regular
 from ptproof.errors import InputError
+from ptproof.proof.definedness import obligations
+from ptproof.proof.engines.reals import are_met
 from ptproof.proof.signs import vanishes
 
 
@@ -120,3 +121,19 @@ def power_bound(
             raise InputError(f"comparison: no antiderivative found for the rate {rate}; give the integral")
         integral = antiderivative - antiderivative.subs(time, start)
     return PowerBound(time, start, initial, rate, power, integral)
+
+
+def check_regular(expression: sp.Expr, time: sp.Symbol, start: sp.Expr, what: str) -> None:
+    """Raise unless ``expression`` is shown to be continuously differentiable for all times from ``start`` on.
+
+    A solution on one side of a pole or a jump says nothing about the other side.
+    Exact algebra alone does not see a jump or a kink: for SymPy the derivative of a jump is 0.
+    """
+    elapsed = sp.Dummy("elapsed", nonnegative=True)
+    there = sp.sympify(expression).subs(time, start + elapsed)
+    found = are_met(list(obligations(there, moving=[elapsed])), (), seconds=2.0)
+    if not found.shown:
+        raise InputError(
+            f"comparison: {what} {expression} is not shown to be without jump, kink or pole from {time} = {start} on: "
+            f"{found.how}"
+        )

@@ -49,7 +49,10 @@ def feasible_map(
     classes = np.zeros((size, size), dtype=int)
     for j, second in enumerate(rows):
         for i, first in enumerate(columns):
-            problem = _moved(found.problem, dict(zip(names, (first, second), strict=True)))
+            changes, tuning = dict(zip(names, (first, second), strict=True)), found.problem.tuning
+            if "omega" in changes and "mu" not in changes:
+                changes["mu"] = rounded(float(tuning.mu * tuning.omega) / float(changes["omega"]))
+            problem = with_numbers(found.problem, **changes)
             classes[j, i] = _class(problem, found, limits or Limits(), radius, filter_gap, workers)
             if progress is not None:
                 progress(1)
@@ -63,12 +66,6 @@ def _values(problem: Problem, name: str, size: int) -> list[Any]:
     spread = _SPREAD.get(name, 4.0 if name == "omega" else 2.0)
     values = [rounded(float(given) * factor) for factor in np.geomspace(1 / spread, spread, size)]
     return [value if name != "nu_min" else min(value, rounded(1)) for value in values]
-
-
-def _moved(problem: Problem, changes: dict[str, Any]) -> Problem:
-    if "omega" in changes and "mu" not in changes:
-        changes["mu"] = rounded(float(problem.tuning.mu * problem.tuning.omega) / float(changes["omega"]))
-    return with_numbers(problem, **changes)
 
 
 def _class(problem: Problem, found: Design, limits: Limits, radius: Any, gap: Any, workers: int | None) -> int:

@@ -13,6 +13,7 @@ import math
 import time as clock
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import Any
 
 import sympy as sp
@@ -259,10 +260,11 @@ def _certified(
 ) -> tuple[Problem, LoopCertificate] | None:
     """The choice with its certificate, if it ends within the residual and keeps the limits."""
     asked.advance(1, f"omega = {float(choice.tuning.omega):.4g}, k = {float(choice.tuning.k):.3g}")
-    certificate = _certificate(asked, choice, tolerance)
+    certify = partial(certify_loop, choice, asked.radius, filter_gap=asked.gap, workers=asked.workers)
+    certificate = certify(tolerance=tolerance)
     final, wanted = certificate.final, float(asked.residual)
     if tolerance > _FINE and final is not None and wanted < final < _NEAR * wanted and not asked.late:
-        certificate = _certificate(asked, choice, _FINE)
+        certificate = certify(tolerance=_FINE)
         final = certificate.final
     why: str | None
     if final is None:
@@ -274,10 +276,6 @@ def _certified(
         why = asked.limits.excess(forward_peak(choice), peak)
     asked.trials.append(Trial(numbers_of(choice), average, final, why or ""))
     return None if why else (choice, certificate)
-
-
-def _certificate(asked: _Asked, choice: Problem, tolerance: float) -> LoopCertificate:
-    return certify_loop(choice, asked.radius, filter_gap=asked.gap, tolerance=tolerance, workers=asked.workers)
 
 
 def _why_none(asked: _Asked) -> str:

@@ -19,6 +19,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from ptproof.errors import InputError
+from ptproof.problem.smooth import short
 from ptproof.proof.signs import sign_of
 from ptproof.system import gradient
 
@@ -59,17 +60,17 @@ class FieldBounds:
     def __post_init__(self) -> None:
         kappa = _exact(self.kappa, "kappa")
         if not (kappa.is_integer and kappa.is_positive):
-            raise InputError(f"kappa must be a positive integer or a symbol declared as one, not {_short(kappa)}")
+            raise InputError(f"kappa must be a positive integer or a symbol declared as one, not {short(kappa)}")
         object.__setattr__(self, "kappa", kappa)
         for name in ("a1", "a2", "b1", "b2"):
             value = _exact(getattr(self, name), name)
             if sign_of(value) != 1:
-                raise InputError(f"{name} must be a positive number or a positive symbol, not {_short(value)}")
+                raise InputError(f"{name} must be a positive number or a positive symbol, not {short(value)}")
             object.__setattr__(self, name, value)
         if sign_of(self.a2 - self.a1) == 1:
-            raise InputError(f"a2 must not exceed a1, but a2 = {_short(self.a2)} and a1 = {_short(self.a1)}")
+            raise InputError(f"a2 must not exceed a1, but a2 = {short(self.a2)} and a1 = {short(self.a1)}")
         if sign_of(self.b1 - self.b2) == 1:
-            raise InputError(f"b1 must not exceed b2, but b1 = {_short(self.b1)} and b2 = {_short(self.b2)}")
+            raise InputError(f"b1 must not exceed b2, but b1 = {short(self.b1)} and b2 = {short(self.b2)}")
 
     @property
     def q(self) -> sp.Expr:
@@ -146,13 +147,13 @@ class Field:
             )
         for item in source:
             if item.free_symbols or not (item.is_real and item.is_finite):
-                raise InputError(f"field.source: the coordinates must be real numbers, not {_short(item)}")
+                raise InputError(f"field.source: the coordinates must be real numbers, not {short(item)}")
         kappa = _exact(self.kappa, "field.kappa")
         if not (isinstance(kappa, sp.Integer) and kappa > 0):
-            raise InputError(f"field.kappa: must be a positive integer, not {_short(kappa)}")
+            raise InputError(f"field.kappa: must be a positive integer, not {short(kappa)}")
         if kappa > LARGEST_ORDER:
             raise InputError(
-                f"field.kappa: orders above {LARGEST_ORDER} are not computed with, and {_short(kappa)} is one"
+                f"field.kappa: orders above {LARGEST_ORDER} are not computed with, and {short(kappa)} is one"
             )
         expression = _exact(self.expression, "field.expression")
         _check_expression(expression, variables)
@@ -163,7 +164,7 @@ class Field:
         peak = self.peak
         if peak.has(sp.zoo, sp.nan, sp.oo, -sp.oo) or peak.is_real is False:
             raise InputError(
-                f"field.expression at field.source: the field has no finite real value there, it is {_short(peak)}"
+                f"field.expression at field.source: the field has no finite real value there, it is {short(peak)}"
             )
 
     @property
@@ -215,12 +216,9 @@ def _check_expression(expression: sp.Expr, variables: Sequence[sp.Symbol]) -> No
         names = ", ".join(sorted(map(str, undefined)))
         raise InputError(f"field.expression: contains the undefined function {names}; put a formula in its place")
     if expression.has(sp.I, *_UNFINISHED):
-        raise InputError(f"field.expression: must be a real formula without {_first_unfinished(expression)}")
-
-
-def _first_unfinished(expression: sp.Expr) -> str:
-    found = next((item for item in sp.preorder_traversal(expression) if isinstance(item, _UNFINISHED)), None)
-    return "the imaginary unit" if found is None else f"an unevaluated {type(found).__name__}, {_short(found)}"
+        found = next((item for item in sp.preorder_traversal(expression) if isinstance(item, _UNFINISHED)), None)
+        what = "the imaginary unit" if found is None else f"an unevaluated {type(found).__name__}, {short(found)}"
+        raise InputError(f"field.expression: must be a real formula without {what}")
 
 
 def _exact(value: Any, name: str) -> sp.Expr:
@@ -231,12 +229,7 @@ def _exact(value: Any, name: str) -> sp.Expr:
     except (sp.SympifyError, TypeError, AttributeError):
         raise InputError(f"{name} must be a number or an expression, not {value!r}") from None
     if not isinstance(expression, sp.Expr) or expression.has(sp.Float):
-        raise InputError(f"{name} must be exact, not {_short(expression)}: give a fraction")
+        raise InputError(f"{name} must be exact, not {short(expression)}: give a fraction")
     if expression.has(sp.zoo, sp.nan, sp.oo, -sp.oo):
-        raise InputError(f"{name} must be finite, not {_short(expression)}")
+        raise InputError(f"{name} must be finite, not {short(expression)}")
     return expression
-
-
-def _short(expression: Any) -> str:
-    text = str(expression)
-    return text if len(text) <= 60 else text[:57] + "..."

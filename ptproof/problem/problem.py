@@ -11,7 +11,7 @@ from typing import Any
 import sympy as sp
 
 from ptproof.errors import InputError
-from ptproof.problem import loops, models
+from ptproof.problem import loops
 from ptproof.problem.drift import Drift
 from ptproof.problem.field import Field
 from ptproof.problem.model import TAU, TIME, Initial, Saturation, Tuning, loop_letters, number, parameters
@@ -65,8 +65,6 @@ class Problem:
             if length != n:
                 raise InputError(f"{what}: {length} entries for {n} coordinates; give one for each")
         self._check_drift()
-        if self.kappa > 1000:
-            raise InputError(f"field.kappa: must be a positive integer (up to 1000), got {self.kappa}")
         for i, value in enumerate(self.source):
             number(value, f"field.source[{i}]")
         for where, point in (("field.source", self.source), ("initial.x", self.initial.x)):
@@ -206,7 +204,7 @@ class Problem:
 
         Arguments and errors as for :meth:`closed_loop`; states (x₁, x₂), parameter p₀ included.
         """
-        return self._derived("reduced model of the ", models.reduced_model, seeker, frame, symbolic)
+        return self._derived("reduced model of the ", loops.reduced_model, seeker, frame, symbolic)
 
     def averaged(self, seeker: str = "pt", frame: str = "t", *, symbolic: bool = False) -> System:
         """The Lie bracket average (eq:lie_bracket_system_real in τ, eq:LBA_reduced_model_t in t); states (x₁, x₂).
@@ -214,7 +212,7 @@ class Problem:
         It is derived once from an undefined field and drift, through reduction, dithers and brackets, and then the
         problem's own are put in. Arguments and errors as for :meth:`closed_loop`.
         """
-        return self._derived("average of the ", models.averaged_system, seeker, frame, symbolic)
+        return self._derived("average of the ", loops.averaged_system, seeker, frame, symbolic)
 
     def _derived(
         self, what: str, derive: Callable[..., System], seeker: str, frame: str, symbolic: bool, *more: str

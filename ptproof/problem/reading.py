@@ -14,7 +14,7 @@ import sympy as sp
 from ptproof.errors import InputError
 from ptproof.problem.drift import Drift, bounded_drift, gradient_drift, no_drift
 from ptproof.problem.field import Field
-from ptproof.problem.model import TIME, Initial, Saturation, Tuning, loop_letters, number, positive
+from ptproof.problem.model import TIME, Initial, Saturation, Tuning, loop_letters, number
 from ptproof.problem.problem import Problem
 from ptproof.reading.tables import RESERVED, build_from, check_choice, declared, finite, hint, listed, read_file
 from ptproof.transforms.clocks.named import CLOCKS
@@ -89,6 +89,7 @@ def _problem(data: Mapping[str, Any], name: str) -> Problem:
         raise InputError("field.variables: expected at least one name")
     variables = tuple(sp.Symbol(name, real=True) for name in declared(names, "field.variables", _RESERVED))
     n, expression = len(variables), finite(field["expression"], "field.expression", variables)
+    saturation = {key: _number(value, f"saturation.{key}") for key, value in data.get("saturation", {}).items()}
     return Problem(
         field=Field(variables, expression, _numbers(field["source"], "field.source", n), _kappa(field["kappa"])),
         drift=_drift(data["drift"], expression, variables),
@@ -97,7 +98,7 @@ def _problem(data: Mapping[str, Any], name: str) -> Problem:
             _numbers(initial["x"], "initial.x", n),
             **{key: _number(value, f"initial.{key}") for key, value in initial.items() if key != "x"},
         ),
-        saturation=_saturation(data["saturation"]) if "saturation" in data else None,
+        saturation=Saturation(**saturation) if saturation else None,
         name=name,
     )
 
@@ -107,11 +108,7 @@ def _number(value: Any, where: str) -> sp.Expr:
 
 
 def _numbers(value: Any, where: str, length: int) -> tuple[sp.Expr, ...]:
-    return tuple(_number(entry, f"{where}[{i}]") for i, entry in enumerate(_vector(value, where, length)))
-
-
-def _vector(value: Any, where: str, length: int) -> list[Any]:
-    return listed(value, where, length, "coordinates")
+    return tuple(_number(entry, f"{where}[{i}]") for i, entry in enumerate(listed(value, where, length, "coordinates")))
 
 
 def _kappa(value: Any) -> int:
@@ -137,15 +134,10 @@ def _drift(table: Mapping[str, Any], field: sp.Expr, variables: tuple[sp.Symbol,
     if kind == "none":
         return no_drift(n)
     if kind == "gradient":
-        rows = _vector(table["E"], "drift.E", n)
+        rows = listed(table["E"], "drift.E", n, "coordinates")
         return gradient_drift([_numbers(row, f"drift.E[{i}]", n) for i, row in enumerate(rows)], field, variables)
     names = (TIME, *variables)
-    rate = [finite(entry, f"drift.f[{i}]", names) for i, entry in enumerate(_vector(table["f"], "drift.f", n))]
+    entries = listed(table["f"], "drift.f", n, "coordinates")
+    rate = [finite(entry, f"drift.f[{i}]", names) for i, entry in enumerate(entries)]
     bound = finite(table["bound"], "drift.bound", [TIME]) if "bound" in table else None
     return bounded_drift(rate, bound)
-
-
-def _saturation(table: Mapping[str, Any]) -> Saturation:
-    return Saturation(
-        **{key: positive(finite(value, f"saturation.{key}"), f"saturation.{key}") for key, value in table.items()}
-    )

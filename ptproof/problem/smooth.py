@@ -53,7 +53,7 @@ def roughness(
     found = smoothness(expression.xreplace(real), list(real.values()), order, assumed, relations)
     if found.verdict is Verdict.PROVED:
         return None
-    return f"{_short(suspect)} is not shown to be {_TIMES[order]} ({found.detail})"
+    return f"{short(suspect)} is not shown to be {_TIMES[order]} ({found.detail})"
 
 
 def require_smooth(expression: sp.Expr, variables: Sequence[sp.Symbol], order: int, why: str) -> None:
@@ -68,13 +68,10 @@ def _suspect(node: sp.Basic, variables: frozenset[sp.Symbol]) -> sp.Basic | None
         return None
     if not (node.is_Add or node.is_Mul or isinstance(node, AppliedUndef)):
         known = node.is_Pow or node.func in METHODS
-        if not known or isinstance(node, _WITH_ENDS) or _has_end(node) or _hides_a_pole(node, variables):
+        ends = isinstance(node, _WITH_ENDS) or (node.is_Pow and node.base is not sp.E and not node.exp.is_Integer)
+        if not known or ends or _hides_a_pole(node, variables):
             return node
     return next((found for part in node.args if (found := _suspect(part, variables)) is not None), None)
-
-
-def _has_end(node: sp.Basic) -> bool:
-    return bool(node.is_Pow and node.base is not sp.E and not node.exp.is_Integer)
 
 
 def _hides_a_pole(node: sp.Basic, variables: frozenset[sp.Symbol]) -> bool:
@@ -91,6 +88,7 @@ def _is_singular(node: sp.Basic) -> bool:
     return bool(node.is_Pow and node.base is not sp.E and not (node.exp.is_Integer and node.exp > 0))
 
 
-def _short(node: sp.Basic) -> str:
+def short(node: Any) -> str:
+    """An expression for the end of a sentence, cut where it is long."""
     text = str(node)
     return text if len(text) <= 60 else text[:57] + "..."

@@ -1,7 +1,7 @@
 from .blocks import block_diagram as block_diagram
+from .blocks import feedback_code as feedback_code
 from .blocks import linearize_at_source as linearize_at_source
 from .blocks import to_control as to_control
-from .ccode import feedback_code as feedback_code
 from .order import GapOrder as GapOrder
 from .order import gap_order as gap_order
 from .order import hover_radius as hover_radius

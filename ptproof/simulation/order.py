@@ -165,15 +165,14 @@ def _pair(
 
 def fit_order(omegas: Sequence[float], gaps: Sequence[float], expected: float, message: str = "") -> GapOrder:
     """The straight line through (log ω, log gap) and the standard error of its slope; NaN if a gap is not positive."""
+    from scipy.stats import linregress
+
     if not all(math.isfinite(gap) and gap > 0 for gap in gaps):
         return GapOrder(tuple(omegas), tuple(gaps), math.nan, math.nan, math.inf, math.nan, expected, message)
     x, y = np.log(omegas), np.log(gaps)
-    design = np.stack([x, np.ones_like(x)], axis=1)
-    (slope, intercept), *_ = np.linalg.lstsq(design, y, rcond=None)
-    residual = y - design @ np.array([slope, intercept])
-    spread = math.sqrt(float(residual @ residual) / max(1, len(x) - 2) / float(np.sum((x - x.mean()) ** 2)))
-    tail = float((y[-1] - y[-2]) / (x[-1] - x[-2]))
-    return GapOrder(tuple(omegas), tuple(gaps), float(slope), float(intercept), spread, tail, expected, message)
+    fit = linregress(x, y)
+    line = float(fit.slope), float(fit.intercept), float(fit.stderr)
+    return GapOrder(tuple(omegas), tuple(gaps), *line, float((y[-1] - y[-2]) / (x[-1] - x[-2])), expected, message)
 
 
 @dataclass(frozen=True)

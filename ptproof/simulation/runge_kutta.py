@@ -6,19 +6,68 @@ after the other, each of which goes on or is repeated shorter, without a way thr
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import lru_cache
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 
 from ptproof.errors import InputError
-from ptproof.simulation.dormand_prince import FIFTH, STAGES, STEP, THIRD, Weights
 from ptproof.simulation.plan import Array, Batch, Plan
 from ptproof.simulation.settings import Budget
 from ptproof.simulation.smooth import pieces
 from ptproof.simulation.translate import casadi_expressions
 from ptproof.system import System
+
+# The coefficients of Dormand and Prince's method of order 8 with Hairer's two error estimates of orders 5 and 3: from
+# E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd ed. 1993, and its code DOP853.
+# SciPy has them too, but it takes a fifth of a second to import; a test compares them.
+# From the number of a stage to the weight of its slope; what is left out is 0.
+Weights: TypeAlias = Mapping[int, float]
+
+STAGES: tuple[Weights, ...] = (
+    {},
+    {0: 0.05260015195876773},
+    {0: 0.0197250569845379, 1: 0.0591751709536137},
+    {0: 0.02958758547680685, 2: 0.08876275643042054},
+    {0: 0.2413651341592667, 2: -0.8845494793282861, 3: 0.924834003261792},
+    {0: 0.037037037037037035, 3: 0.17082860872947386, 4: 0.12546768756682242},
+    {0: 0.037109375, 3: 0.17025221101954405, 4: 0.06021653898045596, 5: -0.017578125},
+    {
+        0: 0.03709200011850479, 3: 0.17038392571223998, 4: 0.10726203044637328, 5: -0.015319437748624402,
+        6: 0.008273789163814023,
+    },
+    {
+        0: 0.6241109587160757, 3: -3.3608926294469414, 4: -0.868219346841726, 5: 27.59209969944671,
+        6: 20.154067550477894, 7: -43.48988418106996,
+    },
+    {
+        0: 0.47766253643826434, 3: -2.4881146199716677, 4: -0.590290826836843, 5: 21.230051448181193,
+        6: 15.279233632882423, 7: -33.28821096898486, 8: -0.020331201708508627,
+    },
+    {
+        0: -0.9371424300859873, 3: 5.186372428844064, 4: 1.0914373489967295, 5: -8.149787010746927,
+        6: -18.52006565999696, 7: 22.739487099350505, 8: 2.4936055526796523, 9: -3.0467644718982196,
+    },
+    {
+        0: 2.273310147516538, 3: -10.53449546673725, 4: -2.0008720582248625, 5: -17.9589318631188,
+        6: 27.94888452941996, 7: -2.8589982771350235, 8: -8.87285693353063, 9: 12.360567175794303,
+        10: 0.6433927460157636,
+    },
+)  # fmt: skip
+STEP: Weights = {
+    0: 0.054293734116568765, 5: 4.450312892752409, 6: 1.8915178993145003, 7: -5.801203960010585,
+    8: 0.3111643669578199, 9: -0.1521609496625161, 10: 0.20136540080403034, 11: 0.04471061572777259,
+}  # fmt: skip
+FIFTH: Weights = {
+    0: 0.01312004499419488, 5: -1.2251564463762044, 6: -0.4957589496572502, 7: 1.6643771824549864,
+    8: -0.35032884874997366, 9: 0.3341791187130175, 10: 0.08192320648511571, 11: -0.022355307863886294,
+}  # fmt: skip
+THIRD: Weights = {
+    j: weight - {0: 0.244094488188976378, 8: 0.733846688281611857, 11: 0.0220588235294117653}.get(j, 0.0)
+    for j, weight in STEP.items()
+}
+
 
 _TRIALS = 16
 # As parts of the way from sample to sample: the first step, which soon grows, and where steps are too short to go on.

@@ -173,15 +173,8 @@ class _Pass:
         """For each step its start, its length, whether it opens an interval, and what is drawn for that one."""
         lengths, inner = np.diff(instants) / self.steps, np.arange(self.steps)
         starts = instants[:-1, None] + lengths[:, None] * inner
-        opens = np.broadcast_to(inner == 0, starts.shape)
-        return np.array(
-            [
-                starts,
-                np.broadcast_to(lengths[:, None], starts.shape),
-                opens,
-                np.broadcast_to(drawn[:, None], starts.shape),
-            ]
-        ).reshape(4, -1)
+        columns = (starts, lengths[:, None], inner == 0, drawn[:, None])
+        return np.array(np.broadcast_arrays(*columns), dtype=float).reshape(4, -1)
 
     def _thinned(self, instants: Array, along: Array, stop: Stop) -> Run:
         """The samples that are kept; an input at an instant is the one applied up to it, at the start from it."""

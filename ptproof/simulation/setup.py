@@ -115,15 +115,12 @@ def from_system(system: System, initial: Any, span: tuple[Any, Any] | None, valu
         raise InputError(f"span: must end after it starts, got {start:g} to {end:g}")
     defaults = {name: as_float(value, f"initial.{name}") for name, value in given.items()}
     defaults |= {name: as_float(value, f"parameters.{name}") for name, value in parameters_given.items()}
-    return Setup(
-        system, defaults, partial(_span, system, start, end),
-        tuple(range(system.dimension)), (0.0,) * system.dimension, free=tuple(defaults),
-    )  # fmt: skip
 
+    def edges(table: Mapping[str, Array]) -> Array:
+        return between_switches(system, np.outer((start, end), np.ones(len(table[states[0]]))), table)
 
-def _span(system: System, start: float, end: float, table: Mapping[str, Array]) -> Array:
-    size = len(table[system.state[0].name])
-    return between_switches(system, np.outer((start, end), np.ones(size)), table)
+    everything = tuple(range(system.dimension))
+    return Setup(system, defaults, edges, everything, (0.0,) * len(everything), free=tuple(defaults))
 
 
 def from_problem(
@@ -149,7 +146,8 @@ def from_problem(
             raise InputError("sample_time, noise: only the closed loop in t and in full coordinates can be sampled")
         system, sampling = sampled_loop(problem, seeker, clock, system)
     return Setup(
-        system, defaults, edges=partial(_switching, system, ending), position=(0, 1),
+        system, defaults, position=(0, 1),
+        edges=lambda table: between_switches(system, ending(table), table, clock.conditions),
         source=tuple(map(float, problem.source)),
         ended=ending.ended,
         to_t=time_map(TIME, TIME) if frame == "t" else time_map(clock.to_t, TAU),
@@ -193,10 +191,6 @@ def _completed(
     measured = table[z] if z in table else field_function(problem.field)(position)
     placed = dict(zip((symbol.name for symbol in problem.variables), position, strict=True))
     return {**table, **placed, z: measured, parameters.p0.name: table[heading] + table[parameters.k.name] * measured}
-
-
-def _switching(system: System, ending: _Ending, table: Mapping[str, Array]) -> Array:
-    return between_switches(system, ending(table), table, ending.clock.conditions)
 
 
 @dataclass(frozen=True)

@@ -1,8 +1,9 @@
-"""What a simulation gives back: a trajectory, or an ensemble of end states."""
+"""What a simulation gives back: a trajectory, or an ensemble of end states, also as files (CSV, or arrays as NPZ)."""
 
 from __future__ import annotations
 
 import dataclasses
+import json
 from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -14,8 +15,47 @@ import numpy as np
 from ptproof.errors import InputError
 from ptproof.simulation.drawing import BLUE, RED, new_figure, png
 from ptproof.simulation.plan import Array
-from ptproof.simulation.saving import save_columns
 from ptproof.simulation.settings import Limit, Outcome
+
+ENDINGS = (".csv", ".npz")
+
+
+def check_name(path: str | Path) -> Path:
+    """The file's path, refused unless its ending is one of :data:`ENDINGS` and its folder exists."""
+    file = Path(path)
+    if file.suffix.lower() not in ENDINGS:
+        raise InputError(f"save: {path} should end in {' or '.join(ENDINGS)}")
+    if file.is_dir() or not file.resolve().parent.is_dir():
+        raise InputError(f"save: {path} can't be written; its folder must exist, and it must not be one")
+    return file
+
+
+def save_columns(path: str | Path, columns: Mapping[str, Any], settings: Mapping[str, Any]) -> None:
+    """Write columns (m each) to a CSV file, whose first row has their names, or to an NPZ file, which has the settings
+    too, as JSON text under ``settings``.
+
+    Numbers in a CSV file have as many digits as it takes to read them as they were.
+
+    Raises
+    ------
+    InputError
+        For another ending, or a file that can't be written.
+    """
+    file = check_name(path)
+    try:
+        if file.suffix.lower() == ".npz":
+            arrays: dict[str, Any] = {name: np.asarray(values) for name, values in columns.items()}
+            np.savez(file, **arrays, settings=np.array(json.dumps(dict(settings), default=str)))
+            return
+        with file.open("w", encoding="utf-8", newline="") as out:
+            out.write(",".join(columns) + "\n")
+            for row in zip(*columns.values(), strict=True):
+                # A float of NumPy prints its type too.
+                out.write(
+                    ",".join(repr(float(v)) if isinstance(v, float | np.floating) else str(v) for v in row) + "\n"
+                )
+    except OSError as error:
+        raise InputError(f"save: {path} can't be written: {error.strerror or error}") from None
 
 
 def _table(rows: Mapping[str, Any], caption: str = "") -> str:
@@ -81,8 +121,7 @@ class Trajectory:
 
     def __getitem__(self, name: str) -> Array:
         """The samples (m) of the state, or input, ``name``; ``field``, ``distance``, ``t`` and ``tau`` work too."""
-        times = {"t": self.t, "tau": self.tau, "field": self.field, "distance": self.distance}
-        found = (times | dict(self.inputs) | dict(zip(self.states, self.x, strict=True))).get(name)
+        found = self._columns().get(name)
         if found is None:
             known = ", ".join([*self.states, *self.inputs, "t"])
             raise InputError(f"{name!r} is not part of this trajectory (known: {known})")
@@ -104,12 +143,15 @@ class Trajectory:
     def save(self, path: str | Path) -> None:
         """Write the samples to a .csv file, a column for each of t, tau, the states, field, distance, the source's
         place and the inputs, or to an .npz file of these arrays; :class:`InputError` where that can't be done."""
-        columns: dict[str, Any] = {"t": self.t, "tau": self.tau} | dict(zip(self.states, self.x, strict=True))
-        columns |= {"field": self.field, "distance": self.distance}
-        if self.source is not None:
-            columns |= {f"source_{name}": row for name, row in zip(self.states, self.source, strict=False)}
-        known = {name: values for name, values in (columns | dict(self.inputs)).items() if values is not None}
+        source = () if self.source is None else zip(self.states, self.source, strict=False)
+        columns = self._columns({f"source_{name}": row for name, row in source})
+        known = {name: values for name, values in columns.items() if values is not None}
         save_columns(path, known, dict(self.settings) | {"outcome": self.outcome, "message": self.message})
+
+    def _columns(self, more: Mapping[str, Array] | None = None) -> dict[str, Array | None]:
+        """All samples by name, in the order of a table."""
+        times = {"t": self.t, "tau": self.tau} | dict(zip(self.states, self.x, strict=True))
+        return times | {"field": self.field, "distance": self.distance} | dict(more or {}) | dict(self.inputs)
 
     def plot(self, ax: Any = None) -> Any:
         """Draw the path in the plane (two positions), or the states against time; the Matplotlib ``Axes``."""

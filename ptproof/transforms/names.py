@@ -45,14 +45,10 @@ def moves_smoothly(expression: sp.Expr, variables: Iterable[sp.Symbol]) -> bool:
     if not all(isinstance(node, _ANALYTIC) for node in nodes) and not is_differentiable(expression, moving):
         return False
     return not any(
-        need.relation is None or (not need.given and _never(need.relation))
+        need.relation is None or (not need.given and follows(need.relation.negation(), (), seconds=_SECONDS).shown)
         for need in obligations(expression)
         if not need.settled
     )
-
-
-def _never(relation: Relation) -> bool:
-    return follows(relation.negation(), (), seconds=_SECONDS).shown
 
 
 def is_of_kind(symbol: sp.Symbol, value: sp.Expr) -> bool:

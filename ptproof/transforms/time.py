@@ -118,14 +118,10 @@ def join(first: sp.Expr, second: sp.Expr, condition: Relational) -> sp.Expr:
         rests = [first.func(*(Counter(side.args) - shared).elements()) for side in (first, second)]
         if shared:
             return first.func(*shared.elements(), join(rests[0], rests[1], condition))
-    elif _same_function(first, second):
+    plain = isinstance(first, sp.Function) and not isinstance(first, sp.Piecewise)
+    if plain and first.func == second.func and len(first.args) == len(second.args):
         return first.func(*(join(a, b, condition) for a, b in zip(first.args, second.args, strict=True)))
     return sp.Piecewise((first, condition), (second, True))
-
-
-def _same_function(first: sp.Expr, second: sp.Expr) -> bool:
-    plain = isinstance(first, sp.Function) and not isinstance(first, sp.Piecewise)
-    return plain and first.func == second.func and len(first.args) == len(second.args) > 0
 
 
 def _tidy(entry: sp.Expr, rate: sp.Expr) -> sp.Expr:

@@ -57,7 +57,8 @@ class _Left:
             steady = sp.solve(moving.rate, moving.state, dict=True)[0]
             gaps = [steady[fast] + sp.Rational(3 + i, 5) / sp.sqrt(OMEGA) for i, fast in enumerate(moving.state)]
         self.letters = (TIME, PHASE, *system.state, *(moving.state if moving else ()))
-        change = [entry.subs(found.fast, simultaneous=True) for entry in found.transformed]
+        shifts = [row / sp.sqrt(OMEGA) ** n for n, row in enumerate(map(sp.Matrix, found.correctors), start=1)]
+        change = (sp.Matrix(system.state) + sum(shifts, sp.zeros(*shifts[0].shape))).subs(found.fast, simultaneous=True)
         self.gaps, self.rates = self._function(gaps), self._function(rates)
         self.change, self.means = self._function(change), self._function(found.system.rhs)
         self.start = [sp.Rational(3, 7), sp.Rational(4, 9), sp.Rational(2, 7), sp.Rational(5, 11)][

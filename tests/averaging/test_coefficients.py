@@ -7,7 +7,7 @@ import pytest
 import sympy as sp
 
 from ptproof.averaging import AveragingRefused, AveragingUndecided, v_matrix
-from ptproof.averaging.enclosure import check_coefficients
+from ptproof.averaging.coefficients import check_coefficients
 from ptproof.system import DitherSystem
 
 tau, theta = sp.symbols("tau theta", real=True)

@@ -10,7 +10,7 @@ import pytest
 import sympy as sp
 
 from ptproof.averaging import average_to_order, derive
-from ptproof.averaging.damped import Damped
+from ptproof.averaging.damped import Pieces
 from ptproof.averaging.expansion import Expansion
 from ptproof.averaging.orders import Orders
 from ptproof.averaging.problem import PHASE, DitherProblem, FastStates
@@ -121,7 +121,7 @@ def test_what_cannot_be_had_names_the_reason(name: str) -> None:
 def test_a_response_solves_its_equation_and_is_periodic(turns: tuple[int, ...], power: int) -> None:
     """On [0, 1] and [1, 3], driven by φ^n e^(aφ) on the first."""
     ring, phase = Ring(64), sp.Symbol("s", real=True)
-    basis = Damped(ring, phase, sp.Integer(3), (sp.S.Zero, sp.S.One, sp.Integer(3)), [1 / m])
+    basis = Pieces(ring, phase, sp.Integer(3), (sp.S.Zero, sp.S.One, sp.Integer(3)), [1 / m])
     driver = (0, power, sp.S.Zero, 0, turns)
     terms = basis.response(driver, (1,))
     rate = sp.Rational(3, 2)

@@ -13,7 +13,7 @@ import ptproof
 from ptproof.averaging import AveragingRefused, AveragingUndecided, average_to_order, derive_powered, with_powers
 from ptproof.averaging.attack import attack_powered
 from ptproof.averaging.problem import OMEGA, PHASE, TIME
-from ptproof.averaging.wordwise import long_words
+from ptproof.averaging.words import long_words
 from ptproof.errors import InputError
 from ptproof.proof.attack import WrongPromise
 from ptproof.proof.signs import vanishes

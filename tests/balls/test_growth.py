@@ -5,8 +5,7 @@ import sympy as sp
 from flint import arb
 
 from ptproof.balls.ball import enclose, interval
-from ptproof.balls.growth import Growth, coordinates, power_of
-from ptproof.balls.growths import GROWTHS
+from ptproof.balls.growth import GROWTHS, Growth, coordinates, power_of
 from ptproof.balls.tape import Undefined, compile_tape
 
 x, y = sp.symbols("x y", real=True)

@@ -6,9 +6,8 @@ from flint import arb
 
 from ptproof.balls.ball import enclose, interval
 from ptproof.balls.jet import JETS, variables
-from ptproof.balls.series import coefficient_along
+from ptproof.balls.series import Nested, coefficient_along, taylor
 from ptproof.balls.tape import Undefined, compile_tape
-from ptproof.balls.taylor import Nested, taylor
 
 x, y = sp.symbols("x y", real=True)
 

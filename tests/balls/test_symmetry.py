@@ -3,8 +3,7 @@
 import pytest
 import sympy as sp
 
-from ptproof.balls.cube import reduced_faces
-from ptproof.balls.symmetry import is_rotational
+from ptproof.balls.cube import is_rotational, reduced_faces
 
 x, y, z = sp.symbols("x y z", real=True)
 square = x**2 + y**2

@@ -13,12 +13,10 @@ from flint import arb
 import ptproof
 from ptproof.balls import flow as flows
 from ptproof.balls.ball import ball_from
-from ptproof.balls.flow import flow
-from ptproof.balls.kinks import across
+from ptproof.balls.flow import across, flow
 from ptproof.balls.matrices import grown, identity, matrix
-from ptproof.balls.pieces import Proposal, VectorField
+from ptproof.balls.pieces import Proposal, Region, VectorField
 from ptproof.balls.polynomials import not_below
-from ptproof.balls.region import Region
 from ptproof.balls.tape import compile_tape
 from ptproof.certify.trajectory import Enclosure, collocation, enclose
 from ptproof.errors import InputError

@@ -96,7 +96,8 @@ def dilated(rng, factor):
     growth = decay * (1 + sp.Rational(rng.randint(1, 30), 10))
     horizon = sp.Rational(rng.randint(1, 30), 10)
     bound = DilatedBound(tau, 0, 1, horizon, growth, decay, exponent)
-    critical = sp.Rational(sp.nsimplify(bound.critical_initial.evalf(30), rational=True))
+    critical = bound.critical_initial_at(bound.turning_elapsed).evalf(30)
+    critical = sp.Rational(sp.nsimplify(critical, rational=True))
     return DilatedBound(tau, 0, critical * factor, horizon, growth, decay, exponent)
 
 
@@ -137,7 +138,8 @@ def test_the_value_that_is_critical_at_a_time_makes_the_denominator_vanish_there
     critical = bound.critical_initial_at(at)
     twin = DilatedBound(tau, 0, critical, 2, sp.Integer(3), sp.Rational(1, 2), sp.Rational(1, 2))
     assert sp.simplify(twin.result.denominator.subs(tau, at)) == 0
-    assert sp.simplify(bound.critical_initial_at(bound.turning_elapsed) - bound.critical_initial) == 0
+    smallest = (bound.sigma * bound.largest_integral) ** (-1 / bound.sigma)
+    assert sp.simplify(bound.critical_initial_at(bound.turning_elapsed) - smallest) == 0
 
 
 @pytest.mark.parametrize("field", ["horizon", "decay", "initial", "growth", "sigma"])

@@ -12,11 +12,10 @@ from hypothesis import given
 
 from ptproof.balls.ball import Undefined, enclose, interval, precision
 from ptproof.balls.cover import RELATIONS, holds_on_box
-from ptproof.balls.growth import Growth, coordinates, power_of
-from ptproof.balls.growths import GROWTHS
+from ptproof.balls.growth import GROWTHS, Growth, coordinates, power_of
 from ptproof.balls.jet import JETS, Jet, upper_bound, variables
+from ptproof.balls.series import taylor
 from ptproof.balls.tape import compile_tape
-from ptproof.balls.taylor import taylor
 from tests.fuzz import oracle, trees
 from tests.fuzz.oracle import MP
 from tests.fuzz.sizes import fuzz, or_nothing

@@ -18,7 +18,7 @@ from ptproof.problem import example
 from ptproof.problem.drift import bounded_drift, gradient_drift
 from ptproof.problem.model import TIME
 from ptproof.proof.verdict import Verdict
-from ptproof.simulation.worst import worst_distance
+from ptproof.simulation.fleet import worst_distance
 
 R = sp.Rational
 

@@ -7,8 +7,7 @@ import sympy as sp
 
 from ptproof.errors import InputError
 from ptproof.problem import SEEKERS, TAU, TIME, example, parameters
-from ptproof.problem.loops import closed_loop, symbolic_clock
-from ptproof.problem.models import averaged_system
+from ptproof.problem.loops import averaged_system, closed_loop, symbolic_clock
 from ptproof.proof.algebra import is_zero
 
 P = parameters

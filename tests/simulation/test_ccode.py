@@ -11,7 +11,7 @@ import sympy as sp
 from ptproof.errors import InputError
 from ptproof.problem import TIME, example
 from ptproof.problem.model import GAIN
-from ptproof.simulation.ccode import feedback_code
+from ptproof.simulation.blocks import feedback_code
 
 COMPILER = shutil.which("cc") or shutil.which("gcc")
 

@@ -8,7 +8,7 @@ from derivations.pt_seeker.experiments.gallery import problem_order
 from ptproof.averaging.correction import first_correction
 from ptproof.errors import InputError
 from ptproof.problem import SEEKERS, TAU, example, parameters
-from ptproof.problem.models import generic_dithers
+from ptproof.problem.loops import generic_dithers
 from ptproof.simulation import gap_order, hover_radius, simulate
 from ptproof.simulation.order import fit_order
 from ptproof.system import DitherSystem, System, gradient

@@ -10,10 +10,9 @@ import sympy as sp
 from scipy.integrate import DOP853
 
 from ptproof.simulation import simulate
-from ptproof.simulation.dormand_prince import FIFTH, STAGES, STEP, THIRD
 from ptproof.simulation.question import Question
 from ptproof.simulation.run import prepared
-from ptproof.simulation.runge_kutta import through, trials
+from ptproof.simulation.runge_kutta import FIFTH, STAGES, STEP, THIRD, through, trials
 from ptproof.simulation.settings import Budget, Settings
 from ptproof.system import System
 

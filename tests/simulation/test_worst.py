@@ -8,7 +8,7 @@ import sympy as sp
 
 from ptproof.problem import example
 from ptproof.problem.field import Field
-from ptproof.simulation.worst import worst_distance
+from ptproof.simulation.fleet import worst_distance
 
 ENDS = {  # of the stretched time through T = 1 with a cap at ν = 3/10, by hand
     "paper": 17 / 3,

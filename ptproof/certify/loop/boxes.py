@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -16,36 +17,45 @@ _START = 16
 
 @dataclass(frozen=True, eq=False)
 class Boxes:
-    """Squares of one size around middles; all ends are exact floats."""
+    """Squares of one size around ``middles`` (2 × boxes); all ends are exact floats."""
 
-    first: Array
-    second: Array
+    middles: Array
     half: float
 
     @staticmethod
     def square(half: float, pieces: int = _START) -> Boxes:
         """[−half, half]² in pieces × pieces squares: a power of two, and ``half`` a float of a few binary digits."""
         marks = half * (np.arange(pieces) * 2.0 + 1 - pieces) / pieces
-        first, second = np.meshgrid(marks, marks)
-        return Boxes(first.ravel(), second.ravel(), half / pieces)
+        return Boxes(np.stack(np.meshgrid(marks, marks)).reshape(2, -1), half / pieces)
+
+    @staticmethod
+    def border(half: float, pieces: int) -> Boxes:
+        """Boxes that cover the border of [−half, half]², with ``pieces`` on each side."""
+        marks = np.linspace(-half, half, pieces + 1)
+        along, edge = (marks[1:] + marks[:-1]) / 2, np.full(pieces, half)
+        middles = np.concatenate([[along, edge], [along, -edge], [edge, along], [-edge, along]], axis=1)
+        return Boxes(middles, 2.0 ** math.ceil(math.log2(half / pieces)))
+
+    @staticmethod
+    def circles(radii: Array, angles: int) -> Boxes:
+        """Points on circles around the origin."""
+        turns = np.linspace(0, 2 * np.pi, angles, endpoint=False)
+        return Boxes(np.stack([np.outer(radii, f(turns)).ravel() for f in (np.cos, np.sin)]), 0.0)
 
     def __len__(self) -> int:
-        return len(self.first)
+        return self.middles.shape[1]
 
-    def sides(self) -> tuple[Intervals, Intervals]:
-        """The boxes as intervals."""
-        first, second = (Intervals(side - self.half, side + self.half) for side in (self.first, self.second))
-        return first, second
+    def sides(self) -> tuple[Intervals, ...]:
+        """The boxes as intervals, one for each coordinate."""
+        return tuple(Intervals(side - self.half, side + self.half) for side in self.middles)
 
     def farthest(self) -> Array:
         """The largest distance from the origin, from above."""
-        size = np.hypot(np.abs(self.first) + self.half, np.abs(self.second) + self.half)
-        return np.asarray(size * (1 + 1e-14))
+        return np.asarray(np.hypot(*(np.abs(self.middles) + self.half)) * (1 + 1e-14))
 
     def nearest(self) -> Array:
         """The smallest distance from the origin, from below."""
-        sides = (np.maximum(np.abs(side) - self.half, 0.0) for side in (self.first, self.second))
-        return np.asarray(np.hypot(*sides) * (1 - 1e-14))
+        return np.asarray(np.hypot(*np.maximum(np.abs(self.middles) - self.half, 0.0)) * (1 - 1e-14))
 
     def cut(self, slopes: Array, bounds: Array) -> Array:
         """The largest distance from the origin where Σ slopes_i d_i ≤ bound on a box, d in [−1, 1]² on it.
@@ -66,33 +76,27 @@ class Boxes:
                     way = np.where(rise > 0, np.minimum(room / rise, 1.0), 1.0)
                 ends = [np.broadcast_to(np.float64(value), way.shape) for value in corner]
                 ends[axis] = corner[axis] * (1 - 2 * way)
-                place = [middle + self.half * end for middle, end in zip((self.first, self.second), ends, strict=True)]
-                size_there = np.maximum(np.hypot(*place), self._corner(corner))
+                place = [middle + self.half * end for middle, end in zip(self.middles, ends, strict=True)]
+                at_corner = np.hypot(*(self.middles + self.half * np.array(corner)[:, np.newaxis]))
+                size_there = np.maximum(np.hypot(*place), at_corner)
                 found = np.where(room >= 0, np.maximum(found, size_there), found)
         return np.asarray(found * (1 + 1e-12) + np.where(found > 0, self.half * 1e-11, 0.0))
 
-    def _corner(self, corner: tuple[float, float]) -> Array:
-        return np.asarray(np.hypot(self.first + self.half * corner[0], self.second + self.half * corner[1]))
-
     def chosen(self, mask: Mask) -> Boxes:
         """Some of the boxes."""
-        return Boxes(self.first[mask], self.second[mask], self.half)
+        return Boxes(self.middles[:, mask], self.half)
 
     def quarters(self) -> Boxes:
         """Each box in four."""
         half = self.half / 2
-        steps = [(a * half, b * half) for a in (-1, 1) for b in (-1, 1)]
-        first = np.concatenate([self.first + a for a, _ in steps])
-        return Boxes(first, np.concatenate([self.second + b for _, b in steps]), half)
+        steps = [np.array([[a * half], [b * half]]) for a in (-1, 1) for b in (-1, 1)]
+        return Boxes(np.concatenate([self.middles + step for step in steps], axis=1), half)
 
     @staticmethod
     def joined(parts: Sequence[Boxes]) -> Boxes:
         """Boxes of one size, put together."""
-        first = np.concatenate([part.first for part in parts])
-        return Boxes(first, np.concatenate([part.second for part in parts]), parts[0].half)
+        return Boxes(np.concatenate([part.middles for part in parts], axis=1), parts[0].half)
 
     def parts(self, size: int) -> list[Boxes]:
         """The boxes in portions."""
-        return [
-            Boxes(self.first[i : i + size], self.second[i : i + size], self.half) for i in range(0, len(self), size)
-        ]
+        return [Boxes(self.middles[:, i : i + size], self.half) for i in range(0, len(self), size)]

@@ -8,8 +8,7 @@ from typing import Any
 import numpy as np
 
 from ptproof.balls.arrays import Array
-from ptproof.certify.loop.advice import Advice
-from ptproof.certify.loop.failing import Failing
+from ptproof.certify.loop.failing import Advice, Failing
 from ptproof.proof.verdict import Verdict
 
 

@@ -10,7 +10,7 @@ exists on the whole stretch and W ≤ w. Its distance from the source is at most
 Proof. As long as (y, q) stays inside, W ≤ w by comparison; W < c_n keeps it from the boundary; F and the drift are
 smooth on a neighbourhood of B, so a solution that stays in a compact set exists. And x − x* = y + δn, |n| = 1. ∎
 
-W is a corrected V (:mod:`ptproof.certify.loop.lyapunov`), but nothing rests on where it came from. The hypotheses are
+W is a corrected V (:mod:`ptproof.certify.loop.flow`), but nothing rests on where it came from. The hypotheses are
 checked in ball arithmetic on covers of B, for all headings and all |q| ≤ Q.
 """
 
@@ -29,15 +29,25 @@ from ptproof.balls.arithmetic import Undefined
 from ptproof.balls.arrays import Array
 from ptproof.balls.ball import ball_from, precision
 from ptproof.balls.rounding import at_most, up
-from ptproof.certify.loop.advice import Advice, advice
 from ptproof.certify.loop.certificate import LoopCertificate
 from ptproof.certify.loop.cover import farthest
-from ptproof.certify.loop.failing import Failing, failing
+from ptproof.certify.loop.failing import Advice, Failing, advice, failing
 from ptproof.certify.loop.levels import fallen
 from ptproof.certify.loop.model import Model
-from ptproof.certify.loop.scene import NEAR, ORDERS, Scene, Task, held, hover, no_long_run, tasks
+from ptproof.certify.loop.scene import (
+    NEAR,
+    ORDERS,
+    NoCertificate,
+    Place,
+    Scene,
+    Stage,
+    Task,
+    held,
+    hover,
+    no_long_run,
+    tasks,
+)
 from ptproof.certify.loop.setup import Phase, Unfit
-from ptproof.certify.loop.stage import NoCertificate, Place, Stage
 from ptproof.errors import InputError
 from ptproof.problem import Problem
 from ptproof.problem.model import number
@@ -99,7 +109,8 @@ def certify_loop(
     size, gap = _sizes(problem, radius, filter_gap)
     reasons, places, tuning = [], dict[str, Place | None](), problem.tuning
     found: _Curve | None = None
-    for shape in _shapes(problem) if shapes is None else shapes:
+    own = SHAPES if problem.drift.matrix is None else SHAPES[::-1]  # along a slope a level set of F falls about evenly
+    for shape in own if shapes is None else shapes:
         try:
             with precision(_PRECISION):
                 found = _curve(problem, size, gap, shape, tolerance, workers, client)
@@ -107,12 +118,11 @@ def certify_loop(
         except (NoCertificate, Unfit, Undefined) as error:
             reasons.append(f"with V {_NAMES[shape]}: {error}")
             places[shape] = error.place if isinstance(error, NoCertificate) else None
-    verdict = Verdict.UNDECIDED if found is None else Verdict.PROVED
     times, distances, resting, detail = ((), (), None, "; ".join(reasons)) if found is None else found
     boxes, help_ = _explained(problem, size, gap, places) if explain and found is None else ((), None)
     return LoopCertificate(
-        verdict, float(tuning.omega), float(tuning.mu), float(size), float(gap), times, distances, resting, detail,
-        clock.perf_counter() - begin, boxes, help_,
+        Verdict.UNDECIDED if found is None else Verdict.PROVED, float(tuning.omega), float(tuning.mu), float(size),
+        float(gap), times, distances, resting, detail, clock.perf_counter() - begin, boxes, help_,
     )  # fmt: skip
 
 
@@ -134,11 +144,6 @@ def _sizes(problem: Problem, radius: Any, filter_gap: Any) -> tuple[sp.Expr, sp.
         if not value >= 0:
             raise InputError(f"{where}: must not be negative, got {value}")
     return size, gap
-
-
-def _shapes(problem: Problem) -> tuple[str, ...]:
-    """In the order in which they are tried. Along a slope all of a level set of F falls about equally fast."""
-    return SHAPES if problem.drift.matrix is None else SHAPES[::-1]
 
 
 def start_distance(problem: Problem) -> sp.Expr:

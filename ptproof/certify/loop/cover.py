@@ -27,9 +27,7 @@ _FINEST = 1 / 32  # of δ: half the side of boxes that are not quartered any mor
 
 def guide(model: Model, levels: Levels, half: float, time: Intervals) -> Array:
     """Per band about the largest rate, from points alone: where to look closely, and never a bound."""
-    radii = np.geomspace(model.reach / 10, half, _RADII)
-    angles = np.linspace(0, 2 * np.pi, _ANGLES, endpoint=False)
-    points = Boxes(np.outer(radii, np.cos(angles)).ravel(), np.outer(radii, np.sin(angles)).ravel(), 0.0)
+    points = Boxes.circles(np.geomspace(model.reach / 10, half, _RADII), _ANGLES)
     look = _Look.at(model, points, levels, np.zeros(2), time)
     seen = np.full(levels.bands, -np.inf)
     np.maximum.at(seen, look.place, look.reached)
@@ -78,8 +76,8 @@ class Tried:
 
     Attributes
     ----------
-    first, second, half
-        The box.
+    place, half
+        The middle of the box, and half its side.
     filter
         The band of |q|.
     level, rate
@@ -88,8 +86,7 @@ class Tried:
         About the largest rate at the middle with q = 0: no bound.
     """
 
-    first: float
-    second: float
+    place: tuple[float, float]
     half: float
     filter: tuple[float, float]
     level: tuple[float, float]
@@ -114,7 +111,7 @@ def tried(
             q, j = worst[i], at[worst[i], i]
             found.append(
                 Tried(
-                    float(part.first[i]), float(part.second[i]), part.half,
+                    (float(part.middles[0, i]), float(part.middles[1, i])), part.half,
                     (float(filter_bands[q]), float(filter_bands[q + 1])),
                     (float(levels.edges[j]), float(levels.edges[j + 1])), float(value[q, i]), float(look.value[i]),
                 )
@@ -137,7 +134,7 @@ def farthest(model: Model, wanted: Array, filter_bands: Array, half: float, time
             base = np.min([upright.below(*pair) for pair in pairwise(filter_bands)], axis=0)
             looks.append((part, part.cut(waves.mean().slopes[:2], wanted[:, np.newaxis] - base)))
             inside = wanted[:, np.newaxis] >= upright.least[0]
-            seen = np.maximum(seen, np.where(inside, np.hypot(part.first, part.second), 0.0).max(axis=1))
+            seen = np.maximum(seen, np.where(inside, np.hypot(*part.middles), 0.0).max(axis=1))
         enough = np.maximum.accumulate(seen) * (1 + tolerance)
         count += len(boxes)
         fine = boxes.half < model.reach * _FINEST / 4 or count > _MOST

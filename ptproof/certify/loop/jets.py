@@ -110,8 +110,8 @@ class Jets:
         late = np.asarray(np.maximum(time.high - middle, middle - time.low) * (1 + 1e-15) + 1e-300)
         moving = any(self.expression(letter).has(self.time) for letter in plain)
         halves = (boxes.half, boxes.half, float(late))[: 3 if moving else 2]
-        at = tuple(Intervals.point(value) for value in (boxes.first, boxes.second, middle))
-        ones = [_unit(axis) for axis in range(len(halves))]
+        at = tuple(Intervals.point(value) for value in (*boxes.middles, middle))
+        ones = [(1, 0, 0), (0, 1, 0), (0, 0, 1)][: len(halves)]
         pairs = [(i, j) for i in range(len(halves)) for j in range(i, len(halves))]
         first = self._partial([(letter, step) for letter in plain for step in (_STAY, *ones)], at)
         second = self._partial(
@@ -138,15 +138,17 @@ class Jets:
         self, wanted: Sequence[tuple[Letter, _Step]], values: Sequence[Intervals]
     ) -> dict[tuple[Letter, _Step], Intervals]:
         """Partial derivatives of letters in (y₁, y₂, t)."""
-        named = {item: self._named(*item) for item in wanted}
+        named = {
+            (letter, step): (letter._replace(first=letter.first + step[0], second=letter.second + step[1]), step[2])
+            for letter, step in wanted
+        }
         asked = tuple(sorted({name for name in named.values() if self._derived(name) != 0}))
-        known = dict(zip(asked, self._run(asked, values), strict=True))
+        if asked not in self._tapes:
+            symbols = (*self.position, self.time)
+            self._tapes[asked] = compile_tape([self._derived(name) for name in asked], symbols)
+        known = dict(zip(asked, run(self._tapes[asked], values), strict=True))
         nothing = Intervals.point(0.0)
         return {item: known.get(name, nothing) for item, name in named.items()}
-
-    @staticmethod
-    def _named(letter: Letter, step: _Step) -> tuple[Letter, int]:
-        return letter._replace(first=letter.first + step[0], second=letter.second + step[1]), step[2]
 
     def _derived(self, name: tuple[Letter, int]) -> sp.Expr:
         """The expression of a letter, differentiated in t."""
@@ -154,12 +156,6 @@ class Jets:
             letter, times = name
             self._moved[name] = self._derived((letter, times - 1)).diff(self.time) if times else self.expression(letter)
         return self._moved[name]
-
-    def _run(self, names: tuple[tuple[Letter, int], ...], values: Sequence[Intervals]) -> list[Intervals]:
-        if names not in self._tapes:
-            symbols = (*self.position, self.time)
-            self._tapes[names] = compile_tape([self._derived(name) for name in names], symbols)
-        return run(self._tapes[names], values)
 
     def _rest(self, letter: Letter, values: Sequence[Intervals]) -> Array:
         """Lagrange: (n·∇)^(K+1) a/(K + 1)! on the way, at most Σ binomial · |partial derivative| / (K + 1)!."""
@@ -170,10 +166,6 @@ class Jets:
         found = self._partial([(parent, step) for step in steps], values)
         sizes = [found[parent, step].magnitude() * (comb(order, step[0]) / factorial(order)) for step in steps]
         return np.asarray(np.sum(np.broadcast_arrays(*sizes), axis=0) * (1 + 1e-12))
-
-
-def _unit(axis: int) -> _Step:
-    return int(axis == 0), int(axis == 1), int(axis == 2)
 
 
 def _sum(left: _Step, right: _Step) -> _Step:

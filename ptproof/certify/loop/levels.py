@@ -18,11 +18,6 @@ class Levels:
 
     edges: Array
 
-    @staticmethod
-    def geometric(lowest: float, highest: float, bands: int) -> Levels:
-        """Bands of one relative width."""
-        return Levels(np.geomspace(lowest, highest, bands + 1))
-
     @property
     def bands(self) -> int:
         """How many there are."""

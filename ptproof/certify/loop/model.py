@@ -10,9 +10,9 @@ from flint import arb
 from ptproof.balls.arrays import Intervals
 from ptproof.balls.rounding import up
 from ptproof.certify.loop.boxes import Boxes
+from ptproof.certify.loop.flow import Lyapunov
 from ptproof.certify.loop.jets import Jets
 from ptproof.certify.loop.levels import Indices
-from ptproof.certify.loop.lyapunov import Lyapunov
 from ptproof.certify.loop.ranges import Columns, Form, Waves
 
 

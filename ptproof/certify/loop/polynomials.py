@@ -11,6 +11,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any, NamedTuple, TypeAlias
 
+from ptproof.balls import arithmetic
+
 
 class Letter(NamedTuple):
     """A function of the slow variables: ``first`` and ``second`` count its derivatives in space, ``late`` in τ."""
@@ -35,15 +37,8 @@ def term(coefficient: Any, *letters: Letter, grade: int = 0, turns: int = 0, pow
 
 def collected(items: Iterable[tuple[Key, Any]]) -> Polynomial:
     """The sum of terms; what is exactly zero is left out."""
-    sums: dict[Key, Any] = {}
-    for key, value in items:
-        sums[key] = sums[key] + value if key in sums else value
-    return {key: value for key, value in sums.items() if not _is_zero(value)}
-
-
-def _is_zero(value: Any) -> bool:
     # Of a ball, `== 0` says that it is exactly zero; `!= 0` would say that it certainly is not.
-    return bool(value == 0)
+    return {key: value for key, value in arithmetic.collected(items).items() if not value == 0}  # noqa: SIM201
 
 
 def total(*parts: Polynomial) -> Polynomial:

@@ -14,10 +14,9 @@ from ptproof.balls.arrays import Intervals
 from ptproof.balls.ball import ball_from, interval
 from ptproof.balls.rounding import down, up
 from ptproof.balls.tape import switching_part
-from ptproof.certify.loop.flow import ONE, Flow
+from ptproof.certify.loop.flow import ONE, Flow, Lyapunov, lyapunov
 from ptproof.certify.loop.jets import CLOCK, DISTANCE, FIELD, FIRST, SECOND, Jets
 from ptproof.certify.loop.levels import Slice
-from ptproof.certify.loop.lyapunov import Lyapunov, lyapunov
 from ptproof.certify.loop.model import Model
 from ptproof.certify.loop.polynomials import ZERO, Letter, term
 from ptproof.errors import InputError

@@ -1,6 +1,7 @@
 """One step of collocation in floating-point numbers: a polynomial that comes close to a solution, and proves nothing.
 
-The method is Radau's, which follows stiff systems with steps much longer than their fast time constants.
+The method is Radau's, which follows stiff systems with steps much longer than their fast time constants. Coordinates
+tell the fast directions of a Jacobian from the slow ones; any would be right.
 """
 
 from __future__ import annotations
@@ -173,10 +174,8 @@ def refined(trial: Trial, tape: Tape, centre: Sequence[arb], now: arb, length: a
 
 
 def _rates(tape: Tape, times: Sequence[arb], stages: arb_mat) -> arb_mat:
-    degree, n = stages.nrows(), stages.ncols()
-    flat = stages.entries()
-    rows = [tape.run([time, *flat[k * n : (k + 1) * n]], BALLS) for k, time in enumerate(times)]
-    return arb_mat(degree, n, [entry.mid() for row in rows for entry in row])
+    rows = (tape.run([time, *row], BALLS) for time, row in zip(times, stages.tolist(), strict=True))
+    return arb_mat([[entry.mid() for entry in row] for row in rows])
 
 
 def proposal(
@@ -194,12 +193,11 @@ def proposal(
     """
     degree, n = trial.stages.shape
     plan, half = scheme(degree), length / 2
-    slopes = plan.exact * (rates * arb(half))  # the coefficients of p' as rows, one per power
-    entries = slopes.entries()
+    slopes = (plan.exact * (rates * arb(half))).transpose().tolist()  # for each state the coefficients of p'
     rows = []
-    for i, c in enumerate(centre):
-        higher = [(entries[k * n + i] * fmpq(1, k + 1)).mid() for k in range(degree)]
-        rows += [(c - sum((a * (-1) ** (k + 1) for k, a in enumerate(higher)), arb(0))).mid(), *higher]
+    for c, row in zip(centre, slopes, strict=True):
+        higher = [(entry * fmpq(1, k)).mid() for k, entry in enumerate(row, start=1)]
+        rows.append([(c - sum((a * (-1) ** k for k, a in enumerate(higher, start=1)), arb(0))).mid(), *higher])
     right = np.tile(begin, (degree, 1))
     spreads = np.linalg.solve(trial.solver, right).reshape(degree, n, n)
     slopes_of = half * np.einsum("iab,ibc->iac", trial.jacobians, spreads)
@@ -208,7 +206,7 @@ def proposal(
     higher_terms = [part / (k + 1) for k, part in enumerate(terms)]
     first = begin - sum(part * (-1) ** (k + 1) for k, part in enumerate(higher_terms))
     spread = tuple(matrix(part) for part in (first, *higher_terms))
-    return Proposal(arb_mat(n, degree + 1, rows), spread, matrix(basis), matrix(np.diag(scale)))
+    return Proposal(arb_mat(rows), spread, matrix(basis), matrix(np.diag(scale)))
 
 
 def extended(trial: Trial, begin: Array, before: float, length: float) -> Array:
@@ -221,3 +219,67 @@ def extended(trial: Trial, begin: Array, before: float, length: float) -> Array:
     keep = min(degree, 7)
     terms = np.linalg.lstsq(legendre.legvander(nodes, degree), values, rcond=None)[0]
     return legendre.legval(np.minimum(beyond, 1.8), terms[: keep + 1]).T
+
+
+_FAST, _APART = 8.0, 2.0
+_NEAR, _CHANGE = 5.0, 4.0  # in powers of 2
+
+
+def split(jacobian: Array, length: float) -> tuple[Array, int]:
+    """A basis (columns, n × n) with the slow directions first, and how many of these there are.
+
+    A direction is fast if it dies out within the step. Each group is an invariant plane by Schur's decomposition of the
+    balanced matrix, which does not mind eigenvectors that come close to each other; without fast directions, or where
+    the groups can't be told apart, the basis has the axes, as the balanced matrix scales them.
+    """
+    from scipy import linalg
+
+    n = len(jacobian)
+    try:
+        balanced, (scale, _) = linalg.matrix_balance(jacobian, permute=False, separate=True)
+        everything = np.diag(scale), n
+        rates = np.sort(np.linalg.eigvals(balanced).real)[::-1] * length
+        slow = int(np.sum(rates >= -_FAST))
+        if slow in (0, n) or rates[slow - 1] - rates[slow] < _APART:
+            return everything
+        shifted = balanced - (rates[slow - 1] + rates[slow]) / 2 / length * np.eye(n)
+        columns = []
+        for sort, size in (("rhp", slow), ("lhp", n - slow)):
+            _, vectors, count = linalg.schur(shifted, sort=sort)
+            if count != size:
+                return everything
+            columns.append(vectors[:, :size])
+    except (np.linalg.LinAlgError, ValueError):
+        return np.eye(n), n
+    planes = np.concatenate(columns, axis=1)
+    if not np.all(np.isfinite(planes)) or np.linalg.cond(planes) > 1e10:
+        return everything
+    return scale[:, None] * planes, slow
+
+
+def scales(jacobians: Array, before: Array | None) -> Array:
+    """Units of the states, powers of 2, for Jacobians (N × n × n) whose entries are of very different sizes.
+
+    Only what is far off is scaled, and those from ``before`` are kept as long as they do: frames of errors do not like
+    a change of units.
+    """
+    from scipy import linalg
+
+    largest = np.abs(jacobians).max(axis=0)
+    if not np.all(np.isfinite(largest)):
+        return np.ones(len(largest)) if before is None else before
+    _, (found, _) = linalg.matrix_balance(largest, permute=False, separate=True)
+    powers = np.log2(found) - np.mean(np.log2(found))
+    powers = np.round(np.sign(powers) * np.maximum(np.abs(powers) - _NEAR, 0.0))
+    if before is not None and np.all(np.abs(powers - np.log2(before)) <= _CHANGE):
+        return before
+    return np.exp2(powers)
+
+
+def slow_part(jacobian: Array, length: float, slow: int) -> Array | None:
+    """The projection on the slow directions along the fast ones; None where there is none of that many."""
+    basis, count = split(jacobian, length)
+    if count != slow:
+        return None
+    keep = np.diag([1.0] * slow + [0.0] * (len(basis) - slow))
+    return basis @ keep @ np.linalg.inv(basis)

@@ -11,8 +11,7 @@ import sympy as sp
 from flint import arb
 
 from ptproof.balls.ball import ball_from, interval
-from ptproof.balls.pieces import Piece
-from ptproof.balls.region import Region
+from ptproof.balls.pieces import Piece, Region
 from ptproof.balls.rounding import down, up
 from ptproof.balls.tape import Undefined
 from ptproof.certify.trajectory.enclosure import Enclosure
@@ -40,7 +39,7 @@ def enclose(
 
     What is enclosed is the right-hand side that :func:`ptproof.simulate` integrates. Each step's theorem, with its
     hypotheses and its proof, stands at :func:`ptproof.balls.flow.flow`; steps across kinks (Max, Min, Abs), at
-    :func:`ptproof.balls.kinks.across`.
+    :func:`ptproof.balls.flow.across`.
 
     Parameters
     ----------
@@ -95,20 +94,17 @@ def _closely(
     """Once more with smaller tolerances, as long as there is time, where the enclosure is not as close as asked for."""
     first, last = ends
     with flint.ctx.workprec(_BITS):
+        start, whole = float(ball_from(first)), float(ball_from(last - first))
         tolerance = min(max(float(aim) * 2e-6, _FINEST), _COARSEST)
         while True:
             march = March(Region.around(_balls(values)), tolerance, begin + seconds)
             if progress is not None:
-                march.progress = _share(progress, float(ball_from(first)), float(ball_from(last)))
+                march.progress = lambda now: progress((now - start) / whole)
             reason = _through(march, system, first, last)
             found = _enclosure(march, system, values, first, reason, aim, clock.monotonic() - begin)
             if found.verdict is Verdict.PROVED or tolerance <= _FINEST or clock.monotonic() - begin > seconds / 3:
                 return found
             tolerance = max(tolerance / 30, _FINEST)
-
-
-def _share(progress: Callable[[float], None], start: float, end: float) -> Callable[[float], None]:
-    return lambda now: progress((now - start) / (end - start))
 
 
 def _through(march: March, system: System, first: sp.Expr, last: sp.Expr) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from functools import lru_cache
 from typing import Any
 
@@ -93,25 +92,20 @@ def _decided(said: Runs, run: Enclosure) -> Evidence:
         )
     ):  # fmt: skip
         return _undecided("it speaks of instants that the runs are not shown to reach")
-    when, piecewise = interval(first, last), list(_touched(run, interval(first, last)))
+    when = interval(first, last)
     for part in said.parts:
         tape = compile_tape([part.left, part.right], said.letters)
-        for piece in piecewise:
+        for piece in run.pieces:
+            if piece.start > when or piece.start + piece.length < when:
+                continue
             span = when.intersection(interval(piece.start, piece.start + piece.length))
             verdict, place = _on(tape, part, piece, span, 0 if said.at_once else _HALVINGS)
-            if verdict is Verdict.REFUTED and _inside(place, first, last):
+            at_ends = place == first or place.overlaps(first) or place.overlaps(last)
+            if verdict is Verdict.REFUTED and (at_ends or (first <= place and place <= last)):
                 return _refuted(said, part, tape, piece, place)
             if verdict is not Verdict.PROVED:
                 return _undecided(f"{part} is not decided at {said.time} = {place.str(8)} in an enclosure of the run")
     return Evidence(NAME, Verdict.PROVED, f"enclosed in {run.steps} steps, each state to {run.width:.1e}")
-
-
-def _touched(run: Enclosure, span: arb) -> Iterator[Piece]:
-    return (piece for piece in run.pieces if not (piece.start > span or piece.start + piece.length < span))
-
-
-def _inside(place: arb, first: arb, last: arb) -> bool:
-    return bool((first <= place and place <= last) or place == first or place.overlaps(first) or place.overlaps(last))
 
 
 def _on(tape: Tape, part: Relation, piece: Piece, span: arb, halvings: int) -> tuple[Verdict, arb]:
@@ -126,11 +120,9 @@ def _on(tape: Tape, part: Relation, piece: Piece, span: arb, halvings: int) -> t
     halves = [_on(tape, part, piece, half, halvings - 1) for half in (
         interval(span.lower(), middle), interval(middle, span.upper())
     )]  # fmt: skip
-    for wanted in (Verdict.REFUTED, Verdict.UNDECIDED):
-        for verdict, place in halves:
-            if verdict is wanted:
-                return verdict, place
-    return Verdict.PROVED, span
+    order = (Verdict.REFUTED, Verdict.UNDECIDED, Verdict.PROVED)
+    verdict, place = min(halves, key=lambda half: order.index(half[0]))
+    return verdict, span if verdict is Verdict.PROVED else place
 
 
 def _holds(sign: str, left: Any, right: Any) -> bool | None:

@@ -13,15 +13,12 @@ from flint import arb
 from numpy.polynomial import legendre
 
 from ptproof.balls.ball import ball_from
-from ptproof.balls.flow import GuardCrossed, flow
-from ptproof.balls.kinks import across, certainly_positive, lowest
-from ptproof.balls.pieces import Piece, Proposal
-from ptproof.balls.region import Region
+from ptproof.balls.flow import GuardCrossed, across, flow, lowest
+from ptproof.balls.pieces import Piece, Proposal, Region
 from ptproof.balls.tape import Undefined
 from ptproof.certify.trajectory import collocation
-from ptproof.certify.trajectory.basis import scales, slow_part, split
-from ptproof.certify.trajectory.collocation import DEGREE, Trial
-from ptproof.certify.trajectory.modes import Choices, Mode
+from ptproof.certify.trajectory.collocation import DEGREE, Trial, scales, slow_part, split
+from ptproof.certify.trajectory.modes import Choices, Mode, mode_of
 
 Progress = Callable[[float], None]
 _ORDER = DEGREE - 1
@@ -122,11 +119,11 @@ class _Walk:
     def settled(self) -> bool:
         """Find the mode that certainly holds here."""
         if not self.choices.nodes:
-            self.mode = self.choices.mode(())
+            self.mode = mode_of(self.choices, ())
             return True
-        mode = self.choices.mode(self.choices.choice(float(self.now), self.state))
+        mode = mode_of(self.choices, self.choices.choice(float(self.now), self.state))
         try:
-            if not all(certainly_positive(mode.guards, self.march.region, self.now)):
+            if not all(low > 0 for low in lowest(mode.guards, self.march.region, self.now)):
                 return False
         except Undefined:
             return False
@@ -147,10 +144,8 @@ class _Walk:
         if not after > self.now:
             self.bridging = 2 * length
             return
-        if length > 1e-3 * self.whole:
-            raise Stopped(f"a switch at {self.choices.system.time} = {float(self.now):.10g} could not be resolved")
         self.tries += 1
-        if self.tries > 200:
+        if length > 1e-3 * self.whole or self.tries > 200:
             raise Stopped(f"a switch at {self.choices.system.time} = {float(self.now):.10g} could not be resolved")
         try:
             piece, region = across(self.choices.tape, self.march.region, self.now, after - self.now)

@@ -4,17 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cached_property, cmp_to_key, lru_cache
 from itertools import pairwise
 from typing import Any
 
 import flint
 import numpy as np
 import sympy as sp
-from flint import arb
 from sympy.core.relational import Relational
 
-from ptproof.balls.ball import BALLS, ball_from
+from ptproof.balls.ball import BALLS, ball_from, fraction
 from ptproof.balls.pieces import VectorField
 from ptproof.balls.tape import METHODS, Tape, Undefined, compile_tape
 from ptproof.certify.trajectory.collocation import Rates
@@ -57,20 +56,14 @@ class Choices:
         values, made = iter(self._arguments(time, *state)), []
         for node in self.nodes:
             here = np.array([float(next(values)) for _ in node.args])
-            made.append(int(here[0] < 0) if isinstance(node, sp.Abs) else int(_best(node)(here)))
+            best = np.argmax if isinstance(node, sp.Max) else np.argmin
+            made.append(int(here[0] < 0) if isinstance(node, sp.Abs) else int(best(here)))
         return tuple(made)
-
-    def mode(self, choice: tuple[int, ...]) -> Mode:
-        """The smooth right-hand side of a choice."""
-        return _mode(self, choice)
-
-
-def _best(node: sp.Expr) -> Any:
-    return np.argmax if isinstance(node, sp.Max) else np.argmin
 
 
 @lru_cache(maxsize=256)
-def _mode(choices: Choices, choice: tuple[int, ...]) -> Mode:
+def mode_of(choices: Choices, choice: tuple[int, ...]) -> Mode:
+    """The smooth right-hand side of a choice."""
     system, guards = choices.system, []
     made: dict[sp.Expr, sp.Expr] = {}
     for node, index in zip(choices.nodes, choice, strict=True):
@@ -153,9 +146,7 @@ def _instant(system: System, relation: Relational) -> sp.Expr | None:
 
 
 def _holds(system: System, relation: Relational, time: sp.Expr) -> Any:
-    difference = compile_tape([relation.lhs - relation.rhs], (system.time,))
-    with flint.ctx.workprec(256):
-        sign = BALLS.order(difference.run([ball_from(time)], BALLS)[0])
+    sign = _order(*(side.subs(system.time, time) for side in (relation.lhs, relation.rhs)))
     if sign is None:
         raise InputError(f"{system.name}: whether {relation} holds at {time} is not decided")
     return sp.true if {"<": sign < 0, "<=": sign <= 0, ">": sign > 0, ">=": sign >= 0}[relation.rel_op] else sp.false
@@ -176,21 +167,13 @@ def _less(left: sp.Expr, right: sp.Expr) -> bool:
 
 
 def _sorted(instants: Sequence[sp.Expr]) -> list[sp.Expr]:
-    found: list[sp.Expr] = []
-    for instant in instants:
-        place = 0
-        while place < len(found) and _less(found[place], instant):
-            place += 1
-        if place == len(found) or _less(instant, found[place]):
-            found.insert(place, instant)
-    return found
+    ordered = sorted(instants, key=cmp_to_key(lambda first, second: -1 if _less(first, second) else 1))
+    return [ordered[0], *(later for earlier, later in pairwise(ordered) if _less(earlier, later))]
 
 
 def _between(first: sp.Expr, last: sp.Expr) -> sp.Expr:
     with flint.ctx.workprec(128):
-        middle: arb = ((ball_from(first) + ball_from(last)) / 2).mid()
-        exact = middle.fmpq()
-    found = sp.Rational(int(exact.p), int(exact.q))
+        found = fraction(((ball_from(first) + ball_from(last)) / 2).mid())
     if not (_less(first, found) and _less(found, last)):
         raise Undefined("a stretch of time too short to be told apart")
     return found

@@ -1,9 +1,4 @@
 from .asymptotic import asymptotic_seeker as asymptotic_seeker
-from .law import Feedback as Feedback
-from .law import Letters as Letters
-from .law import feedback as feedback
-from .law import letters as letters
-from .law import unicycle as unicycle
 from .prescribed_time import prescribed_time_gain as prescribed_time_gain
 from .prescribed_time import prescribed_time_seeker as prescribed_time_seeker
 from .registry import SEEKERS as SEEKERS
@@ -11,4 +6,9 @@ from .registry import seeker_named as seeker_named
 from .registry import seekers_of as seekers_of
 from .saturated import saturate as saturate
 from .saturated import saturated_seeker as saturated_seeker
+from .seeker import Feedback as Feedback
+from .seeker import Letters as Letters
 from .seeker import Seeker as Seeker
+from .seeker import feedback as feedback
+from .seeker import letters as letters
+from .seeker import unicycle as unicycle

@@ -8,8 +8,7 @@ import sympy as sp
 
 from ptproof.problem.drift import Drift
 from ptproof.problem.model import TIME
-from ptproof.problem.seekers.law import TUNED, Letters, feedback, letters, unicycle
-from ptproof.problem.seekers.seeker import Seeker
+from ptproof.problem.seekers.seeker import TUNED, Letters, Seeker, feedback, letters, unicycle
 from ptproof.system import System
 
 

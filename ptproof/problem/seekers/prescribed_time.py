@@ -8,8 +8,7 @@ import sympy as sp
 
 from ptproof.problem.drift import Drift
 from ptproof.problem.seekers.asymptotic import inputs, loop
-from ptproof.problem.seekers.law import Letters, feedback, letters, unicycle
-from ptproof.problem.seekers.seeker import Seeker
+from ptproof.problem.seekers.seeker import Letters, Seeker, feedback, letters, unicycle
 from ptproof.system import System
 from ptproof.transforms.clocks import CappedClock, Clock, capped
 

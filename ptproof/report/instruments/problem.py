@@ -9,8 +9,7 @@ import sympy as sp
 from ptproof.errors import InputError
 from ptproof.problem import TIME, Problem, parameters
 from ptproof.problem.drift import Drift
-from ptproof.problem.loops import closed_loop
-from ptproof.problem.models import averaged_system
+from ptproof.problem.loops import averaged_system, closed_loop
 from ptproof.proof.claim import Claim
 from ptproof.report.instruments.instrument import Vehicle
 from ptproof.transforms.clocks import CappedClock

@@ -105,25 +105,11 @@ class CappedClock:
         early, late = (getattr(piece, part) for piece in self.pieces)
         return sp.Piecewise((early, self.conditions[in_tau]), (late, True))
 
-    @cached_property
-    def to_tau(self) -> sp.Expr:
-        """a(t)."""
-        return self._choice("to_tau", False)
-
-    @cached_property
-    def to_t(self) -> sp.Expr:
-        """a⁻¹(τ)."""
-        return self._choice("to_t", True)
-
-    @cached_property
-    def rate(self) -> sp.Expr:
-        """dτ/dt, the clipped gain."""
-        return self._choice("rate", False)
-
-    @cached_property
-    def rate_back(self) -> sp.Expr:
-        """dt/dτ as an expression in τ."""
-        return self._choice("rate_back", True)
+    # a(t), a⁻¹(τ), dτ/dt, which is the clipped gain, and dt/dτ as an expression in τ.
+    to_tau = cached_property(lambda self: self._choice("to_tau", False))
+    to_t = cached_property(lambda self: self._choice("to_t", True))
+    rate = cached_property(lambda self: self._choice("rate", False))
+    rate_back = cached_property(lambda self: self._choice("rate_back", True))
 
     def _repr_latex_(self) -> str:
         return displayed(self.t, self.tau, Piece(self.to_tau, self.to_t, self.rate, self.rate_back))

@@ -42,6 +42,12 @@ def displayed(t: sp.Symbol, tau: sp.Symbol, piece: Piece) -> str:
     return rf"$\displaystyle \begin{{aligned}}{lines}\end{{aligned}}$"
 
 
+def inside(start: sp.Expr, horizon: sp.Expr) -> tuple[sp.Expr, sp.Symbol]:
+    """Any instant t with t₀ ≤ t < t₀ + horizon, by one symbol w ≥ 0, and the symbol."""
+    w = sp.Dummy("w", nonnegative=True)
+    return start + (w if horizon is sp.oo else horizon * w / (1 + w)), w
+
+
 @dataclass(frozen=True)
 class Clock:
     """A change of time τ = a(t) on [t₀, t₀ + horizon).
@@ -140,9 +146,7 @@ class Clock:
 
     def on_interval(self, expression: sp.Expr) -> sp.Expr:
         """An expression in t for t₀ ≤ t < t₀ + horizon, by one symbol w ≥ 0: t − t₀ is w, or horizon·w/(1 + w)."""
-        w = sp.Dummy("w", nonnegative=True)
-        elapsed = w if self.horizon is sp.oo else self.horizon * w / (1 + w)
-        return settle(expression.subs(self.t, self.start + elapsed))
+        return settle(expression.subs(self.t, inside(self.start, self.horizon)[0]))
 
     def _by_nu(self, expression: sp.Expr) -> sp.Expr:
         """An expression in t for t < t₀ + horizon, by the symbol ν > 0: t − t₀ is horizon·(1 − ν)."""
@@ -150,13 +154,9 @@ class Clock:
             return expression
         return settle(expression.subs(self.t, self.instant(sp.Dummy("nu", positive=True))))
 
-    def _later(self, expression: sp.Expr) -> sp.Expr:
-        """An expression in τ for τ > t₀, by the symbol τ − t₀ > 0."""
-        return settle(expression.subs(self.tau, self.start + sp.Dummy("e", positive=True)))
-
-    def _from_start_on(self, expression: sp.Expr) -> sp.Expr:
-        """An expression in τ for τ ≥ t₀, by the symbol τ − t₀ ≥ 0."""
-        return settle(expression.subs(self.tau, self.start + sp.Dummy("e", nonnegative=True)))
+    def _later(self, expression: sp.Expr, **elapsed: bool) -> sp.Expr:
+        """An expression in τ by the symbol τ − t₀, which is ``elapsed``: positive, or nonnegative."""
+        return settle(expression.subs(self.tau, self.start + sp.Dummy("e", **elapsed)))
 
     def _agree_at_start(self) -> bool:
         starts = (self.to_tau.subs(self.t, self.start), self.to_t.subs(self.tau, self.start))
@@ -164,9 +164,8 @@ class Clock:
 
     def is_smooth_on_interval(self, expression: sp.Expr) -> bool:
         """Whether an expression in t is continuously differentiable on the interval, as it is written."""
-        w = sp.Dummy("w", nonnegative=True)
-        elapsed = w if self.horizon is sp.oo else self.horizon * w / (1 + w)
-        return is_smooth(expression.subs(self.t, self.start + elapsed), w)
+        instant, w = inside(self.start, self.horizon)
+        return is_smooth(expression.subs(self.t, instant), w)
 
     @cached_property
     def _inverse_is_smooth(self) -> bool:
@@ -181,7 +180,7 @@ class Clock:
     @cached_property
     def _rises(self) -> bool:
         """Whether a⁻¹ is shown to increase for all τ ≥ t₀."""
-        return self._inverse_is_smooth and is_positive(self._from_start_on(self.rate_back))
+        return self._inverse_is_smooth and is_positive(self._later(self.rate_back, nonnegative=True))
 
     @cached_property
     def _undoes_map(self) -> bool:
@@ -193,11 +192,12 @@ class Clock:
     @cached_property
     def _is_undone(self) -> bool:
         """Whether a(a⁻¹(τ)) = τ for τ > t₀ by exact algebra."""
-        return vanishes(self._later(self.to_tau.subs(self.t, self.to_t) - self.tau))
+        return vanishes(self._later(self.to_tau.subs(self.t, self.to_t) - self.tau, positive=True))
 
     def _is_increasing_inverse(self) -> bool:
         """One of the four ways, the cheapest first."""
-        if self._grows and self._undoes_map and self._is_smooth_where_a_leads():
+        leads = self.to_t.subs(self.tau, self.to_tau)
+        if self._grows and self._undoes_map and (self._inverse_is_smooth or self.is_smooth_on_interval(leads)):
             return True
         if self._is_undone and self._grows and self._inverse_is_smooth and self._stays_inside():
             return True
@@ -207,11 +207,8 @@ class Clock:
             return True
         return self._undoes_map and is_nonnegative(self.on_interval(self.to_tau - self.start))
 
-    def _is_smooth_where_a_leads(self) -> bool:
-        return self._inverse_is_smooth or self.is_smooth_on_interval(self.to_t.subs(self.tau, self.to_tau))
-
     def _stays_inside(self) -> bool:
-        elapsed = self._later(self.to_t - self.start)
+        elapsed = self._later(self.to_t - self.start, positive=True)
         left = () if self.horizon is sp.oo else (self.horizon - elapsed,)
         return all(is_positive(length) for length in (elapsed, *left))
 

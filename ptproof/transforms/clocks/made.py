@@ -8,7 +8,7 @@ from ptproof.errors import InputError
 from ptproof.proof.signs import vanishes
 from ptproof.reading.limits import OutOfTime, within
 from ptproof.transforms.clocks.algebra import is_positive
-from ptproof.transforms.clocks.clock import Clock
+from ptproof.transforms.clocks.clock import Clock, inside
 from ptproof.transforms.clocks.length import SECONDS, antiderivative, dilated_length
 
 
@@ -59,8 +59,7 @@ def clock_from_rate(
         As for :func:`clock_from_formula`; also if no antiderivative of the rate is found and checked.
     """
     rate, start, horizon = (sp.sympify(item) for item in (rate, start, horizon))
-    w = sp.Dummy("w", nonnegative=True)
-    if not is_positive(rate.subs(t, start + (w if horizon is sp.oo else horizon * w / (1 + w)))):
+    if not is_positive(rate.subs(t, inside(start, horizon)[0])):
         raise InputError(f"{name}: it does not hold, or cannot be shown, that dτ/dt = {rate} is positive all the time")
     if prescribed_time and horizon is not sp.oo and not _refuse_finite(rate, t, start, horizon, name):
         raise InputError(_unknown(rate, start, horizon, name))
@@ -95,28 +94,28 @@ def _unknown(rate: sp.Expr, start: sp.Expr, horizon: sp.Expr, name: str) -> str:
 
 def _integral_from_start(rate: sp.Expr, t: sp.Symbol, start: sp.Expr, horizon: sp.Expr, name: str) -> sp.Expr:
     """∫ rate from the start to t, by an antiderivative in ν (or in t − t₀) that is checked."""
-    elapsed, inside = _views(horizon)[-1]
-    integrand = rate.subs(t, start + elapsed) * sp.diff(elapsed, inside)
-    found = antiderivative(integrand, inside)
+    elapsed, own = _views(horizon)[-1]
+    integrand = rate.subs(t, start + elapsed) * sp.diff(elapsed, own)
+    found = antiderivative(integrand, own)
     if found is None:
         raise InputError(f"{name}: no antiderivative of {rate} was found; give the map with clock_from_formula")
     now, first = (t - start, 0) if horizon is sp.oo else (1 - (t - start) / horizon, 1)
-    return sp.factor_terms(found.subs(inside, now) - found.subs(inside, first))
+    return sp.factor_terms(found.subs(own, now) - found.subs(own, first))
 
 
 def _solutions(formula: sp.Expr, t: sp.Symbol, tau: sp.Symbol, start: sp.Expr, horizon: sp.Expr) -> list[sp.Expr]:
     """What SymPy's solver suggests for the inverse; nothing is trusted, :class:`Clock` checks each."""
     later = sp.Dummy("e", positive=True)
     found: list[sp.Expr] = []
-    for elapsed, inside in _views(horizon):
+    for elapsed, own in _views(horizon):
         equation = formula.subs(t, start + elapsed) - start - later
         try:
-            roots = within(SECONDS, lambda: sp.solve(equation, inside))  # noqa: B023
+            roots = within(SECONDS, lambda: sp.solve(equation, own))  # noqa: B023
         except (OutOfTime, NotImplementedError, ValueError, TypeError):
             continue
         for root in roots:
             if isinstance(root, sp.Expr):
-                value = elapsed.subs(inside, root)
+                value = elapsed.subs(own, root)
                 # The second form has no 0/0 at the start where the first one may have one.
                 found += [value, 1 / sp.radsimp(sp.simplify(1 / value))]
     return [start + item.subs(later, tau - start) for item in found if not item.has(sp.zoo, sp.nan)]

@@ -60,7 +60,7 @@ def test_json():
 
 
 def test_a_sabotaged_function_proves_nothing(monkeypatch):
-    from ptproof.certify.loop import lyapunov as place
+    from ptproof.certify.loop import flow as place
 
     exact = place._exact
 

@@ -8,8 +8,7 @@ import pytest
 from click.testing import CliRunner
 
 import ptproof.certify as door
-from ptproof.certify.loop.advice import Advice
-from ptproof.certify.loop.failing import Failing
+from ptproof.certify.loop.failing import Advice, Failing
 from ptproof.commands.certify import certify
 from ptproof.errors import InputError
 from ptproof.proof.verdict import Verdict

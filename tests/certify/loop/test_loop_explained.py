@@ -8,12 +8,11 @@ import sympy as sp
 
 from ptproof.balls.ball import precision
 from ptproof.certify.loop import certify_loop
-from ptproof.certify.loop.advice import Advice, promising
 from ptproof.certify.loop.boxes import Boxes
 from ptproof.certify.loop.cover import rates, tried
-from ptproof.certify.loop.scene import Scene, tasks
+from ptproof.certify.loop.failing import Advice, promising
+from ptproof.certify.loop.scene import NoCertificate, Scene, tasks
 from ptproof.certify.loop.setup import drift_factor
-from ptproof.certify.loop.stage import NoCertificate
 from ptproof.problem import example, gradient_drift
 from ptproof.proof.verdict import Verdict
 

@@ -8,9 +8,8 @@ import sympy as sp
 from flint import acb, arb
 
 from ptproof.balls.ball import ball_from, precision
-from ptproof.certify.loop.flow import Flow
+from ptproof.certify.loop.flow import Flow, lyapunov
 from ptproof.certify.loop.jets import FIELD
-from ptproof.certify.loop.lyapunov import lyapunov
 from ptproof.certify.loop.polynomials import ZERO, Letter, collected, term
 from ptproof.certify.loop.setup import jets_of, numbers, phases
 from ptproof.problem import Problem

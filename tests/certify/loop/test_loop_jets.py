@@ -18,7 +18,7 @@ LETTERS = (
     Letter(FIRST, 0, 1, 1), Letter("R F 1", 1),
 )  # fmt: skip
 TIME = Intervals(np.asarray(0.2), np.asarray(0.3))
-BOXES = Boxes(np.array([-1.0, 0.25, 1.5]), np.array([0.5, -0.125, 1.0]), 0.25)
+BOXES = Boxes(np.array([[-1.0, 0.25, 1.5], [0.5, -0.125, 1.0]]), 0.25)
 
 
 def enclosed(drift="bounded", scale=1.0):
@@ -32,7 +32,7 @@ def enclosed(drift="bounded", scale=1.0):
     inside = True
     for place in [(a, b, c) for a in (-1, 0.5, 1) for b in (-1, 0, 1) for c in (-1, 0, 1)]:
         at = (
-            *(side + 0.25 * d for side, d in zip((BOXES.first, BOXES.second), place, strict=False)),
+            *(side + 0.25 * d for side, d in zip(BOXES.middles, place, strict=False)),
             0.25 + 0.05 * place[2],
         )
         exact = np.stack([np.broadcast_to(value, 3) for value in table(*at)])

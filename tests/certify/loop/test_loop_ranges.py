@@ -78,14 +78,14 @@ def test_waves_of_other_turns_are_not_added():
 
 
 def test_what_a_half_plane_leaves_of_a_box():
-    boxes = Boxes(RANDOM.normal(size=200), RANDOM.normal(size=200), 0.25)
+    boxes = Boxes(RANDOM.normal(size=(2, 200)), 0.25)
     slopes, bounds = RANDOM.normal(size=(2, 200)), RANDOM.normal(size=(1, 200))
     slopes[:, :20] = [[0.0], [1.0]]
     found = boxes.cut(slopes, bounds)[0]
     marks = np.linspace(-1, 1, 81)
     first, second = (part.ravel() for part in np.meshgrid(marks, marks))
     inside = np.outer(slopes[0], first) + np.outer(slopes[1], second) <= bounds[0][:, None]
-    away = np.hypot(boxes.first[:, None] + 0.25 * first, boxes.second[:, None] + 0.25 * second)
+    away = np.hypot(boxes.middles[0][:, None] + 0.25 * first, boxes.middles[1][:, None] + 0.25 * second)
     seen = np.where(inside, away, 0.0).max(axis=1)
     assert (seen <= found).all()
     assert (found - seen < 0.05)[inside.any(axis=1)].all()
