@@ -56,12 +56,14 @@ class Evaluator:
         found = scope.known.get(node)
         if found is None:
             work = self.work
+            before = work.steps
+            if scope.outer is not None and node.letters.isdisjoint(scope.given):
+                found = scope.known[node] = self.worth(node, scope.outer)
+                work.steps += work.steps == before  # a look counts as a step
+                return found
             work.steps += 1
             if work.steps > work.limit:
                 raise Unsure("too much work")
-            if scope.outer is not None and node.letters.isdisjoint(scope.given):
-                found = scope.known[node] = self.worth(node, scope.outer)
-                return found
             if node.handler is None:
                 node.handler = _handler(node.expression)
             found = scope.known[node] = node.handler(self, node, scope)
