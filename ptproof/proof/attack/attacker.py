@@ -21,7 +21,7 @@ from ptproof.proof.attack.preparation import Prepared, prepared
 from ptproof.proof.attack.quantified import satisfied
 from ptproof.proof.attack.roughness import rough
 from ptproof.proof.attack.runs import tried
-from ptproof.proof.attack.sampling import MISSES, Point, Sampler, open_in
+from ptproof.proof.attack.sampling import MISSES, Point, Sampler
 from ptproof.proof.attack.worth import text
 from ptproof.proof.claim import Goal
 from ptproof.proof.statement import Exists, Prose, Relation, Runs, Smooth, expressions_of
@@ -35,6 +35,7 @@ _WORK = 36_000  # evaluated nodes: about a third of a second
 _SMOOTH_POINTS = 8
 _CONFIRMING = 400_000  # evaluated nodes more, for a suspected failure
 _FEW = 12  # points, with which a fourth of the work is enough
+_INFINITE = (sp.oo, -sp.oo)
 _DIGITS = (50, 100, 200)
 
 
@@ -206,13 +207,12 @@ def _agree(part: Relation, evaluator: Evaluator) -> bool:
 
 def _relation_holds(part: Relation, evaluator: Evaluator) -> bool:
     """Whether it holds; a limit that grows beyond all bounds counts as infinite."""
-    infinite = {str(side): side for side in (part.left, part.right) if side.is_infinite}
-    if not infinite:
+    if part.left not in _INFINITE and part.right not in _INFINITE:
         try:
             return holds(part, evaluator)
         except Grows:
             return False
-    if part.right.is_infinite and part.left.func.__name__ == "Limit" and part.sign == "=":
+    if part.right in _INFINITE and part.left.func.__name__ == "Limit" and part.sign == "=":
         try:
             evaluator.number(part.left, evaluator.point)
         except Grows as limit:
@@ -230,7 +230,7 @@ def _confirmed(ready: Prepared, point: Point) -> bool:
             evaluator = point.evaluator(digits)
             if not all(holds(bound.relation, evaluator) for bound in ready.bounds):
                 return False
-            if not satisfied(open_in(ready, point), evaluator, dense=digits == _DIGITS[0]):
+            if not satisfied(point.open, evaluator, dense=digits == _DIGITS[0]):
                 return False
     except MISSES:
         return False
@@ -245,7 +245,7 @@ def _trusted(ready: Prepared, point: Point) -> bool:
     by how the functions were made is not asked.
     """
     made = dict.fromkeys(ready.defined) | dict.fromkeys(ready.solutions)
-    several = [item for item in open_in(ready, point) if len(item.variables) > 1]
+    several = [item for item in point.open if len(item.variables) > 1]
     found = [{node.func for e in expressions_of([item]) for node in e.atoms(AppliedUndef)} for item in several]
     inside: set[Any] = set().union(*found)
     if not all(found):

@@ -6,14 +6,14 @@ from collections.abc import Callable
 from functools import lru_cache
 from typing import Any
 
-from ptproof.proof.attack.numbers import ONE, ZERO, Exact, NotReal, Number
-from ptproof.proof.attack.series import HALF, Calculus, Value, base
+from ptproof.proof.attack.numbers import ONE, ZERO, Exact, NotReal, Number, Undefined, Unsure
+from ptproof.proof.attack.series import HALF, Calculus, Series, Value, base
 
 _HELD = {"positive": (1,), "negative": (-1,), "zero": (0,), "nonnegative": (0, 1), "nonpositive": (-1, 0)}
 
 
 @lru_cache(maxsize=4096)
-def _asked(declared: Any) -> tuple[bool | None, frozenset[int] | None]:
+def asked(declared: Any) -> tuple[bool | None, frozenset[int] | None]:
     """Whether a value has to be an integer, or must not be one; and the signs that it may have, where that is asked."""
     known = {word: getattr(declared, f"is_{word}") for word in _HELD}
     signs = None
@@ -26,7 +26,12 @@ def _asked(declared: Any) -> tuple[bool | None, frozenset[int] | None]:
 
 def fits(declared: Any, value: Number, calculus: Calculus) -> bool:
     """Whether a value is one that a symbol, or an applied undefined function, was declared to take."""
-    integer, signs = _asked(declared)
+    return meets(asked(declared), value, calculus)
+
+
+def meets(wanted: tuple[bool | None, frozenset[int] | None], value: Number, calculus: Calculus) -> bool:
+    """Whether a value is what is :func:`asked`."""
+    integer, signs = wanted
     if integer is not None and integer is not (type(value) is Exact and value.q == 1):
         return False
     return signs is None or calculus.numbers.sign(value) in signs
@@ -71,15 +76,43 @@ def _arcosh(calculus: Calculus, value: Value) -> Value:
     return calculus.log(calculus.add([value, root]))
 
 
+def below(calculus: Calculus, value: Value) -> Exact:
+    """The largest integer that is not larger."""
+    number = base(value)
+    if type(number) is Exact:
+        found = Exact(number.floor())
+    else:
+        nearest = calculus.numbers.nearest(number)
+        away = calculus.numbers.sign(calculus.numbers.sub(number, nearest))
+        found = nearest - 1 if away < 0 else nearest
+    if isinstance(value, Series) and type(number) is Exact and number == found:
+        raise Unsure("a derivative at a jump")
+    return found
+
+
+def angle(calculus: Calculus, y: Value, x: Value) -> Value:
+    """The angle of a place."""
+    half = calculus.right_angle()
+    if (sign := calculus.sign(x)) > 0:
+        return calculus.arctangent(calculus.mul(y, calculus.inverse(x)))
+    side = calculus.sign(y)
+    if sign == 0:
+        if side == 0:
+            raise Undefined("the angle of the origin")
+        return calculus.sub(calculus.mul(Exact(side), half), calculus.arctangent(calculus.mul(x, calculus.inverse(y))))
+    turn = calculus.mul(Exact(2 if side >= 0 else -2), half)
+    return calculus.add([calculus.arctangent(calculus.mul(y, calculus.inverse(x))), turn])
+
+
 UNARY: dict[str, Callable[[Calculus, Value], Value]] = {
     "exp": lambda c, v: c.exp(v),
     "log": lambda c, v: c.log(v),
-    "sin": lambda c, v: c.sine_cosine(v)[0],
-    "cos": lambda c, v: c.sine_cosine(v)[1],
+    "sin": lambda c, v: c.sine(v),
+    "cos": lambda c, v: c.cosine(v),
     "tan": lambda c, v: _quotient(c, True, v),
     "cot": lambda c, v: _quotient(c, False, v),
-    "sec": lambda c, v: c.inverse(c.sine_cosine(v)[1]),
-    "csc": lambda c, v: c.inverse(c.sine_cosine(v)[0]),
+    "sec": lambda c, v: c.inverse(c.cosine(v)),
+    "csc": lambda c, v: c.inverse(c.sine(v)),
     "asin": lambda c, v: c.arcsine(v),
     "acos": _arcosine,
     "atan": lambda c, v: c.arctangent(v),

@@ -15,11 +15,11 @@ from typing import Any, TypeAlias
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ptproof.proof.attack.elementary import COMPARISONS, UNARY, fits
+from ptproof.proof.attack.elementary import COMPARISONS, UNARY, angle, below, meets
 from ptproof.proof.attack.functions import Concrete
 from ptproof.proof.attack.limiting import integral, limit
 from ptproof.proof.attack.numbers import ONE, ZERO, Exact, NotReal, Number, Undefined, Unsure
-from ptproof.proof.attack.scope import BINDERS, Inadmissible, Scope, Work
+from ptproof.proof.attack.scope import Inadmissible, Scope, Work
 from ptproof.proof.attack.series import Calculus, Series, Value, base, hashable
 from ptproof.proof.attack.tree import Node, tree
 
@@ -31,16 +31,20 @@ class Evaluator:
         self.calculus = Calculus(digits)
         self.functions = functions
         self.work = work if work is not None else Work()
-        self.point = Scope({})
+        self.point = Scope.of({})
         self._concrete: dict[object, Concrete | None] = {}
         self._tag = itertools.count(1)
         self._depth = 0
-        self._integrals: dict[Any, Number] = {}
+        self._integrals: dict[Any, Number | Unsure] = {}
 
     def number(self, expression: sp.Expr, scope: Scope) -> Number:
         """The value where no derivative is taken."""
-        value = self.value(expression, scope)
-        if isinstance(value, Series):
+        return self.plain(tree(expression), scope)
+
+    def plain(self, node: Node, scope: Scope) -> Number:
+        """The same of an expression that was taken apart before."""
+        value = self.worth(node, scope)
+        if type(value) is Series:
             raise Unsure("a derivative of something that is not differentiated here")
         return value
 
@@ -52,6 +56,11 @@ class Evaluator:
         found = scope.known.get(node)
         if found is None:
             work = self.work
+            before = work.steps
+            if scope.outer is not None and node.letters.isdisjoint(scope.given):
+                found = scope.known[node] = self.worth(node, scope.outer)
+                work.steps += work.steps == before  # a look counts as a step
+                return found
             work.steps += 1
             if work.steps > work.limit:
                 raise Unsure("too much work")
@@ -61,16 +70,13 @@ class Evaluator:
         return found
 
     def _symbol(self, node: Node, scope: Scope) -> Value:
-        try:
-            return scope.symbols[node.expression]
-        except KeyError:
-            raise Unsure(f"{node.expression} has no value") from None
+        raise Unsure(f"{node.expression} has no value")
 
     def _number(self, node: Node, scope: Scope) -> Value:
         return node.rational
 
     def _applied(self, node: Node, scope: Scope) -> Value:
-        given = scope.symbols.get(node.expression)
+        given = scope.value_of(node)
         if given is not None:
             return given
         function = node.function
@@ -81,36 +87,40 @@ class Evaluator:
         if concrete is None:
             raise Unsure(f"{node.expression.func} has no concrete function")
         arguments = [self.worth(argument, scope) for argument in node.parts]
-        inside = Scope({**self.point.symbols, **dict(zip(concrete.arguments, arguments, strict=True))})
+        inside = self.point.around(dict(zip(concrete.places, arguments, strict=True)))
         self._depth += 1
         if self._depth > 8:
             raise Unsure("functions are defined by each other")
         try:
-            return self._checked(node.expression, self.worth(tree(concrete.body), inside))
+            value = self.worth(concrete.core, inside)
         finally:
             self._depth -= 1
-
-    def _checked(self, node: AppliedUndef, value: Value) -> Value:
-        number = base(value)
-        if not fits(node, number, self.calculus):
-            raise Inadmissible(f"{node} is {number}")
+        if not meets(node.asked, base(value), self.calculus):
+            raise Inadmissible(f"{node.expression} is {base(value)}")
         return value
 
     # The nodes -------------------------------------------------------------------------------------------------------
 
+    def _values(self, node: Node, scope: Scope) -> list[Value]:
+        known, values = scope.known, []
+        for part in node.parts:
+            value = known.get(part)
+            values.append(self.worth(part, scope) if value is None else value)
+        return values
+
     def _add(self, node: Node, scope: Scope) -> Value:
-        return self.calculus.add([self.worth(part, scope) for part in node.parts])
+        return self.calculus.add(self._values(node, scope))
 
     def _mul(self, node: Node, scope: Scope) -> Value:
         # All of them are evaluated: 0 times something undefined is undefined.
-        total, *values = [self.worth(part, scope) for part in node.parts]
-        for value in values:
-            total = self.calculus.mul(total, value)
-        return total
+        return self.calculus.product(self._values(node, scope))
 
     def _pow(self, node: Node, scope: Scope) -> Value:
         base, exponent = node.parts
-        return self.calculus.power(self.worth(base, scope), self.worth(exponent, scope))
+        value = self.worth(base, scope)
+        if exponent.whole is not None and type(value) is not Series:
+            return self.calculus.numbers.whole_power(value, exponent.whole)
+        return self.calculus.power(value, self.worth(exponent, scope))
 
     def _constant(self, node: sp.Expr, scope: Scope) -> Value:
         return self.calculus.numbers.constant(type(node).__name__)
@@ -124,9 +134,6 @@ class Evaluator:
 
     def _imaginary(self, node: sp.Expr, scope: Scope) -> Value:
         raise NotReal("the imaginary unit occurs")
-
-    def _unary(self, node: sp.Expr, scope: Scope) -> Value:
-        return UNARY[type(node).__name__](self.calculus, self.value(node.args[0], scope))
 
     def _piecewise(self, node: sp.Expr, scope: Scope) -> Value:
         for piece in node.args:
@@ -167,57 +174,33 @@ class Evaluator:
 
     def _floor(self, node: sp.Expr, scope: Scope) -> Value:
         value = self.value(node.args[0], scope)
-        below = self._below(value)
         if type(node).__name__ == "ceiling":
-            return -self._below(self.calculus.neg(value))
-        return below
-
-    def _below(self, value: Value) -> Exact:
-        number = base(value)
-        if type(number) is Exact:
-            found = Exact(number.floor())
-        else:
-            nearest = self.calculus.numbers.nearest(number)
-            away = self.calculus.numbers.sign(self.calculus.numbers.sub(number, nearest))
-            found = nearest - 1 if away < 0 else nearest
-        if isinstance(value, Series) and type(number) is Exact and number == found:
-            raise Unsure("a derivative at a jump")
-        return found
+            return -below(self.calculus, self.calculus.neg(value))
+        return below(self.calculus, value)
 
     def _modulo(self, node: sp.Expr, scope: Scope) -> Value:
         left, right = (self.value(part, scope) for part in node.args)
         quotient = self.calculus.mul(left, self.calculus.inverse(right))
-        return self.calculus.sub(left, self.calculus.mul(right, self._below(quotient)))
+        return self.calculus.sub(left, self.calculus.mul(right, below(self.calculus, quotient)))
 
     def _atan2(self, node: sp.Expr, scope: Scope) -> Value:
         y, x = (self.value(part, scope) for part in node.args)
-        calculus = self.calculus
-        half = calculus.right_angle()
-        if (sign := calculus.sign(x)) > 0:
-            return calculus.arctangent(calculus.mul(y, calculus.inverse(x)))
-        side = calculus.sign(y)
-        if sign == 0:
-            if side == 0:
-                raise Undefined("the angle of the origin")
-            return calculus.sub(
-                calculus.mul(Exact(side), half), calculus.arctangent(calculus.mul(x, calculus.inverse(y)))
-            )
-        turn = calculus.mul(Exact(2 if side >= 0 else -2), half)
-        return calculus.add([calculus.arctangent(calculus.mul(y, calculus.inverse(x))), turn])
+        return angle(self.calculus, y, x)
 
-    def _derivative(self, node: sp.Expr, scope: Scope) -> Value:
-        levels, inside, known = [], dict(scope.symbols), {}
-        for variable, count in node.variable_count:
-            start = inside.get(variable)
-            if isinstance(variable, AppliedUndef) and len(node.variable_count) == 1 and not node.args[0].has(*BINDERS):
-                start = self.value(variable, scope)  # ∂g/∂l(x): what l(x) is worth moves, wherever it stands in g
-            if not count.is_Integer or start is None or count > 6:
-                raise Unsure(f"{node} is not evaluated")
+    def _derivative(self, node: Node, scope: Scope) -> Value:
+        levels: list[tuple[int, int]] = []
+        moved: dict[Node, Value] = {}
+        for variable, count, applied in node.levels:
+            start = moved.get(variable)
+            if start is None:
+                # ∂g/∂l(x): what l(x) is worth moves, wherever it stands in g.
+                start = self.worth(variable, scope) if applied else scope.value_of(variable)
+            if count is None or start is None or count > 6:
+                raise Unsure(f"{node.expression} is not evaluated")
             if count:
-                moved = Series(next(self._tag), (start, ONE, *(ZERO,) * (int(count) - 1)))
-                inside[variable] = known[tree(variable)] = moved
-                levels.append((moved.tag, int(count)))
-        value = self.value(node.args[0], Scope(inside, known))
+                series = moved[variable] = Series(next(self._tag), (start, ONE, *(ZERO,) * (count - 1)))
+                levels.append((series.tag, count))
+        value = self.worth(node.parts[0], scope.around(moved))
         for tag, count in reversed(levels):
             if not isinstance(value, Series) or value.tag != tag:
                 return ZERO
@@ -247,19 +230,30 @@ class Evaluator:
             product = self.calculus.mul(product, value)
         return product
 
-    def _integral(self, node: sp.Expr, scope: Scope) -> Value:
-        inside = tuple(sorted(node.free_symbols, key=str))
-        key = (node, tuple(hashable(scope.symbols.get(symbol)) for symbol in inside))
+    def _integral(self, node: Node, scope: Scope) -> Value:
+        key = (node, tuple(hashable(scope.value_of(symbol)) for symbol in node.free))
         if key not in self._integrals:
-            self._integrals[key] = integral(self, node, scope)
-        return self._integrals[key]
+            try:
+                self._integrals[key] = integral(self, node, scope)
+            except Unsure as error:
+                self._integrals[key] = error  # what was given up is not begun again
+        found = self._integrals[key]
+        if isinstance(found, Unsure):
+            raise found
+        return found
 
     def _limit(self, node: sp.Expr, scope: Scope) -> Value:
         return limit(self, node, scope)
 
 
 _Handler: TypeAlias = Callable[[Evaluator, Node, Scope], Value]
-_ON_NODES: dict[str, _Handler] = {"Add": Evaluator._add, "Mul": Evaluator._mul, "Pow": Evaluator._pow}
+_ON_NODES: dict[str, _Handler] = {
+    "Add": Evaluator._add,
+    "Mul": Evaluator._mul,
+    "Pow": Evaluator._pow,
+    "Derivative": Evaluator._derivative,
+    "Integral": Evaluator._integral,
+}
 _NODES: dict[str, Callable[[Evaluator, Any, Scope], Value]] = {
     "Float": Evaluator._float,
     "ImaginaryUnit": Evaluator._imaginary,
@@ -272,13 +266,10 @@ _NODES: dict[str, Callable[[Evaluator, Any, Scope], Value]] = {
     "ceiling": Evaluator._floor,
     "Mod": Evaluator._modulo,
     "atan2": Evaluator._atan2,
-    "Derivative": Evaluator._derivative,
     "Subs": Evaluator._subs,
     "Sum": Evaluator._sum,
     "Product": Evaluator._sum,
-    "Integral": Evaluator._integral,
     "Limit": Evaluator._limit,
-    **dict.fromkeys(UNARY, Evaluator._unary),
     **dict.fromkeys(("Pi", "Exp1", "GoldenRatio", "EulerGamma", "Catalan"), Evaluator._constant),
     **dict.fromkeys(("NaN", "ComplexInfinity"), Evaluator._undefined),
 }
@@ -295,6 +286,8 @@ def _handler(expression: Any) -> _Handler:
     name = type(expression).__name__
     if name in _ON_NODES:
         return _ON_NODES[name]
+    if (function := UNARY.get(name)) is not None:
+        return lambda evaluator, node, scope: function(evaluator.calculus, evaluator.worth(node.parts[0], scope))
     if (found := _NODES.get(name)) is None:
         raise Unsure(f"{name} is not evaluated")
     return lambda evaluator, node, scope: found(evaluator, node.expression, scope)

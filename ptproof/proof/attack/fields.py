@@ -179,6 +179,7 @@ def _holds(
     return _ranges(low, high)
 
 
+@lru_cache(maxsize=1024)
 def _even(expression: sp.Expr, places: tuple[sp.Symbol, ...]) -> dict[tuple[int, ...], sp.Expr] | None:
     """The coefficients of a polynomial in which every term has even powers only."""
     polynomial = sp.expand(expression).as_poly(*places)

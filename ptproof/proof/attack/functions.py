@@ -12,6 +12,7 @@ from typing import Any
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from ptproof.proof.attack.tree import BINDERS, Node, tree
 from ptproof.proof.statement import ForAll
 
 
@@ -23,6 +24,16 @@ class Concrete:
     body: sp.Expr
 
     @cached_property
+    def places(self) -> tuple[Node, ...]:
+        """The arguments, taken apart."""
+        return tuple(map(tree, self.arguments))
+
+    @cached_property
+    def core(self) -> Node:
+        """The body, taken apart."""
+        return tree(self.body)
+
+    @cached_property
     def inside(self) -> frozenset[Any]:
         """The undefined functions in it."""
         return frozenset(node.func for node in self.body.atoms(AppliedUndef))
@@ -30,10 +41,28 @@ class Concrete:
 
 def concretely(expression: sp.Expr, functions: Mapping[Any, Concrete]) -> sp.Expr:
     """The expression with these functions put in, and derivatives carried out."""
-    for function, concrete in functions.items():
+    inside = {node.func for node in expression.atoms(AppliedUndef)}.union(*(one.inside for one in functions.values()))
+    return _put_in(expression, tuple((function, one) for function, one in functions.items() if function in inside))
+
+
+@lru_cache(maxsize=2048)
+def _put_in(expression: sp.Expr, functions: tuple[tuple[Any, Concrete], ...]) -> sp.Expr:
+    for function, concrete in functions:
         if expression.has(function):
             expression = expression.replace(function, sp.Lambda(concrete.arguments, concrete.body))
     return expression.doit(integrals=False, limits=False)
+
+
+def put(expression: sp.Expr, values: Mapping[Any, Any]) -> sp.Expr:
+    """The expression with values in place of letters and applied functions, all at once."""
+    return _put(expression, tuple(values.items()))
+
+
+@lru_cache(maxsize=4096)
+def _put(expression: sp.Expr, values: tuple[tuple[Any, Any], ...]) -> sp.Expr:
+    if expression.has(*BINDERS):
+        return expression.subs(dict(values), simultaneous=True)
+    return expression.xreplace(dict(values))
 
 
 @lru_cache(maxsize=64)
@@ -41,17 +70,25 @@ def _arguments(count: int) -> tuple[sp.Symbol, ...]:
     return tuple(sp.Symbol(f"_argument{i}", real=True) for i in range(count))
 
 
-def drawn(applied: Any, seed: str, attempt: int, known: Collection[Any] = ()) -> Concrete:
-    """A function for ``applied``, of its declared kind: the plainest first, then any; the same one for a seed.
+class Maker:
+    """Makes functions for ``applied``, of its declared kind: the plainest first, then any.
 
     Some vanish, or have an extremum, where the arguments of ``applied`` are, if these are symbols that are ``known``.
     """
-    if applied.is_integer:
-        whole = _whole(applied, random.Random(f"{seed}:{attempt}"))
-        return Concrete(_arguments(len(applied.args)), sp.Integer(whole))
-    centred = attempt % 10 >= 7 and all(argument in known for argument in applied.args)
-    kind = next((word for word in _SIGNS if getattr(applied, f"is_{word}")), "")
-    return _of_kind(len(applied.args), kind, seed, attempt, tuple(applied.args) if centred else None)
+
+    def __init__(self, applied: Any, known: Collection[Any]) -> None:
+        self.applied = applied
+        self.count = len(applied.args)
+        self.integer = applied.is_integer
+        self.kind = next((word for word in _SIGNS if getattr(applied, f"is_{word}")), "")
+        self.centre = tuple(applied.args) if all(argument in known for argument in applied.args) else None
+
+    def drawn(self, seed: str, attempt: int) -> Concrete:
+        """The same one for a seed."""
+        if self.integer:
+            whole = _whole(self.applied, random.Random(f"{seed}:{attempt}"))
+            return Concrete(_arguments(self.count), sp.Integer(whole))
+        return _of_kind(self.count, self.kind, seed, attempt, self.centre if attempt % 10 >= 7 else None)
 
 
 _SIGNS = ("positive", "negative", "nonnegative", "nonpositive", "nonzero")
@@ -133,13 +170,14 @@ def _real(places: tuple[sp.Symbol, ...], generator: random.Random, attempt: int,
     return sp.Add(*terms)
 
 
-def solutions(item: ForAll) -> list[tuple[Any, Concrete]]:
+@lru_cache(maxsize=512)
+def solutions(item: ForAll) -> tuple[tuple[Any, Concrete], ...]:
     """Functions that satisfy a differential inequality y' ≤ a(s) + b(s) y^p with equality, where that is easy.
 
     The constant of integration is the symbol ``_start``, which whoever uses them gives a value.
     """
-    found = [*_rates(item), *_ends(item)]
-    return found if found and item.relation.sign != "=" else [*found, *_at_rest(item)]
+    found = (*_rates(item), *_ends(item))
+    return found if found and item.relation.sign != "=" else (*found, *_at_rest(item))
 
 
 def _at_rest(item: ForAll) -> list[tuple[Any, Concrete]]:
@@ -187,18 +225,19 @@ def _rates(item: ForAll) -> list[tuple[Any, Concrete]]:
         return []
     if relation.left.variable_count != sp.Derivative(applied, time).variable_count:
         return []
-    value = sp.Dummy("value", positive=True)
-    right = relation.right.xreplace({applied: value})
+    right = relation.right.xreplace({applied: VALUE})
     place = _arguments(1)
     right = sp.expand(right, power_exp=False)  # a power of the state stays one power
-    found = closed_forms(right, value, time)
-    moving = sp.Add(*(term for term in sp.Add.make_args(right) if term.has(value)))
+    found = closed_forms(right, VALUE, time)
+    moving = sp.Add(*(term for term in sp.Add.make_args(right) if term.has(VALUE)))
     if relation.sign in ("<=", "<") and moving not in (0, right):
-        found += closed_forms(moving, value, time)  # it satisfies the inequality where what is left out is not negative
+        found += closed_forms(moving, VALUE, time)  # it satisfies the inequality where what is left out is not negative
     return [(applied.func, Concrete(place, body.xreplace({time: place[0]}))) for body in found]
 
 
 START = sp.Symbol("_start", positive=True)
+VALUE = sp.Dummy("value", positive=True)
+"""The state itself, while its equation is solved."""
 
 
 def closed_forms(right: sp.Expr, value: sp.Symbol, time: sp.Symbol, faster: Sequence[int] = (1, 2, 6)) -> list[sp.Expr]:
@@ -239,6 +278,7 @@ def closed_forms(right: sp.Expr, value: sp.Symbol, time: sp.Symbol, faster: Sequ
     return found
 
 
+@lru_cache(maxsize=1024)
 def antiderivative(expression: sp.Expr, time: sp.Symbol) -> sp.Expr | None:
     """∫ of a sum of constants times powers of something linear in ``time``; None for anything else."""
     total = sp.S.Zero

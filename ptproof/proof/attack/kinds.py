@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from fractions import Fraction
 from functools import lru_cache
-from typing import Any
+from typing import Any, NamedTuple
 
 import sympy as sp
 
 from ptproof.proof.attack.evaluator import Evaluator
 from ptproof.proof.attack.scope import Scope
+from ptproof.proof.attack.tree import Node, tree
 from ptproof.proof.statement import Relation
 
 HOLDS: Mapping[str, Callable[[int], bool]] = {
@@ -59,9 +60,24 @@ def fits_kind(atom: Any, value: Any) -> bool:
     return (top > 0) - (top < 0) in signs and all(test(value) is truth for test, truth in tests)
 
 
-def holds(relation: Relation, evaluator: Evaluator, scope: Scope | None = None) -> bool:
+class Sides(NamedTuple):
+    """A scalar relation as the evaluator takes it."""
+
+    left: Node
+    right: Node
+    test: Callable[[int], bool]
+
+    @classmethod
+    def of(cls, relation: Relation) -> Sides:
+        return cls(tree(relation.left), tree(relation.right), HOLDS[relation.sign])
+
+    def hold(self, evaluator: Evaluator, scope: Scope) -> bool:
+        """Whether the relation holds there; raises where that cannot be told."""
+        numbers = evaluator.calculus.numbers
+        left, right = evaluator.plain(self.left, scope), evaluator.plain(self.right, scope)
+        return self.test(numbers.sign(numbers.sub(left, right)))
+
+
+def holds(relation: Relation, evaluator: Evaluator) -> bool:
     """Whether a scalar relation holds at the evaluator's point; raises where that cannot be told."""
-    scope = evaluator.point if scope is None else scope
-    numbers = evaluator.calculus.numbers
-    left, right = evaluator.number(relation.left, scope), evaluator.number(relation.right, scope)
-    return HOLDS[relation.sign](numbers.sign(numbers.sub(left, right)))
+    return Sides.of(relation).hold(evaluator, evaluator.point)

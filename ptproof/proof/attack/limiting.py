@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cache
+from functools import cache, lru_cache
 from itertools import pairwise
 from typing import Any
 
@@ -12,9 +12,11 @@ import sympy as sp
 from ptproof.proof.attack.magnitudes import size, spread, widened
 from ptproof.proof.attack.numbers import ONE, ZERO, Arithmetic, Ball, Exact, NotReal, Number, Undefined, Unsure
 from ptproof.proof.attack.scope import Scope, Valuer
-from ptproof.proof.attack.series import Series, base
+from ptproof.proof.attack.series import base
+from ptproof.proof.attack.tree import Node, tree
 
 _FEW, _MANY = 14, 20
+_ALL, _OFTEN = _FEW + _MANY, 2.0  # places of a panel; so many times more than is left
 _SETTLED = -40.0  # the base-2 logarithm of an error that is small enough
 _STEPS = (8, 12, 16, 20, 24)
 
@@ -27,19 +29,14 @@ def _nodes(count: int, digits: int) -> tuple[tuple[Ball, Ball], ...]:
     return tuple(((1 + root) / 2, weight / 2) for root, weight in found)
 
 
-def integral(evaluator: Valuer, node: sp.Expr, scope: Scope) -> Number:
+def integral(evaluator: Valuer, node: Node, scope: Scope) -> Number:
     """∫ by two Gauss-Legendre rules; a hundred times their disagreement is the bound."""
-    integrand, *limits = node.args
-    if len(limits) > 1:
-        integrand, limits = sp.Integral(integrand, *limits[:-1]), limits[-1:]
-    if len(limits[0]) != 3:
-        raise Unsure("an integral without ends")
-    variable, low, high = limits[0]
-    if any(isinstance(value, Series) for value in scope.symbols.values()):
+    integrand, variable, low, high = _outermost(node.expression)
+    if scope.moves:
         raise Unsure("a derivative of an integral")
-    if high == sp.oo or low == -sp.oo:
-        return _improper(evaluator, integrand, variable, low, high, scope)
-    ends = [evaluator.number(end, scope) for end in (low, high)]
+    if high.expression == sp.oo or low.expression == -sp.oo:
+        return _improper(evaluator, integrand, variable, low, scope)
+    ends = [evaluator.plain(end, scope) for end in (low, high)]
     if type(ends[0]) is type(ends[1]) is Exact and ends[0] == ends[1]:
         return ZERO
     numbers = evaluator.calculus.numbers
@@ -47,22 +44,34 @@ def integral(evaluator: Valuer, node: sp.Expr, scope: Scope) -> Number:
 
     def at(part: Number) -> Number:
         place = numbers.add([ends[0], numbers.mul(width, part)])
-        return evaluator.number(integrand, scope.with_values({variable: place}))
+        return evaluator.plain(integrand, scope.around({variable: place}))
 
     return numbers.mul(width, _gauss(evaluator, at))
 
 
-def _improper(evaluator: Valuer, integrand: sp.Expr, variable: Any, low: Any, high: Any, scope: Scope) -> Number:
+@lru_cache(maxsize=1024)
+def _outermost(expression: sp.Integral) -> tuple[Node, Node, Node, Node]:
+    """What is integrated last, over which variable, and between which ends."""
+    integrand, *limits = expression.args
+    if len(limits) > 1:
+        integrand, limits = sp.Integral(integrand, *limits[:-1]), limits[-1:]
+    if len(limits[0]) != 3:
+        raise Unsure("an integral without ends")
+    variable, low, high = map(tree, limits[0])
+    return tree(integrand), variable, low, high
+
+
+def _improper(evaluator: Valuer, integrand: Node, variable: Node, low: Node, scope: Scope) -> Number:
     """∫ from a to ∞ through x = a + u/(1 - u), and the same downwards."""
     numbers = evaluator.calculus.numbers
-    if low == -sp.oo:
+    if low.expression == -sp.oo:
         raise Unsure("an integral from minus infinity")
-    start = evaluator.number(low, scope)
+    start = evaluator.plain(low, scope)
 
     def at(part: Number) -> Number:
         rest = numbers.inverse(numbers.sub(ONE, part))
         place = numbers.add([start, numbers.mul(part, rest)])
-        return numbers.mul(evaluator.number(integrand, scope.with_values({variable: place})), numbers.mul(rest, rest))
+        return numbers.mul(evaluator.plain(integrand, scope.around({variable: place})), numbers.mul(rest, rest))
 
     return _gauss(evaluator, at)
 
@@ -77,14 +86,22 @@ def _gauss(evaluator: Valuer, at: Callable[[Number], Number]) -> Number:
 
 
 def _panels(evaluator: Valuer, at: Callable[[Number], Number], panels: int) -> Ball:
-    numbers = evaluator.calculus.numbers
+    """Both rules; given up where even the cheapest panels would take more work than there is left.
+
+    The first places are those next to the upper end: what is integrated inside has been seen nearly whole by then, and
+    the second one does not pay for what is the same at all places.
+    """
+    numbers, work = evaluator.calculus.numbers, evaluator.work
     totals: list[Number] = []
     for count in (_FEW, _MANY):
         terms: list[Number] = []
-        for panel in range(panels):
+        for panel in reversed(range(panels)):
             for place, weight in _nodes(count, numbers.digits):
+                before = work.steps
                 numbers.ready()
                 terms.append(numbers.mul(weight / panels, at((panel + place) / panels)))
+                if not totals and len(terms) == 2 and (work.steps - before) * _ALL * panels > _OFTEN * work.left:
+                    raise Unsure("too much work")
         totals.append(numbers.add(terms))
     apart = numbers.ball(numbers.sub(totals[0], totals[1]))
     return widened(numbers.ball(totals[1]), max(size(apart), spread(apart)) + 7)
@@ -93,7 +110,7 @@ def _panels(evaluator: Valuer, at: Callable[[Number], Number], panels: int) -> B
 def limit(evaluator: Valuer, node: sp.Expr, scope: Scope) -> Number:
     """A limit from values that come closer and closer, if they settle down; infinite and doubtful ones raise."""
     expression, variable, point, direction = node.args
-    if any(isinstance(value, Series) for value in scope.symbols.values()):
+    if scope.moves:
         raise Unsure("a derivative of a limit")
     sides = {"+": (1,), "-": (-1,), "+-": (1, -1)}[str(direction)]
     found = [_approached(evaluator, expression, variable, point, side, scope) for side in sides]

@@ -7,6 +7,7 @@ from functools import cache
 from typing import Any
 
 from flint import arb as Ball
+from flint import fmpq as Exact
 
 NOTHING = -math.inf
 ORDINARY = (1e-290, 1e290)  # sizes that a float can have
@@ -44,3 +45,20 @@ def _length(end: Ball) -> float:
         return float(math.frexp(rough)[1])
     mantissa, exponent = end.man_exp()
     return float(int(exponent) + mantissa.bit_length()) if mantissa else NOTHING
+
+
+def exact_root(base: Exact, degree: int) -> Exact | None:
+    """The rational root of a positive rational, if it has one."""
+    parts = []
+    for number in (int(base.p), int(base.q)):
+        if degree == 2:
+            root = math.isqrt(number)
+        else:
+            if number.bit_length() > 900:
+                return None
+            root = round(number ** (1 / degree))
+            root = next((guess for guess in (root - 1, root, root + 1) if guess**degree == number), 0)
+        if root**degree != number:
+            return None
+        parts.append(root)
+    return Exact(parts[0], parts[1])

@@ -15,7 +15,7 @@ from typing import Any, TypeAlias
 
 import flint
 
-from ptproof.proof.attack.magnitudes import NOTHING, ORDINARY, power_of_two, size
+from ptproof.proof.attack.magnitudes import NOTHING, ORDINARY, exact_root, power_of_two, size
 
 BITS_OF_A_DIGIT = math.log2(10)
 _LONGEST = 3000  # bits of an exact rational, before it becomes a ball
@@ -190,12 +190,16 @@ class Arithmetic:
         self.ready()
         return _finite(Ball(base) ** exponent)
 
+    def whole_power(self, base: Number, exponent: int) -> Number:
+        """The same, undefined for a negative power of what counts as 0."""
+        if exponent < 0 and type(base) is Ball and self.sign(base) == 0:
+            raise Undefined("a negative power of zero")
+        return self.integer_power(base, exponent)
+
     def power(self, base: Number, exponent: Number) -> Number:
         """The real power: a negative base has one for integer exponents only, 0 for exponents that are not negative."""
         if type(exponent) is Exact and exponent.q == 1 and abs(exponent) < 10**6:
-            if exponent < 0 and type(base) is Ball and self.sign(base) == 0:
-                raise Undefined("a negative power of zero")
-            return self.integer_power(base, int(exponent.p))
+            return self.whole_power(base, int(exponent.p))
         sign = self.sign(base)
         if sign < 0:
             self._needs_an_integer(exponent)
@@ -210,7 +214,7 @@ class Arithmetic:
                 return base
             if type(exponent) is Exact:
                 # An integer this large is left to the logarithm.
-                root = _exact_root(base, int(exponent.q)) if 1 < exponent.q <= 12 else None
+                root = exact_root(base, int(exponent.q)) if 1 < exponent.q <= 12 else None
                 if root is not None:
                     return self.power(root, Exact(exponent.p))
         return self.exp(self.mul(exponent, self.log(base)))
@@ -267,6 +271,15 @@ class Arithmetic:
             raise Unsure("an argument is not known well enough")
         return _finite(function(argument))
 
+    def sine_cosine(self, value: Number) -> tuple[Ball, Ball]:
+        """Both at once."""
+        argument = self.ball(value)
+        self.ready()
+        if argument.rad() > 1:
+            raise Unsure("an argument is not known well enough")
+        sine, cosine = argument.sin_cos()
+        return _finite(sine), _finite(cosine)
+
     def hull(self, left: Number, right: Number) -> Ball:
         """A ball for a value that may be either of two that cannot be told apart."""
         return self.ball(left).union(self.ball(right))
@@ -279,20 +292,3 @@ def _finite(ball: Ball) -> Ball:
     if not ball.is_finite():
         raise Unsure("the value is not finite at this precision")
     return ball
-
-
-def _exact_root(base: Exact, degree: int) -> Exact | None:
-    """The rational root of a positive rational, if it has one."""
-    parts = []
-    for number in (int(base.p), int(base.q)):
-        if degree == 2:
-            root = math.isqrt(number)
-        else:
-            if number.bit_length() > 900:
-                return None
-            root = round(number ** (1 / degree))
-            root = next((guess for guess in (root - 1, root, root + 1) if guess**degree == number), 0)
-        if root**degree != number:
-            return None
-        parts.append(root)
-    return Exact(parts[0], parts[1])

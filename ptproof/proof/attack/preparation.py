@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import lru_cache, partial
 from random import Random
 from typing import Any
 
@@ -13,9 +13,10 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from ptproof.proof.attack.functions import Concrete, differentiable, solutions
-from ptproof.proof.attack.scope import BINDERS
+from ptproof.proof.attack.isolation import Isolated, isolated, isolated_in
 from ptproof.proof.attack.settings import Setting, settings
 from ptproof.proof.attack.trajectories import trajectories
+from ptproof.proof.attack.tree import BINDERS, tree
 from ptproof.proof.claim import Goal
 from ptproof.proof.statement import (
     Exists,
@@ -30,19 +31,6 @@ from ptproof.proof.statement import (
     plain,
     relations_of,
 )
-
-
-@dataclass(frozen=True)
-class Isolated:
-    """``atom`` sign ``-rest/factor``, if the factor is positive; the other way round, if it is negative."""
-
-    atom: Any
-    factor: sp.Expr
-    rest: sp.Expr
-
-    @cached_property
-    def bound(self) -> sp.Expr:
-        return -self.rest / self.factor
 
 
 @dataclass(frozen=True)
@@ -189,12 +177,14 @@ def _definitions(quantified: Iterable[ForAll]) -> Iterable[tuple[Any, Concrete, 
                 break
 
 
+@lru_cache(maxsize=1024)
 def _bound(relation: Relation, atoms: tuple[Any, ...]) -> Bound:
-    inside = frozenset(atom for atom in atoms if relation.has(atom))
+    letters = tree(relation.left).letters | tree(relation.right).letters
+    inside = frozenset(atom for atom in atoms if tree(atom) in letters)
     difference = sp.Add(relation.left, -relation.right, evaluate=True)
     found = []
     for atom in sorted(inside, key=str):
-        one = _isolated(difference, atom)
+        one = isolated(difference, atom)
         if one is not None:
             found.append(one)
     roots: tuple[tuple[Any, sp.Expr], ...] = ()
@@ -228,28 +218,10 @@ def _polynomial(expression: sp.Expr, atom: Any) -> bool:
     return isinstance(expression, sp.Add | sp.Mul | sp.Pow) and all(_polynomial(part, atom) for part in expression.args)
 
 
-def _isolated(difference: sp.Expr, atom: Any) -> Isolated | None:
-    """The difference as factor·atom + rest, where it is written so."""
-    factor: sp.Expr = sp.S.Zero
-    rest: sp.Expr = sp.S.Zero
-    for term in sp.Add.make_args(difference):
-        if not term.has(atom):
-            rest += term
-            continue
-        factors = list(sp.Mul.make_args(term))
-        if factors.count(atom) != 1:
-            return None
-        factors.remove(atom)
-        other = sp.Mul(*factors)
-        if other.has(atom):
-            return None
-        factor += other
-    return None if factor == 0 else Isolated(atom, factor, rest)
-
-
 def _special(parts: Iterable[Relation], atoms: tuple[Any, ...]) -> Iterable[Isolated]:
     """Where something in the relations vanishes, for every atom in which it is linear."""
     seen: set[sp.Expr] = set()
+    nodes_of = {atom: tree(atom) for atom in atoms}
     for part in parts:
         sides = (part.left, part.right)
         nodes = dict.fromkeys(node for side in sides for node in sp.preorder_traversal(side))
@@ -257,12 +229,9 @@ def _special(parts: Iterable[Relation], atoms: tuple[Any, ...]) -> Iterable[Isol
             if expression in seen or expression.is_number or len(seen) > 40:
                 continue
             seen.add(expression)
-            inside = [atom for atom in atoms if expression.has(atom)]
-            found = [_isolated(expression, atom) for atom in inside]
-            if None in found and expression.count_ops() < 80:
-                expanded = sp.expand_mul(expression)
-                found = [one or _isolated(expanded, atom) for one, atom in zip(found, inside, strict=True)]
-            for one in found:
+            letters = tree(expression).letters
+            inside = [atom for atom, node in nodes_of.items() if node in letters]
+            for one in isolated_in(expression, tuple(inside)):
                 if one is not None:
                     yield one
 

@@ -14,7 +14,7 @@ from typing import Any
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ptproof.proof.attack.functions import START, Concrete, concretely
+from ptproof.proof.attack.functions import START, VALUE, Concrete, concretely, put
 from ptproof.proof.attack.trajectories import Motion, equations
 from ptproof.proof.statement import ForAll
 
@@ -27,28 +27,25 @@ def pushes(
     letters: Mapping[Any, sp.Expr],
 ) -> Iterator[Motion]:  # fmt: skip
     """Motions with the drift that belongs to each, for which the ``bounds`` of the drift hold."""
-    rates = {
-        state: concretely(rate, functions).subs(dict(letters), simultaneous=True) for state, rate in equations(system)
-    }
+    rates = {state: put(concretely(rate, functions), letters) for state, rate in equations(system)}
     if any(rate.has(sp.Derivative, sp.Subs) for rate in rates.values()):
         return
     drifts = {node.func for rate in rates.values() for node in rate.atoms(AppliedUndef)} - {s.func for s in rates}
     for state in itertools.islice(rates, 1):
         rest = {other: sp.S.Zero for other in rates if other != state}
-        value = sp.Dummy("value", positive=True)
-        moved = {**rest, state: value}
-        right = sp.expand(rates[state].subs(moved, simultaneous=True).xreplace({sp.Abs(value): value}))
-        still = [sp.expand(rates[other].subs(moved, simultaneous=True)) for other in rest]
+        moved = {**rest, state: VALUE}
+        right = _expanded(put(rates[state], moved).xreplace({sp.Abs(VALUE): VALUE}))
+        still = [_expanded(put(rates[other], moved)) for other in rest]
         nodes = [node for node in right.atoms(AppliedUndef) if node.func in drifts]
         if len(nodes) != 1 or any(_without_drifts(rate, drifts) != 0 for rate in still):
             continue
         (node,) = nodes
         weight = right.coeff(node)
         left = sp.expand(right - weight * node)
-        if weight == 0 or left.has(node) or weight.has(value):
+        if weight == 0 or left.has(node) or weight.has(VALUE):
             continue
         for power in _POWERS:
-            found = _for(state, node, weight, left, value, power, _ends(bounds) or _ANY)
+            found = _for(state, node, weight, left, power, _ends(bounds) or _ANY)
             if found is not None:
                 yield from _bounded(state, node, found, drifts, bounds, functions, rest)
 
@@ -57,12 +54,17 @@ def _without_drifts(rate: sp.Expr, drifts: set[Any]) -> sp.Expr:
     return rate.xreplace({node: sp.S.Zero for node in rate.atoms(AppliedUndef) if node.func in drifts})
 
 
+@lru_cache(maxsize=64)
+def _expanded(expression: sp.Expr) -> sp.Expr:
+    return sp.expand(expression)
+
+
+@lru_cache(maxsize=256)
 def _for(
     state: AppliedUndef,
     node: AppliedUndef,
     weight: sp.Expr,
     left: sp.Expr,
-    value: sp.Symbol,
     power: sp.Rational,
     ends: tuple[sp.Expr, sp.Expr],
 ) -> tuple[sp.Expr, sp.Expr, sp.Symbol] | None:
@@ -71,7 +73,7 @@ def _for(
     other = sp.Symbol("_argument0", real=True)
     factors = (factor.as_base_exp() for factor in sp.Mul.make_args(sp.factor(weight)))
     motion = START * sp.Mul(*(base ** (exponent * power) for base, exponent in factors))
-    needed = (sp.diff(motion, time) - left.subs(value, motion)) / weight
+    needed = (sp.diff(motion, time) - left.subs(VALUE, motion)) / weight
     backwards = _backwards(node.args[0], time, other)
     if backwards is None:
         return None

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterable
+from functools import lru_cache
 from typing import Any
 
 from ptproof.proof.attack.evaluator import Evaluator
-from ptproof.proof.attack.kinds import fits_kind, holds
+from ptproof.proof.attack.kinds import Sides, fits_kind
 from ptproof.proof.attack.numbers import Exact, NotReal, Number, Undefined
 from ptproof.proof.attack.scope import Scope
+from ptproof.proof.attack.tree import Node, tree
 from ptproof.proof.statement import ForAll, Relation
 
 _NARROWING = 40
@@ -27,15 +29,22 @@ def satisfied(items: Iterable[ForAll], evaluator: Evaluator, *, dense: bool) -> 
     return all(_holds(item, evaluator, dense) for item in items)
 
 
+@lru_cache(maxsize=512)
+def _taken_apart(item: ForAll) -> tuple[tuple[Node, ...], tuple[Sides, ...], tuple[Sides, ...]]:
+    """The bound variables, the domain and what is said, as the evaluator takes them."""
+    said = item.relation.components()
+    return tuple(map(tree, item.variables)), tuple(map(Sides.of, item.domain)), tuple(map(Sides.of, said))
+
+
 def _holds(item: ForAll, evaluator: Evaluator, dense: bool) -> bool:
+    variables, domain, said = _taken_apart(item)
     axes = [_axis(variable, item.domain, evaluator, dense) for variable in item.variables]
     for place in itertools.islice(itertools.product(*axes), 400):
-        scope = evaluator.point.with_values(dict(zip(item.variables, place, strict=True)))
-        if not all(_inside(part, evaluator, scope) for part in item.domain):
-            continue
-        for part in item.relation.components():
-            if not holds(part, evaluator, scope):
-                return False
+        scope = evaluator.point.around(dict(zip(variables, place, strict=True)))
+        if all(_inside(part, evaluator, scope) for part in domain) and not all(
+            part.hold(evaluator, scope) for part in said
+        ):
+            return False
     return (
         not dense
         or len(axes) != 1
@@ -47,14 +56,15 @@ def _holds_between(item: ForAll, part: Relation, places: list[Number], evaluator
     """Whether an inequality holds also where it is tightest between the places of the grid."""
     if part.sign not in ("<=", "<", ">=", ">") or len(places) < 3:
         return True
-    numbers, (variable,), part = evaluator.calculus.numbers, item.variables, part.standard()
+    numbers, ((variable,), domain, _) = evaluator.calculus.numbers, _taken_apart(item)
+    sides = Sides.of(part.standard())
 
     def scope_at(place: Number) -> Scope:
-        return evaluator.point.with_values({variable: place})
+        return evaluator.point.around({variable: place})
 
     def slack(place: Number) -> Any:
         scope = scope_at(place)
-        return numbers.ball(numbers.sub(*(evaluator.number(side, scope) for side in (part.right, part.left)))).mid()
+        return numbers.ball(numbers.sub(*(evaluator.plain(side, scope) for side in (sides.right, sides.left)))).mid()
 
     heights = [slack(place) for place in places]
     for k in range(1, len(places) - 1):
@@ -66,15 +76,15 @@ def _holds_between(item: ForAll, part: Relation, places: list[Number], evaluator
             left, right = numbers.add([low, third]), numbers.sub(high, third)
             for place in (left, right):
                 scope = scope_at(place)
-                if all(_inside(where, evaluator, scope) for where in item.domain) and not holds(part, evaluator, scope):
+                if all(_inside(where, evaluator, scope) for where in domain) and not sides.hold(evaluator, scope):
                     return False
             low, high = (low, right) if slack(left) < slack(right) else (left, high)
     return True
 
 
-def _inside(part: Relation, evaluator: Evaluator, scope: Scope) -> bool:
+def _inside(part: Sides, evaluator: Evaluator, scope: Scope) -> bool:
     try:
-        return holds(part, evaluator, scope)
+        return part.hold(evaluator, scope)
     except (Undefined, NotReal):
         return False
 

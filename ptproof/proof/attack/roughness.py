@@ -35,6 +35,7 @@ def rough(statement: Smooth, ready: Prepared, point: Point, digits: int) -> str:
     """Why the statement fails at the point; empty if no reason was found."""
     variables = [variable for variable in statement.variables if variable in point.values]
     directions = _directions(variables)
+    fixed = replace(point, functions=_fixed(point), made={})  # a function with a kink there must not move along
     evaluator = point.evaluator(digits)
     for expression in statement.expressions:
         try:
@@ -45,7 +46,7 @@ def rough(statement: Smooth, ready: Prepared, point: Point, digits: int) -> str:
             pass
         for along in directions:
             sides = [
-                _approached(expression, along, int(statement.order), towards, side, ready, point, digits)
+                _approached(expression, along, int(statement.order), towards, side, ready, fixed, digits)
                 for towards, side in itertools.product(directions, (1, -1))
             ]
             for order, values in enumerate(zip(*(side for side in sides if side), strict=True)):
@@ -89,12 +90,11 @@ def _approached(
     """
     found = []
     for step in _STEPS:
-        values = {atom: value + side * step * towards.get(atom, 0) for atom, value in point.values.items()}
+        values = {**point.values, **{atom: point.values[atom] + side * step * towards[atom] for atom in towards}}
         if not all(fits_kind(atom, values[atom]) for atom in towards):
             return None
         try:
-            # A function with a kink at the point must not move along with the place.
-            evaluator = Point(values, point.defined, _fixed(point), point.settled, point.work).evaluator(digits)
+            evaluator = replace(point, values=values, made={}).evaluator(digits)
             if not all(holds(bound.relation, evaluator) for bound in ready.bounds):
                 return None
             found.append(_derivatives(expression, along, order, evaluator))
@@ -115,7 +115,8 @@ def _derivatives(expression: sp.Expr, along: Mapping[Any, Fraction], order: int,
     scope = evaluator.point
     if order:
         rest = (ZERO,) * (order - 1)
-        moving = {atom: Series(0, (base(scope.symbols[atom]), exact(slope), *rest)) for atom, slope in along.items()}
+        starts = {atom: base(evaluator.number(atom, scope)) for atom in along}
+        moving = {atom: Series(0, (starts[atom], exact(slope), *rest)) for atom, slope in along.items()}
         scope = scope.with_values(moving)
     value = evaluator.value(expression, scope)
     terms = value.terms if isinstance(value, Series) else (value, *((ZERO,) * order))

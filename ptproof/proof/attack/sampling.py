@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import Any
 
@@ -13,12 +13,14 @@ import sympy as sp
 from ptproof.proof.attack.elementary import fits
 from ptproof.proof.attack.evaluator import Evaluator
 from ptproof.proof.attack.fields import Range
-from ptproof.proof.attack.functions import START, Concrete, drawn
+from ptproof.proof.attack.functions import START, Concrete, Maker
+from ptproof.proof.attack.isolation import Isolated
 from ptproof.proof.attack.kinds import fits_kind, holds
 from ptproof.proof.attack.numbers import NotReal, Number, Undefined, Unsure, exact
 from ptproof.proof.attack.preparation import Bound, Prepared
 from ptproof.proof.attack.quantified import satisfied
 from ptproof.proof.attack.scope import Inadmissible, Scope, Work
+from ptproof.proof.attack.tree import tree
 from ptproof.proof.attack.values import Drawer
 from ptproof.proof.statement import ForAll
 
@@ -33,31 +35,32 @@ _ROUNDS = 3  # of these, before others are drawn
 class Point:
     """Exact values of the free symbols, some of them by an expression in the others, and concrete functions.
 
-    ``settled`` are the assumptions that hold for these functions by how they were made.
+    ``open`` are the quantified assumptions of which it has to be looked up whether they hold for these functions: the
+    others do by how the functions were made.
     """
 
     values: Mapping[Any, Fraction]
     defined: tuple[tuple[Any, sp.Expr], ...] = ()
     functions: Mapping[Any, Concrete] = field(default_factory=dict)
-    settled: frozenset[ForAll] = frozenset()
+    open: tuple[ForAll, ...] = ()
     work: Work = field(default_factory=Work, compare=False)
     made: dict[int, Evaluator] = field(default_factory=dict, compare=False, repr=False)
 
     def changed(self, atom: Any, value: Fraction) -> Point:
         """The point with another value of one symbol."""
-        return Point({**self.values, atom: value}, self.defined, self.functions, self.settled, self.work)
+        return replace(self, values={**self.values, atom: value}, made={})
 
     def evaluator(self, digits: int) -> Evaluator:
         """An evaluator at this point; raises what evaluating a value that is defined may raise."""
         if digits in self.made:
             return self.made[digits]
         evaluator = Evaluator(digits, self.functions, self.work)
-        evaluator.point = Scope({atom: exact(value) for atom, value in self.values.items()})
+        evaluator.point = Scope.of({atom: exact(value) for atom, value in self.values.items()})
         for atom, expression in self.defined:
             value = evaluator.number(expression, evaluator.point)
             if not fits(atom, value, evaluator.calculus):
                 raise Inadmissible(f"{atom} is {value}")
-            evaluator.point = evaluator.point.with_values({atom: value})
+            evaluator.point = evaluator.point.joined(atom, value)
         self.made[digits] = evaluator
         return evaluator
 
@@ -70,6 +73,12 @@ class Sampler:
         self.seed = seed
         self.random = random.Random(f"{id}:{seed}")
         self.drawer = Drawer(goal.atoms, goal.parts, self.random, moderate=_needs_moderation(goal))
+        self.makers = [(node.func, Maker(node, goal.atoms)) for node in goal.functions]
+        self.ends: dict[Any, list[tuple[Isolated, str]]] = {}
+        for bound in goal.bounds:
+            for one in bound.isolated:
+                self.ends.setdefault(one.atom, []).append((one, bound.relation.sign))
+        self.openings = [_open(goal, frozenset()), *(_open(goal, setting.items) for setting in goal.settings)]
         self.attempt = 0
         self.work = Work(limit=_LIMIT)
 
@@ -87,23 +96,24 @@ class Sampler:
         generator = self.random
         again, number = divmod(self.attempt, _POOL)
         functions = {
-            node.func: drawn(node, f"{self.seed}:{again // _ROUNDS}:{k}", number, self.goal.atoms)
-            for k, node in enumerate(self.goal.functions)
+            function: maker.drawn(f"{self.seed}:{again // _ROUNDS}:{k}", number)
+            for k, (function, maker) in enumerate(self.makers)
         }
         if self.goal.solutions and generator.random() < 0.75:
             functions.update(_without_circles(generator.sample(self.goal.solutions, len(self.goal.solutions))))
-        settled, letters = self.goal.definitions, {}
+        opening, letters = self.openings[0], {}
         if self.goal.settings and generator.random() < 0.9:
-            setting = generator.choice(self.goal.settings)
+            number = generator.choice(range(len(self.goal.settings)))
+            opening, setting = self.openings[1 + number], self.goal.settings[number]
             functions.update(setting.functions)
-            settled, letters = settled | setting.items, dict(setting.letters)
+            letters = dict(setting.letters)
             letters.update({letter: self._within_range(interval) for letter, interval in setting.ranges})
         functions.update(self.goal.defined)
         functions.update({function: draw(self.random) for function, draw in self.goal.limited})
         defined, taken = self._definitions(letters)
         values = self.drawer.values(self.attempt, taken)
         values[START] = generator.choice((Fraction(1), Fraction(1, 3), Fraction(5), Fraction(1, 50)))
-        return Point(values, defined, functions, settled, self.work)
+        return Point(values, defined, functions, opening, self.work)
 
     def _within_range(self, interval: Range) -> sp.Rational:
         """A value of a letter for which a field satisfies its assumptions: mostly the best one."""
@@ -123,7 +133,7 @@ class Sampler:
             if sign in ("<", ">", "!=") or (sign != "=" and self.random.random() < 0.55):
                 continue
             choices = [one for one in bound.isolated if one.atom not in found]
-            choices.sort(key=lambda one: not one.factor.is_number)
+            choices.sort(key=lambda one: not one.plain)
             for one in choices:
                 if not _reaches(one.bound, one.atom, found):
                     found[one.atom] = one.bound
@@ -147,7 +157,7 @@ class Sampler:
             evaluator = point.evaluator(50)
             broken = [bound for bound in self.goal.bounds if not holds(bound.relation, evaluator)]
             if not broken:
-                return point if satisfied(open_in(self.goal, point), evaluator, dense=False) else None
+                return point if satisfied(point.open, evaluator, dense=False) else None
             changed = self._repaired(point, broken, evaluator)
             if changed is None:
                 return None
@@ -170,20 +180,17 @@ class Sampler:
         low: Number | None = None
         high: Number | None = None
         numbers, strict = evaluator.calculus.numbers, False
-        for bound in self.goal.bounds:
-            for one in bound.isolated:
-                if one.atom != atom or bound.relation.sign == "!=":
-                    continue
-                end = evaluator.number(one.bound, evaluator.point)
-                sign = numbers.sign(evaluator.number(one.factor, evaluator.point))
-                strict = strict or bound.relation.sign in ("<", ">")
-                upper = (bound.relation.sign in ("<", "<=")) == (sign > 0)
-                if (upper or bound.relation.sign == "=") and (high is None or numbers.sign(numbers.sub(end, high)) < 0):
-                    high = end
-                if (not upper or bound.relation.sign == "=") and (
-                    low is None or numbers.sign(numbers.sub(end, low)) > 0
-                ):
-                    low = end
+        for one, said in self.ends.get(atom, ()):
+            if said == "!=":
+                continue
+            end = evaluator.number(one.bound, evaluator.point)
+            sign = numbers.sign(evaluator.number(one.factor, evaluator.point))
+            strict = strict or said in ("<", ">")
+            upper = (said in ("<", "<=")) == (sign > 0)
+            if (upper or said == "=") and (high is None or numbers.sign(numbers.sub(end, high)) < 0):
+                high = end
+            if (not upper or said == "=") and (low is None or numbers.sign(numbers.sub(end, low)) > 0):
+                low = end
         return self.drawer.between(atom, low, high, strict)
 
     def _tried(self, point: Point, bound: Bound, atoms: list[Any]) -> Point | None:
@@ -199,9 +206,9 @@ class Sampler:
         return None
 
 
-def open_in(goal: Prepared, point: Point) -> tuple[ForAll, ...]:
-    """The quantified assumptions of which it has to be looked up whether they hold at the point."""
-    return tuple(item for item in goal.quantified if item not in point.settled)
+def _open(goal: Prepared, settled: frozenset[ForAll]) -> tuple[ForAll, ...]:
+    """The quantified assumptions that hold neither by definition nor with what is ``settled``."""
+    return tuple(item for item in goal.quantified if item not in goal.definitions and item not in settled)
 
 
 def _without_circles(solutions: list[tuple[Any, Concrete]]) -> dict[Any, Concrete]:
@@ -224,17 +231,18 @@ def _without_circles(solutions: list[tuple[Any, Concrete]]) -> dict[Any, Concret
 
 def _reaches(expression: sp.Expr, atom: Any, found: Mapping[Any, sp.Expr]) -> bool:
     """Whether the expression depends on the atom, also through what was defined before."""
-    if expression.has(atom):
+    inside = tree(expression).letters
+    if tree(atom) in inside:
         return True
-    return any(expression.has(other) and _reaches(inner, atom, found) for other, inner in found.items())
+    return any(tree(other) in inside and _reaches(inner, atom, found) for other, inner in found.items())
 
 
 def _ordered(found: Mapping[Any, sp.Expr]) -> tuple[tuple[Any, sp.Expr], ...]:
     """Each definition after those that it depends on."""
-    rest, order = dict(found), []
+    rest, order = {tree(atom): tree(body) for atom, body in found.items()}, []
     while rest:
-        atom = next(one for one, body in rest.items() if not any(body.has(other) for other in rest if other != one))
-        order.append((atom, rest.pop(atom)))
+        atom = next(one for one, body in rest.items() if not body.letters & (rest.keys() - {one}))
+        order.append((atom.expression, rest.pop(atom).expression))
     return tuple(order)
 
 

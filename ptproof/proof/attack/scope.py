@@ -3,36 +3,85 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any, Protocol
 
 import sympy as sp
 
 from ptproof.proof.attack.numbers import Number
-from ptproof.proof.attack.series import Calculus, Value
-
-BINDERS = (sp.Derivative, sp.Integral, sp.Limit, sp.Sum, sp.Product, sp.Subs)
+from ptproof.proof.attack.series import Calculus, Series, Value
+from ptproof.proof.attack.tree import Node, tree
 
 
 @dataclass(slots=True)
 class Scope:
-    """The values of the symbols that an expression may contain, and what was evaluated with them before."""
+    """Values of letters, and of what was evaluated with them before.
 
-    symbols: Mapping[Any, Value]
-    known: dict[Any, Value] = field(default_factory=dict)
+    Attributes
+    ----------
+    known
+        The value of each node that has one here.
+    given
+        The letters that are given a value here.
+    outer
+        The scope around this one: what is free of the letters that are given here is worth the same there.
+    """
+
+    known: dict[Node, Value]
+    given: frozenset[Node]
+    outer: Scope | None = None
+
+    @classmethod
+    def of(cls, values: Mapping[Any, Value]) -> Scope:
+        """The scope in which these symbols and applied functions have values, and no others."""
+        known = {tree(letter): value for letter, value in values.items()}
+        return cls(known, frozenset(known))
+
+    def joined(self, letter: Any, value: Value) -> Scope:
+        """The same values and one more, and nothing evaluated yet: of what has no value before, much may depend."""
+        known = {node: self.known[node] for node in self.given} | {tree(letter): value}
+        return Scope(known, frozenset(known))
 
     def with_values(self, values: Mapping[Any, Value]) -> Scope:
         """The same with other symbols, or with other values of the same ones."""
-        return Scope({**self.symbols, **values})
+        return self.around({tree(letter): value for letter, value in values.items()})
+
+    def around(self, known: dict[Node, Value]) -> Scope:
+        """The same with values of these letters by their nodes."""
+        return Scope(known, frozenset(known), self)
+
+    def value_of(self, letter: Node) -> Value | None:
+        """The value that a letter is given here, or around."""
+        scope: Scope | None = self
+        while scope is not None:
+            if letter in scope.given:
+                return scope.known[letter]
+            scope = scope.outer
+        return None
+
+    @property
+    def moves(self) -> bool:
+        """Whether a derivative is being taken: a letter has a series for a value."""
+        scope: Scope | None = self
+        while scope is not None:
+            if any(type(scope.known[letter]) is Series for letter in scope.given):
+                return True
+            scope = scope.outer
+        return False
 
 
 class Valuer(Protocol):
     """Whoever gives expressions values."""
 
     calculus: Calculus
+    work: Work
 
     def number(self, expression: sp.Expr, scope: Scope) -> Number:
         """The value where no derivative is taken."""
+        ...
+
+    def plain(self, node: Node, scope: Scope) -> Number:
+        """The same of an expression that was taken apart before."""
         ...
 
 
@@ -42,6 +91,11 @@ class Work:
 
     steps: int = 0
     limit: int = 10**9
+
+    @property
+    def left(self) -> int:
+        """How many more may be."""
+        return self.limit - self.steps
 
 
 class Inadmissible(Exception):

@@ -38,9 +38,13 @@ class Calculus:
         self.numbers = Arithmetic(digits)
 
     def add(self, terms: list[Value]) -> Value:
+        for term in terms:
+            if type(term) is Series:
+                return self._sum(terms)
+        return self.numbers.add(terms)
+
+    def _sum(self, terms: list[Value]) -> Value:
         series = [term for term in terms if type(term) is Series]
-        if not series:
-            return self.numbers.add(terms)
         tag = max(term.tag for term in series)
         order = next(len(term.terms) for term in series if term.tag == tag)
         rows: list[list[Value]] = [[] for _ in range(order)]
@@ -70,6 +74,16 @@ class Calculus:
             return Series(left.tag, tuple(self.mul(term, right) for term in left.terms))
         order = len(left.terms)
         return Series(left.tag, tuple(self._convolution(left.terms, right.terms, k) for k in range(order)))
+
+    def product(self, factors: list[Value]) -> Value:
+        """The product of at least one factor, from left to right."""
+        total = factors[0]
+        for factor in factors[1:]:
+            if type(total) is Series or type(factor) is Series:
+                total = self.mul(total, factor)
+            else:
+                total = self.numbers.mul(total, factor)
+        return total
 
     def _convolution(self, left: tuple[Value, ...], right: tuple[Value, ...], k: int) -> Value:
         pairs = [(left[j], right[k - j]) for j in range(k + 1)]
@@ -162,11 +176,7 @@ class Calculus:
 
     def sine_cosine(self, value: Value) -> tuple[Value, Value]:
         if not isinstance(value, Series):
-            return (
-                (ZERO, ONE)
-                if _nothing(value)
-                else (self.numbers.smooth(Ball.sin, value), self.numbers.smooth(Ball.cos, value))
-            )
+            return (ZERO, ONE) if _nothing(value) else self.numbers.sine_cosine(value)
         first = self.sine_cosine(value.terms[0])
         sines, cosines = [first[0]], [first[1]]
         for k in range(1, len(value.terms)):
@@ -174,6 +184,16 @@ class Calculus:
             sines.append(self.add([self.mul(rate, cosines[k - j]) for j, rate in enumerate(rates, 1)]))
             cosines.append(self.neg(self.add([self.mul(rate, sines[k - j]) for j, rate in enumerate(rates, 1)])))
         return Series(value.tag, tuple(sines)), Series(value.tag, tuple(cosines))
+
+    def sine(self, value: Value) -> Value:
+        if isinstance(value, Series):
+            return self.sine_cosine(value)[0]
+        return ZERO if _nothing(value) else self.numbers.smooth(Ball.sin, value)
+
+    def cosine(self, value: Value) -> Value:
+        if isinstance(value, Series):
+            return self.sine_cosine(value)[1]
+        return ONE if _nothing(value) else self.numbers.smooth(Ball.cos, value)
 
     def arctangent(self, value: Value) -> Value:
         if not isinstance(value, Series):

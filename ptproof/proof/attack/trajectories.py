@@ -5,12 +5,13 @@ from __future__ import annotations
 import itertools
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ptproof.proof.attack.functions import Concrete, closed_forms, concretely
+from ptproof.proof.attack.functions import VALUE, Concrete, closed_forms, concretely, put
 from ptproof.proof.statement import ForAll
 
 
@@ -28,34 +29,36 @@ def motions(items: Iterable[ForAll], functions: Mapping[Any, Concrete], letters:
     One state moves and the others are 0, where that satisfies their equations, maybe only if some letters that may be
     any number are 0. The constant of integration is the symbol ``START``.
     """
-    rates = {
-        state: concretely(rate, functions).subs(dict(letters), simultaneous=True) for state, rate in equations(items)
-    }
-    found: list[Motion] = []
+    rates = {state: put(concretely(rate, functions), letters) for state, rate in equations(items)}
+    return list(_motions(tuple(rates.items())))
+
+
+@lru_cache(maxsize=512)
+def _motions(system: tuple[tuple[AppliedUndef, sp.Expr], ...]) -> tuple[Motion, ...]:
+    rates, found = dict(system), []
     if any(rate.has(sp.Derivative, sp.Subs) for rate in rates.values()):
-        return found
+        return ()
     for moving in rates:
         rest = {other: sp.S.Zero for other in rates if other != moving}
         if not all(map(_may_vanish, rest)) or not _may_be_positive(moving):
             continue
         zeros: dict[Any, sp.Expr] = {}
         for other in rest:
-            zeros.update(_at_rest(rates[other].subs(rest, simultaneous=True).subs(zeros)))
-        if any(rates[other].subs(rest, simultaneous=True).subs(zeros) != 0 for other in rest):
+            zeros.update(_at_rest(put(put(rates[other], rest), zeros)))
+        if any(put(put(rates[other], rest), zeros) != 0 for other in rest):
             continue
         (time,) = moving.args
-        value = sp.Dummy("value", positive=True)
-        right = rates[moving].subs({**rest, moving: value}, simultaneous=True).subs(zeros)
-        right = sp.expand_mul(right.xreplace({sp.Abs(value): value}))
+        right = put(put(rates[moving], {**rest, moving: VALUE}), zeros)
+        right = sp.expand_mul(right.xreplace({sp.Abs(VALUE): VALUE}))
         right = sp.Add(*(sp.powsimp(term, combine="exp") for term in sp.Add.make_args(right)))
         if right.has(AppliedUndef, sp.Derivative, sp.Subs):
             continue
         place = sp.Symbol("_argument0", real=True)
         still = tuple((other.func, Concrete((place,), sp.S.Zero)) for other in rest)
-        for form in closed_forms(right, value, time, (1,)):
+        for form in closed_forms(right, VALUE, time, (1,)):
             moved = (moving.func, Concrete((place,), form.xreplace({time: place})))
             found.append(Motion((moved, *still), tuple(zeros.items())))
-    return found
+    return tuple(found)
 
 
 def _at_rest(rate: sp.Expr) -> dict[Any, sp.Expr]:

@@ -28,6 +28,8 @@ class Drawer:
         self.random = generator
         self.moderate = moderate
         self.choices = {atom: self._choices(atom) for atom in self.atoms}
+        self.whole = {atom: bool(atom.is_integer) for atom in self.atoms}
+        self.signs = {atom: _signs(atom) for atom in self.atoms}
 
     def _choices(self, atom: Any) -> list[Fraction]:
         pool = MODERATE if self.moderate else AWKWARD
@@ -63,14 +65,11 @@ class Drawer:
 
     def _generic(self, atom: Any) -> Fraction:
         """A rational of ordinary size, of the declared kind."""
-        if atom.is_integer:
+        if self.whole[atom]:
             return self._any_whole(atom)
         value = Fraction(self.random.randint(1, 40), self.random.choice((1, 2, 3, 4, 5, 7, 10, 11)))
-        if atom.is_positive or atom.is_nonnegative:
-            return value
-        if atom.is_negative or atom.is_nonpositive:
-            return -value
-        return value * self.random.choice((1, -1))
+        signs = self.signs[atom]
+        return value * (signs[0] if len(signs) == 1 else self.random.choice(signs))
 
     def _any_whole(self, atom: Any) -> Fraction:
         return self.random.choice(self.choices[atom]) if self.choices[atom] else Fraction(1)
@@ -108,6 +107,13 @@ class Drawer:
         ]
         chosen = self.random.sample(self.choices[atom], min(6, len(self.choices[atom])))
         return [candidate for candidate in (*scaled, *chosen) if candidate != value and fits_kind(atom, candidate)]
+
+
+def _signs(atom: Any) -> tuple[int, ...]:
+    """Of ordinary values, in the order in which they are drawn."""
+    if atom.is_positive or atom.is_nonnegative:
+        return (1,)
+    return (-1,) if atom.is_negative or atom.is_nonpositive else (1, -1)
 
 
 def _rational(end: Number) -> Fraction:

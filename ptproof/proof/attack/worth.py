@@ -31,7 +31,7 @@ class Place:
         self, values: Mapping[Any, Number], functions: Mapping[Any, Concrete] | None = None, digits: int = 50
     ) -> None:
         self._evaluator = Evaluator(digits, functions or {})
-        self._evaluator.point = Scope(
+        self._evaluator.point = Scope.of(
             {key: value if type(value) is Ball else exact(value) for key, value in values.items()}
         )
         self.calculus: Calculus = self._evaluator.calculus
