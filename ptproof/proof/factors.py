@@ -38,7 +38,7 @@ def factored(expression: sp.Expr) -> sp.Expr:
 
 
 def _irreducible(polynomial: sp.Expr) -> tuple[int, list[tuple[sp.Expr, int]]] | None:
-    """A sum as an integer and irreducible polynomials with their multiplicities; None if it is no integer polynomial."""
+    """A sum as an integer and irreducible polynomials with their multiplicities; None for another."""
     if not polynomial.is_Add:
         return None
     try:

@@ -1,16 +1,17 @@
-"""Rewriting of expressions part by part, each part once: what is claimed and assumed has most of its parts in common."""
+"""Rewriting of expressions part by part, each part once: what is claimed and assumed has most parts in common."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from functools import lru_cache
+from typing import Any
 
 import sympy as sp
 
 _KEPT = 2**15
 
 
-def everywhere(kinds: type | tuple[type, ...], change: Callable[[sp.Basic], sp.Basic]) -> Callable[[sp.Expr], sp.Expr]:
+def everywhere(kinds: type[Any] | tuple[type[Any], ...], change: Callable[[Any], Any]) -> Callable[[sp.Expr], sp.Expr]:
     """As SymPy's ``replace`` of every node of these kinds by ``change`` of it; what came of a part is remembered.
 
     >>> squared = everywhere(sp.sin, lambda node: node**2)
@@ -30,7 +31,7 @@ def everywhere(kinds: type | tuple[type, ...], change: Callable[[sp.Basic], sp.B
 
 @lru_cache(maxsize=_KEPT)
 def carried_out(node: sp.Basic) -> sp.Basic:
-    """As SymPy's ``doit(integrals=False)``: derivatives are taken and values put in; of each part that is remembered."""
+    """As SymPy's ``doit(integrals=False)``: derivatives are taken and values put in; each part's is remembered."""
     if not node.args:
         return node
     if isinstance(node, sp.Add | sp.Mul):

@@ -110,7 +110,8 @@ def solver_by(tactic: str) -> Any:
 
 @cache
 def _strategy(tactic: str) -> Any:
-    return library().Then("simplify", "purify-arith", "propagate-values", "solve-eqs", "tseitin-cnf", tactic)
+    before = () if tactic == "smt" else ("simplify", "purify-arith", "propagate-values", "solve-eqs", "tseitin-cnf")
+    return library().Then(*before, tactic) if before else library().Tactic(tactic)
 
 
 def known_of_value(symbol: sp.Symbol, variable: Any) -> list[Any]:
