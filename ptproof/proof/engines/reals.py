@@ -37,7 +37,6 @@ _SECONDS_TO_CONTRADICT = 0.5
 _SECONDS_TOLD = 4.0
 _SECONDS_ALONE = 0.5  # most of what follows without facts does so in a twentieth of a second
 _SECONDS_TO_BE_DEFINED = 5.0
-_STEPS = 20_000  # a few milliseconds
 _ABSURD = Relation(sp.S.One, "<", sp.S.Zero)
 
 
@@ -150,14 +149,7 @@ def _asked(problem: _Problem, told_facts: bool, seconds: float) -> Answer:
     z3, tried = library(), []
     # What the facts say may be enough, whatever the roots in them are roots of.
     told, most = bool(problem.generators.relations and told_facts), int(1000 * min(seconds / 5, _SECONDS_TOLD))
-    glances: dict[bool, Any] = {}
-    for opaque in (True, False) if told else (False,):
-        glances[opaque] = problem.glance(opaque=opaque)
-        if glances[opaque] == z3.unsat:
-            return Answer(True, "z3 (smt)")
-    if glances[False] == z3.sat:
-        return Answer(False, "z3 (smt) finds values of the generators that satisfy the negation")
-    if told and glances[True] != z3.sat and problem.solver("default", most, opaque=True).check() == z3.unsat:
+    if told and problem.solver("default", most, opaque=True).check() == z3.unsat:
         return Answer(True, "z3 (default)")
     for tactic, share in (("default", 0.5), ("qfnra-nlsat", 0.5)):
         context = problem.solver(tactic, int(1000 * seconds * share))
@@ -199,15 +191,6 @@ class _Problem:
         self.choices = [(symbol, choice) for symbol, choice in found if choice is not None]
         self.pieces = {symbol: self.generators.pieces(symbol) for symbol in self.generators.meaning}
         self._asserted: dict[bool, list[Any]] = {}
-
-    def glance(self, *, opaque: bool) -> Any:
-        """What z3 says after some steps, counted and not timed, by the strategy that it is quickest to make ready.
-
-        Of ten questions it answers nine, either way.
-        """
-        solver = self.solver("smt", int(1000 * SECONDS), opaque=opaque)
-        solver.set("rlimit", _STEPS)
-        return solver.check()
 
     def solver(self, tactic: str, milliseconds: int, *, opaque: bool = False) -> Any:
         """What z3 is asked, for one of its strategies; ``opaque`` leaves out what is known of roots and angles."""

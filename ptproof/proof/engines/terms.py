@@ -110,8 +110,7 @@ def solver_by(tactic: str) -> Any:
 
 @cache
 def _strategy(tactic: str) -> Any:
-    before = () if tactic == "smt" else ("simplify", "purify-arith", "propagate-values", "solve-eqs", "tseitin-cnf")
-    return library().Then(*before, tactic) if before else library().Tactic(tactic)
+    return library().Then("simplify", "purify-arith", "propagate-values", "solve-eqs", "tseitin-cnf", tactic)
 
 
 def known_of_value(symbol: sp.Symbol, variable: Any) -> list[Any]:
