@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import Any
 
 import sympy as sp
@@ -193,6 +194,7 @@ def replaced(expression: sp.Expr, values: Mapping[sp.Symbol, sp.Expr]) -> sp.Exp
     return expression.subs(values, simultaneous=True) if bound else expression.xreplace(values)
 
 
+@lru_cache(maxsize=8192, typed=True)
 def differentiated(expression: sp.Expr) -> sp.Expr:
     """Carry out derivatives and substitutions and nothing else: SymPy's limits, sums and integrals are not trusted."""
     masks: dict[sp.Expr, sp.Expr] = {}

@@ -12,7 +12,7 @@ from ptproof.errors import InputError
 from ptproof.proof.claim import Claim
 from ptproof.proof.deciding import run_one
 from ptproof.proof.load import claims_in, load
-from ptproof.proof.statement import Prose
+from ptproof.proof.statement import Prose, Runs
 from ptproof.proof.verdict import Evidence, Verdict
 from ptproof.reading.hashes import foreign, opened
 from ptproof.reading.limits import Answered, OutOfTime, Stop, Unanswered, Why, Workers, within
@@ -67,8 +67,8 @@ def in_workers(
     claims: Sequence[Claim], files: tuple[str, ...], workers: int, timeout: float
 ) -> Generator[Found, None, None]:
     """Each claim with its evidence, as they finish; a worker over its time is killed, and only its claim is lost."""
-    # What may take longest comes first: the runs behind an observation.
-    ordered = sorted(claims, key=lambda claim: not isinstance(claim.statement, Prose))
+    # What may take longest comes first: the runs behind an observation, and those that are enclosed.
+    ordered = sorted(claims, key=lambda claim: not isinstance(claim.statement, Prose | Runs))
     by_id = {claim.id: claim for claim in ordered}
     if not by_id:
         return

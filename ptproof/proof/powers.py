@@ -7,6 +7,9 @@ from functools import lru_cache
 
 import sympy as sp
 
+from ptproof.proof.factors import factored
+from ptproof.proof.rewriting import everywhere
+
 
 def symbolic_power(node: sp.Expr) -> tuple[sp.Expr, sp.Expr] | None:
     """Base and exponent of a power whose exponent is not an integer, the exponential among them; None for the rest."""
@@ -17,7 +20,7 @@ def symbolic_power(node: sp.Expr) -> tuple[sp.Expr, sp.Expr] | None:
     return None
 
 
-@lru_cache(maxsize=4096)
+@lru_cache(maxsize=2**14)
 def exponent_terms(exponent: sp.Expr, common: sp.Expr) -> tuple[tuple[sp.Expr, sp.Rational], ...]:
     """The terms of ``exponent`` times ``common``, each a monomial with its rational coefficient."""
     numerator = sp.expand(sp.cancel(exponent * common))
@@ -34,53 +37,63 @@ def reduced(expression: sp.Expr) -> sp.Expr:
     >>> reduced((1 + x ** (2 * n / (2 * n + 2))) ** n)
     (x**(n/(n + 1)) + 1)**n
     """
-    return expression.replace(
-        lambda node: isinstance(node, sp.Pow) and bool(node.exp.free_symbols) and node.exp.is_rational_function(),
-        lambda node: node.base ** sp.cancel(node.exp),
-    )
+    return _reduced(expression)
 
 
-@lru_cache(maxsize=4096)
+def _lowest(node: sp.Pow) -> sp.Expr:
+    exponent = _cancelled(node.exp)
+    return node if exponent == node.exp else node.base**exponent
+
+
+@lru_cache(maxsize=2**14)
+def _cancelled(exponent: sp.Expr) -> sp.Expr:
+    """An exponent in lowest terms, if it has symbols and is a rational function of them."""
+    if exponent.is_Symbol or not exponent.free_symbols or not exponent.is_rational_function():
+        return exponent
+    return sp.cancel(exponent)
+
+
+_reduced = everywhere(sp.Pow, _lowest)
+
+
+@lru_cache(maxsize=2**14)
 def fraction(exponent: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
     """Numerator and denominator of an exponent."""
     return sp.fraction(sp.together(exponent))
 
 
-@lru_cache(maxsize=4096)
-def _factored(base: sp.Expr) -> sp.Expr:
-    return sp.factor(sp.together(base))
-
-
-@lru_cache(maxsize=4096)
 def split_powers(expression: sp.Expr) -> sp.Expr:
     """Give every power a base that is one positive factor where SymPy's assumptions allow to split it."""
+    return _splitted(expression)
 
-    def split(node: sp.Expr) -> sp.Expr:
-        base, exponent = node.base, node.exp
-        if exponent.is_Integer:
-            return node
-        if isinstance(base, sp.Pow) and base.base.is_positive and base.exp.is_real:
-            return split(sp.Pow(base.base, sp.expand(base.exp * exponent), evaluate=False))
-        if isinstance(base, sp.exp) and base.args[0].is_real:
-            return sp.exp(base.args[0] * exponent)
-        if not base.is_Symbol and not base.is_number:
-            base = _factored(base)
-        positive = [factor for factor in sp.Mul.make_args(base) if factor.is_positive]
-        rest = sp.Mul(*(factor for factor in sp.Mul.make_args(base) if not factor.is_positive))
-        factors: list[sp.Expr] = []
-        for factor in positive:
-            inner, power = factor.as_base_exp()
-            if factor.is_Rational and factor.q != 1:
-                factors += [sp.Integer(factor.p) ** exponent, sp.Integer(factor.q) ** (-exponent)]
-            elif power != 1 and inner.is_positive and power.is_real:
-                factors.append(inner ** sp.expand(power * exponent))
-            else:
-                factors.append(factor**exponent)
-        if rest != 1:
-            factors.append(rest**exponent)
-        return sp.Mul(*factors)
 
-    return expression.replace(lambda node: isinstance(node, sp.Pow), split)
+def _split(node: sp.Pow) -> sp.Expr:
+    base, exponent = node.base, node.exp
+    if exponent.is_Integer:
+        return node
+    if isinstance(base, sp.Pow) and base.base.is_positive and base.exp.is_real:
+        return _split(sp.Pow(base.base, sp.expand(base.exp * exponent), evaluate=False))
+    if isinstance(base, sp.exp) and base.args[0].is_real:
+        return sp.exp(base.args[0] * exponent)
+    if not base.is_Symbol and not base.is_number:
+        base = factored(base)
+    positive = [factor for factor in sp.Mul.make_args(base) if factor.is_positive]
+    rest = sp.Mul(*(factor for factor in sp.Mul.make_args(base) if not factor.is_positive))
+    factors: list[sp.Expr] = []
+    for factor in positive:
+        inner, power = factor.as_base_exp()
+        if factor.is_Rational and factor.q != 1:
+            factors += [sp.Integer(factor.p) ** exponent, sp.Integer(factor.q) ** (-exponent)]
+        elif power != 1 and inner.is_positive and power.is_real:
+            factors.append(inner ** sp.expand(power * exponent))
+        else:
+            factors.append(factor**exponent)
+    if rest != 1:
+        factors.append(rest**exponent)
+    return sp.Mul(*factors)
+
+
+_splitted = everywhere(sp.Pow, _split)
 
 
 def positive_multiples(exponents: Sequence[sp.Expr]) -> bool:

@@ -8,6 +8,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from ptproof.proof.powers import reduced
+from ptproof.proof.rewriting import carried_out, everywhere
 
 _COMPARISONS = (sp.LessThan, sp.StrictLessThan, sp.GreaterThan, sp.StrictGreaterThan)
 
@@ -33,26 +34,17 @@ def prepare(expression: sp.Expr) -> sp.Expr:
     if expression.has(sp.Limit, sp.Sum, sp.Product):
         # ``doit`` would ask SymPy for it, hint or no hint, and SymPy's answers are not trusted here.
         raise NotAlgebraic("a limit, a sum or a product over an index, about which exact algebra knows nothing")
-    expression = expression.doit(integrals=False)
+    expression = carried_out(expression)
     if expression.has(sp.Float):
         raise NotAlgebraic("a floating-point number; write it as a fraction or as decimal text")
     if expression.has(*_WRITTEN):
         for function, written in _WRITTEN.items():
             expression = expression.replace(function, written)
     # One function at two equal arguments has to become one generator.
-    if not all(argument.is_Symbol for node in expression.atoms(AppliedUndef) for argument in node.args):
-        expression = expression.replace(
-            lambda node: isinstance(node, AppliedUndef), lambda node: node.func(*map(_factored, node.args))
-        )
-    expression = reduced(expression)
-    if not expression.has(sp.sin, sp.cos):
-        return expression
-    return expression.replace(
-        lambda node: isinstance(node, sp.sin | sp.cos), lambda node: _angle(node.func, node.args[0])
-    )
+    return _angles(reduced(_arguments(expression)))
 
 
-@lru_cache(maxsize=4096)
+@lru_cache(maxsize=2**14)
 def _factored(argument: sp.Expr) -> sp.Expr:
     return argument if argument.is_Symbol else sp.factor(sp.cancel(sp.together(argument)))
 
@@ -80,3 +72,7 @@ def _angle(function: type, argument: sp.Expr) -> sp.Expr:
     numerator, denominator = sp.fraction(sp.together(argument))
     terms = [sp.cancel(term / denominator) for term in sp.Add.make_args(sp.expand(numerator))]
     return sp.expand_trig(function(sp.Add(*terms)))
+
+
+_arguments = everywhere(AppliedUndef, lambda node: node.func(*map(_factored, node.args)))
+_angles = everywhere((sp.sin, sp.cos), lambda node: _angle(node.func, node.args[0]))

@@ -43,9 +43,10 @@ class Relation:
             raise InputError(f"the two sides of a relation have the shapes {shapes[0]} and {shapes[1]}")
         if shapes[0] is not None and self.sign != "=":
             raise InputError("columns can be compared by = only")
-        for node in sp.Tuple(self.left, self.right).atoms(sp.Subs):
-            if not all(isinstance(variable, sp.Symbol) for variable in node.variables):
-                raise InputError(f"{node} puts a value in place of an expression; only a symbol can be given one")
+        if self.left.has(sp.Subs) or self.right.has(sp.Subs):
+            for node in sp.Tuple(self.left, self.right).atoms(sp.Subs):
+                if not all(isinstance(variable, sp.Symbol) for variable in node.variables):
+                    raise InputError(f"{node} puts a value in place of an expression; only a symbol can be given one")
 
     def components(self) -> tuple[Relation, ...]:
         """The scalar relations that this one says, entry by entry."""

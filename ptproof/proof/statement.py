@@ -212,12 +212,17 @@ def expressions_of(statements: Sequence[Statement | Assumption]) -> Iterator[sp.
 
 def free_symbols(statements: Sequence[Statement | Assumption]) -> set[sp.Symbol]:
     """The symbols that occur free in the expressions, bound variables of integrals and limits excepted."""
-    return set().union(*(expression.free_symbols for expression in expressions_of(statements)))
+    return set().union(*map(_free, expressions_of(statements)))
 
 
 def undefined_functions(statements: Sequence[Statement | Assumption]) -> set[AppliedUndef]:
     """The applied undefined functions that occur."""
     return set().union(*map(_applied, expressions_of(statements)))
+
+
+@lru_cache(maxsize=8192)
+def _free(expression: sp.Expr) -> frozenset[sp.Symbol]:
+    return frozenset(expression.free_symbols)
 
 
 @lru_cache(maxsize=8192)

@@ -26,6 +26,7 @@ from ptproof.proof.declarations import is_plainly_real
 from ptproof.proof.engines.lipschitz import is_lipschitz, is_polynomial
 from ptproof.proof.engines.quantified import at_point, instances, mask_positive
 from ptproof.proof.engines.reals import follows
+from ptproof.proof.factors import factored
 from ptproof.proof.facts import Fact, usable
 from ptproof.proof.signs import vanishes
 from ptproof.proof.statement import ForAll, Implication, Relation, ge, gt, le, relations_of
@@ -246,7 +247,7 @@ def _regular(
     expression: sp.Expr, interval: _Interval, hints: Sequence[sp.Expr], choices: tuple[type, ...] = ()
 ) -> None:
     """No pole and no root of a negative number on the interval: every such base is shown positive there."""
-    shown = {sp.factor(sp.together(item)) for item in hints}
+    shown = {factored(item) for item in hints}
     for node in sp.preorder_traversal(expression):
         if not node.has(interval.s):
             continue
@@ -254,7 +255,7 @@ def _regular(
             raise _Failed(f"{node} is not known to be regular in {interval.s}")
         if not isinstance(node, sp.Pow) or (node.exp.is_integer and node.exp.is_nonnegative):
             continue
-        base = sp.factor(sp.together(node.base))
+        base = factored(node.base)
         numerator, denominator = sp.fraction(base)
         if denominator.has(interval.s) and not interval.positive(denominator):
             raise _Failed(f"{denominator} may vanish, and nothing shows that it is positive")

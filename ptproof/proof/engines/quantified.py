@@ -7,8 +7,10 @@ from the goal's own assumptions. What is left, its plain assumptions, z3 dischar
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+import itertools
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import replace
+from functools import lru_cache
 from typing import Any, TypeAlias
 
 import sympy as sp
@@ -26,6 +28,7 @@ from ptproof.proof.statement import (
     Relation,
     Runs,
     Smooth,
+    free_symbols,
     gt,
     plain,
     relations_of,
@@ -80,7 +83,9 @@ def entailed(needed: ForAll, goal: Goal, facts: Sequence[Fact] = (), along: Alon
     if needed in goal.assumptions:
         return Answer(True, "it is assumed")
     # Fresh symbols: nothing that is assumed about a free symbol of the same name may be used.
-    values = {variable: like(variable) for variable in needed.variables}
+    said_here = [part for fact in facts for part in (*fact.says.hypotheses, fact.says.conclusion)]
+    taken = free_symbols([needed, goal.statement, *goal.assumptions, *said_here])
+    values = {variable: _arbitrary(variable, taken) for variable in needed.variables}
     point = sp.Tuple(*values.values()) if len(values) > 1 else next(iter(values.values()))
     there = Substitution(values)
     inside = replace(goal, assumptions=(*goal.assumptions, *map(there.relation, needed.domain)))
@@ -92,6 +97,19 @@ def entailed(needed: ForAll, goal: Goal, facts: Sequence[Fact] = (), along: Alon
             if here is not None:
                 known.append(here)
     return follows(there.relation(needed.relation), known, said, seconds=_SECONDS)
+
+
+def _arbitrary(variable: sp.Symbol, taken: Collection[sp.Symbol]) -> sp.Symbol:
+    """A symbol of the variable's kind about which nothing is said yet; the same one where it can be.
+
+    What a proof asks about an arbitrary value is then the question of another proof, and is answered once.
+    """
+    return next(letter for number in itertools.count() if (letter := _like(variable, number)) not in taken)
+
+
+@lru_cache(maxsize=1024)
+def _like(variable: sp.Symbol, number: int) -> sp.Symbol:
+    return like(variable)
 
 
 def specialise(
@@ -156,10 +174,15 @@ def mask_positive(value: sp.Expr, known: Sequence[Relation], facts: Sequence[Imp
         bases = {node.base for node in value.atoms(sp.Pow) if node.base.is_positive is None and node.base.is_real}
         for base in sorted(bases - refused, key=sp.count_ops):
             if follows(gt(base, 0), known, facts, seconds=_SECONDS).shown:
-                symbol = sp.Dummy("positive", positive=True)
+                symbol = _positive(base)
                 powers = [node for node in value.atoms(sp.Pow) if node.base == base]
                 value = value.xreplace({node: symbol**node.exp for node in powers})
                 break
             refused.add(base)
         else:
             return value
+
+
+@lru_cache(maxsize=1024)
+def _positive(base: sp.Expr) -> sp.Symbol:
+    return sp.Dummy("positive", positive=True)

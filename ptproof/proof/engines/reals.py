@@ -17,9 +17,18 @@ import sympy as sp
 from ptproof.proof.algebra import Generators, NotAlgebraic
 from ptproof.proof.claim import Goal, engine
 from ptproof.proof.definedness import Obligation, domain_of
-from ptproof.proof.engines.terms import asked, known_of, library, term, variable_of
+from ptproof.proof.engines.terms import (
+    asked,
+    comparison_term,
+    implication_term,
+    known_of,
+    known_of_value,
+    library,
+    solver_by,
+    term,
+)
 from ptproof.proof.facts import Fact, is_said, usable
-from ptproof.proof.statement import MEANING, Implication, Relation, free_symbols, relations_of, undefined_functions
+from ptproof.proof.statement import Implication, Relation, free_symbols, relations_of, undefined_functions
 from ptproof.proof.verdict import Evidence, Verdict
 
 SECONDS = 20.0
@@ -140,10 +149,10 @@ def _asked(problem: _Problem, told_facts: bool, seconds: float) -> Answer:
     z3, tried = library(), []
     # What the facts say may be enough, whatever the roots in them are roots of.
     told, most = bool(problem.generators.relations and told_facts), int(1000 * min(seconds / 5, _SECONDS_TOLD))
-    if told and problem.solver(z3, "default", most, opaque=True).check() == z3.unsat:
+    if told and problem.solver("default", most, opaque=True).check() == z3.unsat:
         return Answer(True, "z3 (default)")
     for tactic, share in (("default", 0.5), ("qfnra-nlsat", 0.5)):
-        context = problem.solver(z3, tactic, int(1000 * seconds * share))
+        context = problem.solver(tactic, int(1000 * seconds * share))
         answer = context.check()
         if answer == z3.unsat:
             return Answer(True, f"z3 ({tactic})")
@@ -181,16 +190,19 @@ class _Problem:
         found = ((symbol, self.generators.choice(symbol)) for symbol in self.generators.meaning)
         self.choices = [(symbol, choice) for symbol, choice in found if choice is not None]
         self.pieces = {symbol: self.generators.pieces(symbol) for symbol in self.generators.meaning}
+        self._asserted: dict[bool, list[Any]] = {}
 
-    def solver(self, z3: Any, tactic: str, milliseconds: int, *, opaque: bool = False) -> Any:
-        if tactic == "default":
-            solver = z3.Solver()
-        else:
-            solver = z3.Then(
-                "simplify", "purify-arith", "propagate-values", "solve-eqs", "tseitin-cnf", tactic
-            ).solver()
+    def solver(self, tactic: str, milliseconds: int, *, opaque: bool = False) -> Any:
+        """What z3 is asked, for one of its strategies; ``opaque`` leaves out what is known of roots and angles."""
+        solver = solver_by(tactic)
         solver.set("timeout", max(milliseconds, 1))
-        used: dict[sp.Symbol, None] = {}
+        if opaque not in self._asserted:
+            self._asserted[opaque] = list(self._assertions(opaque))
+        solver.add(*self._asserted[opaque])
+        return solver
+
+    def _assertions(self, opaque: bool) -> Iterator[Any]:
+        z3, used = library(), dict[sp.Symbol, None]()
 
         def number(expression: sp.Expr) -> Any:
             told, symbols = term(expression)
@@ -198,21 +210,25 @@ class _Problem:
             return told
 
         def relation(item: Relation) -> Any:
-            return MEANING[item.sign](number(item.left), number(item.right))
+            told, symbols = comparison_term(item)
+            used.update(symbols)
+            return told
 
         for fact in self.told:
-            solver.add(z3.Implies(z3.And([relation(item) for item in fact.hypotheses]), relation(fact.conclusion)))
+            said, symbols = implication_term(fact)
+            used.update(symbols)
+            yield said
         for generator, polynomial in () if opaque else self.generators.relations:
             holds = number(polynomial) == 0
             if generator in self.bases:
                 # The power of a negative base is not real; a fact that mentions it says nothing of the base's sign.
                 holds = z3.Implies(number(self.bases[generator]) >= 0, holds)
-            solver.add(holds)
+            yield holds
         for generator, (operation, arguments) in self.choices:
             symbol, values = number(generator), [number(argument) for argument in arguments]
-            solver.add(z3.Or([symbol == value for value in values]))
+            yield z3.Or([symbol == value for value in values])
             for value in values:
-                solver.add(symbol >= value if operation is sp.Max else symbol <= value)
+                yield symbol >= value if operation is sp.Max else symbol <= value
         for symbol, pieces in self.pieces.items():
             before: list[Any] = []
             for value, condition in pieces:
@@ -220,17 +236,13 @@ class _Problem:
                 if condition is not None:
                     before.append(relation(Relation(*condition)))
                     here.append(before[-1])
-                solver.add(z3.Implies(z3.And(here), number(symbol) == number(value)))
-        solver.add(z3.Not(relation(self.conclusion)))
+                yield z3.Implies(z3.And(here), number(symbol) == number(value))
+        yield z3.Not(relation(self.conclusion))
         for base, product in self.generators.split_bases():
             value = number(product)
-            facts = [value == number(base)] if base.is_Rational else known_of(base, value, None, z3)
-            for fact in facts:
-                solver.add(fact)
+            yield from [value == number(base)] if base.is_Rational else known_of_value(base, value)
         for symbol in used:
-            for fact in known_of(symbol, variable_of(symbol), self.generators.meaning.get(symbol), z3):
-                solver.add(fact)
-        return solver
+            yield from known_of(symbol, self.generators.meaning.get(symbol))
 
 
 def _domains(relations: Sequence[Relation]) -> Iterator[Obligation]:

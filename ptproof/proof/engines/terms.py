@@ -10,6 +10,7 @@ from typing import Any, TypeVar
 import sympy as sp
 
 from ptproof.proof.algebra import NotAlgebraic
+from ptproof.proof.statement import MEANING, Implication, Relation
 from ptproof.reading.limits import unbroken
 
 Answer = TypeVar("Answer")
@@ -84,8 +85,36 @@ def _to_z3(expression: sp.Expr) -> Any:
     raise NotAlgebraic(f"no rule for {expression}")
 
 
-def known_of(symbol: sp.Symbol, variable: Any, meaning: sp.Expr | None, z3: Any) -> list[Any]:
-    """The facts that hold for a symbol by its declaration, or for a generator by its meaning."""
+@lru_cache(maxsize=2**14)
+def comparison_term(relation: Relation) -> tuple[Any, dict[sp.Symbol, None]]:
+    """A relation for z3, and the symbols in it in the order in which they are met."""
+    (left, some), (right, others) = term(relation.left), term(relation.right)
+    return MEANING[relation.sign](left, right), some | others
+
+
+@lru_cache(maxsize=2**14)
+def implication_term(fact: Implication) -> tuple[Any, dict[sp.Symbol, None]]:
+    """An implication for z3, and the symbols in it; problems share what is assumed, and ask with it again and again."""
+    z3 = library()
+    *hypotheses, (conclusion, symbols) = map(comparison_term, (*fact.hypotheses, fact.conclusion))
+    met: dict[sp.Symbol, None] = {}
+    for _, some in hypotheses:
+        met |= some
+    return z3.Implies(z3.And([said for said, _ in hypotheses]), conclusion), met | symbols
+
+
+def solver_by(tactic: str) -> Any:
+    """A fresh solver: of z3's own choice for "default", otherwise one that ends with the tactic."""
+    return library().Solver() if tactic == "default" else _strategy(tactic).solver()
+
+
+@cache
+def _strategy(tactic: str) -> Any:
+    return library().Then("simplify", "purify-arith", "propagate-values", "solve-eqs", "tseitin-cnf", tactic)
+
+
+def known_of_value(symbol: sp.Symbol, variable: Any) -> list[Any]:
+    """What holds of ``variable``, which has the value of a symbol, by the symbol's declaration."""
     facts = []
     whole = bool(symbol.is_integer)
     if symbol.is_positive:
@@ -98,6 +127,14 @@ def known_of(symbol: sp.Symbol, variable: Any, meaning: sp.Expr | None, z3: Any)
         facts.append(variable <= 0)
     elif symbol.is_nonzero:
         facts.append(variable != 0)
+    return facts
+
+
+@lru_cache(maxsize=2**14)
+def known_of(symbol: sp.Symbol, meaning: sp.Expr | None) -> tuple[Any, ...]:
+    """The facts that hold for a symbol by its declaration, or for a generator by its meaning."""
+    z3, variable = library(), variable_of(symbol)
+    facts = known_of_value(symbol, variable)
     if isinstance(meaning, sp.Pow) and meaning.exp.is_Rational and not meaning.exp.is_Integer:
         facts.append(variable >= 0)  # a root is real only of what is not negative, and is then not negative
     if isinstance(meaning, sp.sin | sp.cos):
@@ -107,7 +144,7 @@ def known_of(symbol: sp.Symbol, variable: Any, meaning: sp.Expr | None, z3: Any)
 
         ball = enclose(meaning, {}, bits=64)
         facts += [variable >= _fraction(ball.lower(), z3), variable <= _fraction(ball.upper(), z3)]
-    return facts
+    return tuple(facts)
 
 
 def _fraction(end: Any, z3: Any) -> Any:

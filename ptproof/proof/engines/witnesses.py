@@ -68,11 +68,17 @@ def check_witness(goal: Goal, values: Mapping[Any, Any]) -> tuple[Witness | None
     for assumption in goal.assumptions:
         if not _holds(assumption, there):
             return None, f"the assumption {assumption} is not shown to hold there"
+    witness = _broken(goal, there)
+    return witness, "" if witness is not None else "the statement is not shown to fail there"
+
+
+def _broken(goal: Goal, there: Substitution) -> Witness | None:
+    """The witness if a relation of the statement fails there, where the assumptions hold."""
     for part in relations_of(goal.statement):
         numbers = _at(part, there)
         if numbers is not None and holds(numbers.negation()):
-            return Witness({str(key): str(value) for key, value in there.values.items()}, *_sides(numbers)), ""
-    return None, "the statement is not shown to fail there"
+            return Witness({str(key): str(value) for key, value in there.values.items()}, *_sides(numbers))
+    return None
 
 
 def at_example(goal: Goal, values: Mapping[Any, Any]) -> tuple[bool, str]:
@@ -87,7 +93,12 @@ def at_example(goal: Goal, values: Mapping[Any, Any]) -> tuple[bool, str]:
     for assumption in goal.assumptions:
         if not _holds(assumption, there):
             return False, f"the example is none: {assumption} is not shown to hold there"
-    witness, _ = check_witness(goal, values)
+    try:
+        everywhere = values_where_used(goal, values)
+    except InputError:
+        witness = None
+    else:
+        witness = _broken(goal, everywhere)
     if witness is not None:
         return False, f"the statement fails at the example: {witness.left} against {witness.right}"
     said = ", ".join(f"{key} = {value}" for key, value in values.items())
