@@ -146,7 +146,7 @@ class System:
         for old, new in states.items():
             if new in {*self.symbols} - states.keys():
                 raise InputError(f"{self.name}: {old} can't be called {new}, which is in use")
-            if old._assumptions_orig != new._assumptions_orig:
+            if old.assumptions0 != new.assumptions0:
                 raise InputError(f"{self.name}: {old} and {new} are not declared to be of one kind")
         state = tuple(states.get(symbol, symbol) for symbol in self.state)
         rhs = tuple(replaced(entry, states) for entry in self.rhs)

@@ -21,24 +21,45 @@ Letter: TypeAlias = sp.Symbol | AppliedUndef
 SIGNS = ("positive", "nonnegative", "negative", "nonpositive", "nonzero")
 SAYS: Mapping[str, RelationSign] = dict(zip(SIGNS, (">", ">=", "<", "<=", "!="), strict=True))
 """The relation of a value to 0 that each of these words says."""
+# From what says little to what says much.
 _WORDS = (
-    "real", *SIGNS, "zero", "integer", "noninteger", "rational", "irrational", "even", "odd", "prime", "composite",
-    "imaginary",
+    "real", "nonnegative", "nonpositive", "nonzero", "rational", "integer", "noninteger", "irrational", "positive",
+    "negative", "zero", "even", "odd", "prime", "composite", "imaginary",
 )  # fmt: skip
 
 
 def declared(letter: Letter) -> dict[str, bool]:
-    """The assumptions that a symbol, or the values of an undefined function, were declared with.
+    """What a symbol, or the values of an undefined function, are declared to be; of a symbol the fewest words for it.
+
+    For SymPy symbols are equal whose declarations say the same, so that any of them may come back from its cache: in
+    whatever words, they are one here.
 
     >>> declared(sp.Symbol("n", integer=True, positive=True)), declared(sp.Function("g", negative=True)(1))["negative"]
     ({'integer': True, 'positive': True}, True)
+    >>> declared(sp.Symbol("x", real=True, nonnegative=True, zero=False))
+    {'positive': True}
     """
     if isinstance(letter, sp.Symbol):
-        return {name: truth for name, truth in letter._assumptions_orig.items() if name != "commutative"}
+        return dict(_fewest(tuple(letter.assumptions0.items())))
     known: dict[str, bool] = letter.func._kwargs  # SymPy keeps with it all that follows
     true = {name: True for name in _WORDS if known.get(name)}
     implied = StdFactKB(true)
     return true | {name: False for name in _WORDS if known.get(name) is False and implied.get(name) is not False}
+
+
+@lru_cache(maxsize=4096)
+def _fewest(known: tuple[tuple[str, bool], ...]) -> tuple[tuple[str, bool], ...]:
+    """Of all that is known of a symbol what the rest follows from; what says least is left out first."""
+    left = {name: truth for name, truth in known if name != "commutative"}
+    for name, truth in sorted(left.items(), key=lambda item: (_strength(*item), item)):
+        others = {other: value for other, value in left.items() if other != name}
+        if StdFactKB(others).get(name) is truth:
+            left = others
+    return tuple(sorted(left.items()))
+
+
+def _strength(word: str, truth: bool) -> int:
+    return truth and (2 + _WORDS.index(word) if word in _WORDS else 1)
 
 
 def is_plainly_real(symbol: sp.Symbol) -> bool:
@@ -48,7 +69,7 @@ def is_plainly_real(symbol: sp.Symbol) -> bool:
 
 def like(symbol: sp.Symbol) -> sp.Symbol:
     """A fresh symbol of the same kind: nothing that is known of another symbol is known of it."""
-    return sp.Dummy(symbol.name, **symbol._assumptions_orig)
+    return sp.Dummy(symbol.name, **symbol.assumptions0)
 
 
 def admissible(letter: Letter, value: Any) -> bool:

@@ -214,7 +214,7 @@ def _fresh(variable: sp.Symbol, among: Iterable[sp.Basic]) -> sp.Symbol:
     """A symbol of the same kind under a name that does not occur; the same one for the same question."""
     names = {symbol.name for entry in among for symbol in entry.atoms(sp.Symbol)}
     number = next(i for i in range(1, len(names) + 2) if f"{variable.name}_{i}" not in names)
-    return sp.Symbol(f"{variable.name}_{number}", **variable._assumptions_orig)
+    return sp.Symbol(f"{variable.name}_{number}", **variable.assumptions0)
 
 
 def _put_limits(node: Any, symbols: Mapping[sp.Symbol, sp.Expr], functions: Functions) -> sp.Expr:

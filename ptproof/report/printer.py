@@ -27,7 +27,7 @@ class _Printer(LatexPrinter):
     def _print_Symbol(self, expr: sp.Symbol, style: str = "plain") -> str:
         names = self._settings["symbol_names"]
         if expr not in names and expr.name.endswith("_dot"):  # the value of a derivative
-            letter = sp.Symbol(expr.name.removesuffix("_dot"), **expr._assumptions_orig)
+            letter = sp.Symbol(expr.name.removesuffix("_dot"), **expr.assumptions0)
             known = next((glyph for other, glyph in names.items() if getattr(other, "name", "") == letter.name), "")
             return rf"\dot{{{known or super()._print_Symbol(letter)}}}"
         shown = str(super()._print_Symbol(expr, style=style))

@@ -11,6 +11,7 @@ from typing import Any
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from ptproof.proof.declarations import declared
 from ptproof.proof.kernel.names import Names
 from ptproof.proof.kernel.terms import NoTranslation, term
 
@@ -31,7 +32,7 @@ def of_symbol(symbol: sp.Symbol, name: str) -> tuple[str, ...]:
     """
     if not symbol.is_real:
         raise NoTranslation(f"no translation for {symbol}, which is not declared real")
-    return tuple(text.format(name) for key, text in _KINDS.items() if key in symbol._assumptions_orig.items())
+    return tuple(text.format(name) for key, text in _KINDS.items() if key in declared(symbol).items())
 
 
 def of_functions(applied: Iterable[AppliedUndef], free: set[sp.Symbol], names: Names) -> tuple[str, ...]:

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from ptproof.proof.declarations import declared
 from ptproof.proof.kernel.declared import bare, for_all
 from ptproof.proof.kernel.names import Names
 from ptproof.proof.kernel.obligations import Part, obligations
@@ -64,7 +65,7 @@ def script(part: Part, known: Sequence[str]) -> str:
 
 def _kinds(symbol: sp.Symbol) -> set[str]:
     """What the symbol is declared to be, beside real."""
-    return {word for word, truth in symbol._assumptions_orig.items() if truth} - {"real", "commutative", "finite"}
+    return {word for word, truth in declared(symbol).items() if truth} - {"real", "finite"}
 
 
 def _assumed(call: AppliedUndef, order: int, names: Names) -> str:

@@ -9,6 +9,7 @@ from typing import Any
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from ptproof.proof import declarations
 from ptproof.proof.claim import Claim
 from ptproof.proof.kernel import declared, smooth
 from ptproof.proof.kernel.names import Names, as_identifier, called, identifiers
@@ -123,7 +124,7 @@ def _sorted(items: Iterable[Any]) -> list[Any]:
     """By name, and then by what tells items of one name apart."""
 
     def key(item: Any) -> tuple[str, str, int]:
-        own = item._assumptions_orig if isinstance(item, sp.Symbol) else item._kwargs
+        own = declarations.declared(item) if isinstance(item, sp.Symbol) else item._kwargs
         return called(item), str(sorted(own.items())), getattr(item, "dummy_index", 0)
 
     return sorted(items, key=key)
