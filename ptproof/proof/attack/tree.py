@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import atexit
 from collections.abc import Callable
 from functools import cached_property
 from typing import Any
@@ -83,6 +84,7 @@ class Node:
 _nodes: dict[Any, Node] = {}
 _letters: WeakValueDictionary[Any, Node] = WeakValueDictionary()  # a scope knows its letters by their nodes
 _functions: dict[Any, object] = {}
+atexit.register(_letters.clear)  # later SymPy could not compare any more what a dying node is looked up by
 
 
 def tree(expression: Any) -> Node:
