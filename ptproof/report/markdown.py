@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cache
+
+from jinja2 import Environment
 
 from ptproof.report.formula import Line
 from ptproof.report.model import Report
@@ -18,6 +21,15 @@ def markdown_page(report: Report) -> str:
 
 def written(template: str, **content: object) -> str:
     """A template of Markdown, without lines that say nothing."""
+    page = _environment().get_template(template).render(**content)
+    lines = [line.rstrip() for line in page.split("\n")]
+    kept = [line for place, line in enumerate(lines) if line or (place and lines[place - 1])]
+    return "\n".join(kept).strip() + "\n"
+
+
+@cache
+def _environment() -> Environment:
+    """Made once, as it keeps the templates that it has compiled."""
     jinja = environment(escape=False).overlay()
     filters: dict[str, Callable[..., str]] = {
         "math": inline_math,
@@ -28,10 +40,7 @@ def written(template: str, **content: object) -> str:
         "cellcode": lambda source: code(source, cell=True),
     }
     jinja.filters = {**jinja.filters, **filters}
-    page = jinja.get_template(template).render(**content)
-    lines = [line.rstrip() for line in page.split("\n")]
-    kept = [line for place, line in enumerate(lines) if line or (place and lines[place - 1])]
-    return "\n".join(kept).strip() + "\n"
+    return jinja
 
 
 def _lines(lines: tuple[Line, ...]) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import platform
 from collections.abc import Iterable
+from functools import cache
 from importlib import metadata
 
 LIBRARIES = ("ptproof", "sympy", "z3-solver", "python-flint", "networkx", "numpy", "scipy", "casadi", "control",
@@ -15,9 +16,13 @@ SETTING = (*LIBRARIES, "markupsafe", "markdown-it-py", "mdit-py-plugins", "pylat
 def versions(names: Iterable[str] = LIBRARIES) -> tuple[tuple[str, str], ...]:
     """Python and the libraries that are installed, with their versions."""
     found = [("python", platform.python_version())]
-    for name in names:
-        try:
-            found.append((name, metadata.version(name)))
-        except metadata.PackageNotFoundError:
-            continue
+    found += [(name, version) for name in names if (version := _version(name))]
     return tuple(found)
+
+
+@cache
+def _version(name: str) -> str:
+    try:
+        return metadata.version(name)
+    except metadata.PackageNotFoundError:
+        return ""

@@ -67,8 +67,8 @@ class Claims:
         return conclude(claims, {item.id: self._decided(file.parent, item) for item in claims})[-1]
 
     def close(self) -> None:
-        """End the processes."""
-        for workers in (self._vetting, *self._workers.values()):
+        """End the processes, the latest first: each holds copies of the connections to those before it."""
+        for workers in (*reversed(self._workers.values()), self._vetting):
             workers.stop()
         self._workers.clear()
 

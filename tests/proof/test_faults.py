@@ -91,10 +91,10 @@ TABLE = [
     ("raise RecursionError('deep')", "RecursionError: deep"),
     ("raise BaseException('base')", "the proof raised BaseException: base"),
     ("input()", "EOFError"),
-    ("forever()", "no answer in 2 s"),
-    ("in_c()", "no answer in 2 s"),
-    ("deaf()", "no answer in 2 s"),
-    ("os.kill(os.getpid(), signal.SIGSTOP)", "no answer in 2 s"),
+    ("forever()", "no answer in 1 s"),
+    ("in_c()", "no answer in 1 s"),
+    ("deaf()", "no answer in 1 s"),
+    ("os.kill(os.getpid(), signal.SIGSTOP)", "no answer in 1 s"),
     ("ctypes.string_at(0)", "the process was ended by signal 11 (segmentation fault)"),
     ("deep()", "the process was ended by signal 11 (segmentation fault)"),
     ("os.abort()", "the process was ended by signal 6 (aborted)"),
@@ -109,7 +109,8 @@ TABLE = [
     ("os.fork()", PROVED),
     ("lingering()", PROVED),
     ("threading.Thread(target=time.sleep, args=(300,)).start()", PROVED),
-    ("signal.alarm(1)", PROVED),
+    ("signal.setitimer(signal.ITIMER_REAL, 0.1)", PROVED),
+    ("time.sleep(0.3)", PROVED),
     ("settings()", PROVED),
     ("unsettled()", PROVED),
     ("1 / 0", "ZeroDivisionError"),
@@ -139,7 +140,7 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> tuple[Verification, str]:
     with open(folder / "output", "w+") as output:
         os.dup2(output.fileno(), 1)
         try:
-            return verify(load([folder]), workers=2, timeout=2), (folder / "output").read_text()
+            return verify(load([folder]), workers=4, timeout=1), (folder / "output").read_text()
         finally:
             os.dup2(kept, 1)
             os.close(kept)

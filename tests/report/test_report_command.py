@@ -2,7 +2,10 @@
 
 import pytest
 
+from ptproof.commands import parts
+from ptproof.commands.beside import Beside
 from ptproof.commands.cli import main
+from ptproof.report.typeset import set_part
 
 GOOD = '''
 import sympy as sp
@@ -82,15 +85,24 @@ from ptproof.proof import claim, eq, exact, gt
 SECTION = "1 Many"
 x, y, k = sp.symbols("x y k", positive=True)
 """
-SUM = " + ".join(f"{power} * x**{power} * sp.exp(y)" for power in range(2, 40))
+SUM = " + ".join(f"{power} * x**{power} * sp.exp(y)" for power in range(2, 15))
 
 
-def test_two_processes_write_the_bytes_of_one(tmp_path):
+def test_two_processes_write_the_bytes_of_one(tmp_path, monkeypatch):
+    """Of few claims, which the second process sets a part of as if they were many."""
+    begun, begin = [], Beside.begin
+
+    def hear(beside, key, work, *arguments):
+        begun.append(work)
+        begin(beside, key, work, *arguments)
+
+    monkeypatch.setattr(Beside, "begin", hear)
+    monkeypatch.setattr(parts, "_MANY", 5)
     for name in ("one", "two"):
         folder = tmp_path / name
         folder.mkdir()
         said = "eq({n} * x + ({sum}), ({sum}) + {n} * x), given=[gt(x, {n})], labels=['eq:{n}']"
-        claims = (f"c{n} = claim('{n}', 'No. {n}', {said.format(n=n, sum=SUM)})(exact)" for n in range(40))
+        claims = (f"c{n} = claim('{n}', 'No. {n}', {said.format(n=n, sum=SUM)})(exact)" for n in range(6, 9))
         (folder / "claims.py").write_text(MANY + "\n".join(claims))
         (folder / "__init__.py").touch()
         (folder / "notation.toml").write_text('letters = { x = "x", y = "y" }')
@@ -101,6 +113,7 @@ def test_two_processes_write_the_bytes_of_one(tmp_path):
         out = tmp_path / f"out-{jobs}"
         with pytest.raises(SystemExit):
             main(["report", "--jobs", str(jobs), "--out", str(out), str(tmp_path / "one"), str(tmp_path / "two")])
+        assert begun.count(set_part) == jobs - 1
         written.append({file.relative_to(out): file.read_bytes() for file in out.rglob("*") if file.is_file()})
     assert written[0] == written[1]
     assert len(written[0]) > 20

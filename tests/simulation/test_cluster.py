@@ -6,7 +6,7 @@ import signal
 import numpy as np
 import pytest
 
-from ptproof.simulation import ensemble
+from ptproof.simulation import ensemble, ensembles
 
 distributed = pytest.importorskip("distributed")
 
@@ -24,8 +24,9 @@ def client():
 
 # The cluster's own sockets are closed by a worker that dies, which is what is tested.
 @pytest.mark.filterwarnings("default")
-def test_nothing_is_lost_with_a_worker(client):
-    size, question = 256, {"seed": 2, "engine": "casadi", "rtol": 1e-5}
+def test_nothing_is_lost_with_a_worker(client, monkeypatch):
+    monkeypatch.setattr(ensembles, "_TASK", 8)
+    size, question = 32, {"seed": 2, "engine": "casadi", "rtol": 1e-5}
     processes = list(client.run(os.getpid).values())
     killed = []
 

@@ -115,12 +115,12 @@ def test_claims_are_selected_by_id_label_and_node(pytester, derivation, selectio
 
 
 def test_it_is_the_same_under_xdist(pytester, derivation):
-    pytester.runpytest_subprocess(*LIGHT, "--ptproof", "-n", "2", derivation).assert_outcomes(passed=4)
+    run(pytester, "--ptproof", "-n", "2", derivation).assert_outcomes(passed=4)
 
 
 def test_what_is_not_as_expected_fails_with_the_reason(pytester, derivation):
     (derivation / "wrong.py").write_text(WRONG)
-    result = run(pytester, "--ptproof", "--ptproof-timeout", "2", "-v", derivation / "wrong.py")
+    result = run(pytester, "--ptproof", "--ptproof-timeout", "1", "-v", derivation / "wrong.py")
     result.assert_outcomes(failed=6)
     result.stdout.fnmatch_lines(
         [
@@ -131,7 +131,7 @@ def test_what_is_not_as_expected_fails_with_the_reason(pytester, derivation):
             "wrong/ancestor: expected proved, came out undecided",
             "*the proof uses what is refuted: part/forgotten-two",
             "wrong/slow: expected proved, came out undecided",
-            "*no answer in 2 s",
+            "*no answer in 1 s",
             "wrong/crash: expected proved, came out undecided",
             "*the process ended*",
             "wrong/error: expected proved, came out undecided",

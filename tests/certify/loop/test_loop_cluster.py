@@ -4,6 +4,7 @@ import pickle
 from dataclasses import replace
 
 import numpy as np
+import pytest
 import sympy as sp
 
 from ptproof.balls.ball import precision
@@ -36,14 +37,30 @@ def drifting():
     return replace(problem, tuning=tuning, drift=drift)
 
 
-def test_a_cluster_proves_the_same(monkeypatch):
-    monkeypatch.setattr(setup, "_PIECES", 3)
+OPTIONS = {"tolerance": 9.0, "shapes": ("distance",)}
+
+
+@pytest.fixture
+def pieces(monkeypatch):
+    """Few of them, as each is a task."""
+    monkeypatch.setattr(setup, "_PIECES", 2)
+
+
+@pytest.fixture(scope="module")
+def alone():
+    """What one worker finds."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(setup, "_PIECES", 2)
+        return certify_loop(drifting(), **OPTIONS, workers=1)
+
+
+@pytest.mark.usefixtures("pieces")
+def test_a_cluster_proves_the_same(alone):
     client = Elsewhere()
-    options = {"tolerance": 8.0, "shapes": ("distance",)}
-    here, there = (certify_loop(drifting(), **options, **how) for how in ({"workers": 1}, {"client": client}))
-    assert client.tasks == 4
-    assert here.distances == there.distances
-    assert here.detail == there.detail
+    there = certify_loop(drifting(), **OPTIONS, client=client)
+    assert client.tasks == 3
+    assert alone.distances == there.distances
+    assert alone.detail == there.detail
 
 
 def test_a_worker_that_fails_is_not_taken_for_a_proof(monkeypatch):
@@ -63,10 +80,7 @@ def test_a_worker_takes_the_precision_of_the_proof(monkeypatch):
     assert seen == [128]
 
 
-def test_threads_change_nothing(monkeypatch):
-    monkeypatch.setattr(setup, "_PIECES", 2)
-    one, *others = (
-        certify_loop(drifting(), tolerance=9.0, shapes=("distance",), workers=workers).distances
-        for workers in (1, 2, 3)
-    )
-    assert others == [one, one]
+@pytest.mark.usefixtures("pieces")
+@pytest.mark.parametrize("workers", [2, 3])
+def test_threads_change_nothing(alone, workers):
+    assert certify_loop(drifting(), **OPTIONS, workers=workers).distances == alone.distances
