@@ -2,8 +2,10 @@
 
 import pickle
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
+import pytest
 import sympy as sp
 
 from ptproof.balls.ball import precision
@@ -36,21 +38,32 @@ def drifting():
     return replace(problem, tuning=tuning, drift=drift)
 
 
-def test_a_cluster_proves_the_same(monkeypatch):
+@pytest.fixture(autouse=True)
+def few_pieces(monkeypatch):
     monkeypatch.setattr(setup, "_PIECES", 3)
+
+
+def proved(**how):
+    return certify_loop(drifting(), tolerance=8.0, shapes=("distance",), **how)
+
+
+@cache
+def alone():
+    return proved(workers=1)
+
+
+def test_a_cluster_proves_the_same():
     client = Elsewhere()
-    options = {"tolerance": 8.0, "shapes": ("distance",)}
-    here, there = (certify_loop(drifting(), **options, **how) for how in ({"workers": 1}, {"client": client}))
+    here, there = alone(), proved(client=client)
     assert client.tasks == 4
+    assert here.final is not None
     assert here.distances == there.distances
     assert here.detail == there.detail
 
 
 def test_a_worker_that_fails_is_not_taken_for_a_proof(monkeypatch):
-    monkeypatch.setattr(setup, "_PIECES", 3)
     monkeypatch.setattr(scene.Task, "bounds", lambda self: np.full(self.stage.levels.bands, np.inf))
-    found = certify_loop(drifting(), client=Elsewhere(), tolerance=8.0, shapes=("distance",))
-    assert found.final is None
+    assert proved(client=Elsewhere()).final is None
 
 
 def test_a_worker_takes_the_precision_of_the_proof(monkeypatch):
@@ -63,10 +76,5 @@ def test_a_worker_takes_the_precision_of_the_proof(monkeypatch):
     assert seen == [128]
 
 
-def test_threads_change_nothing(monkeypatch):
-    monkeypatch.setattr(setup, "_PIECES", 2)
-    one, *others = (
-        certify_loop(drifting(), tolerance=9.0, shapes=("distance",), workers=workers).distances
-        for workers in (1, 2, 3)
-    )
-    assert others == [one, one]
+def test_threads_change_nothing():
+    assert proved(workers=3).distances == alone().distances
