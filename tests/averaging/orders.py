@@ -6,10 +6,11 @@ from typing import Any
 import mpmath
 import sympy as sp
 from sympy.core.function import AppliedUndef
+from sympy.simplify.cse_main import tree_cse
 
 from ptproof.averaging.orders import Orders
 from ptproof.averaging.problem import OMEGA, PHASE, TIME, DitherProblem, FastStates
-from ptproof.system import DitherSystem, substitute
+from ptproof.system import DitherSystem, replaced, substitute
 
 x, y, z = sp.symbols("x y z", real=True)
 k = sp.Symbol("k", positive=True)
@@ -58,7 +59,8 @@ class _Left:
             gaps = [steady[fast] + sp.Rational(3 + i, 5) / sp.sqrt(OMEGA) for i, fast in enumerate(moving.state)]
         self.letters = (TIME, PHASE, *system.state, *(moving.state if moving else ()))
         shifts = [row / sp.sqrt(OMEGA) ** n for n, row in enumerate(map(sp.Matrix, found.correctors), start=1)]
-        change = (sp.Matrix(system.state) + sum(shifts, sp.zeros(*shifts[0].shape))).subs(found.fast, simultaneous=True)
+        change = sp.Matrix(system.state) + sum(shifts, sp.zeros(*shifts[0].shape))
+        change = change.applyfunc(lambda entry: replaced(entry, found.fast))
         self.gaps, self.rates = self._function(gaps), self._function(rates)
         self.change, self.means = self._function(change), self._function(found.system.rhs)
         self.start = [sp.Rational(3, 7), sp.Rational(4, 9), sp.Rational(2, 7), sp.Rational(5, 11)][
@@ -68,8 +70,8 @@ class _Left:
     def _function(self, expressions: Any) -> Any:
         exact = _concrete(tuple(expressions))
         free = set().union(*(entry.free_symbols for entry in exact)) - {*self.letters, OMEGA}
-        exact = [entry.subs({symbol: _parameter(symbol) for symbol in free}) for entry in exact]
-        return sp.lambdify((*self.letters, OMEGA), exact, "mpmath", cse=True)
+        exact = [entry.xreplace({symbol: _parameter(symbol) for symbol in free}) for entry in exact]
+        return sp.lambdify((*self.letters, OMEGA), exact, "mpmath", cse=_repeated)
 
     def at(self, omega: Any) -> float:
         start = [mpmath.mpf(value.p) / value.q for value in self.start]
@@ -85,6 +87,11 @@ class _Left:
         return float(mpmath.norm([a - b for a, b in zip(slope, self.means(*there, omega), strict=True)]))
 
 
+def _repeated(expressions: Any) -> Any:
+    """What occurs more than once as it stands; to look for more takes longer than the few values that are asked."""
+    return tree_cse(expressions, sp.numbered_symbols(), order="none")
+
+
 def _parameter(symbol: sp.Symbol) -> sp.Rational:
     return sp.Rational(2 + sum(map(ord, symbol.name)) % 5, 3)
 
@@ -92,6 +99,8 @@ def _parameter(symbol: sp.Symbol) -> sp.Rational:
 def _concrete(expressions: Any) -> Any:
     """With a polynomial in place of each unknown function, the same one each time."""
     functions = set().union(*(entry.atoms(AppliedUndef) for entry in expressions), set())
+    if not functions:
+        return expressions
     values = {}
     for node in functions:
         own = node.args

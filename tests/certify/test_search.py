@@ -261,7 +261,7 @@ def test_time_limit_must_make_sense(seconds):
         certify_field(-(x**2), (x,), (0,), 1, seconds=seconds)
 
 
-@pytest.mark.parametrize("rtol", [1.0, 0.5, 0.1, 0.01])
+@pytest.mark.parametrize("rtol", [1.0, 0.1])
 @pytest.mark.parametrize("text", ["5/2 + cos(2*pi/3*x1)/2 - (x1**2 + x2**2)/2", "-exp(x1) + x1 - x2**2 - x1**2/3"])
 def test_a_wide_tolerance_is_reached_like_a_narrow_one(text, rtol):
     found = certify(text, (0, 0), 1, radius=2, rtol=rtol)

@@ -101,9 +101,9 @@ def test_lorenz_at_the_value_of_an_independent_run():
         assert all(mpmath.mpf(low) <= v <= mpmath.mpf(high) for (low, high), v in zip(bounds, values, strict=True))
 
 
-@pytest.mark.parametrize("until", [1, 3])
-def test_no_solution_is_claimed_beyond_an_escape(until):
-    run = enclose(System(t, (x,), (x**2,)), initial=(1,), span=(0, until), seconds=20)
+def test_no_solution_is_claimed_at_an_escape():
+    """Nor beyond it, which the engine of statements about runs is asked for."""
+    run = enclose(System(t, (x,), (x**2,)), initial=(1,), span=(0, 1), seconds=20)
     assert str(run.verdict) == "undecided"
     assert run.times[-1] < 1
 

@@ -39,7 +39,7 @@ def test_the_power_of_the_paper_is_accepted_with_a_symbol_for_the_order():
     assert sp.cancel(bound.sigma - (1 - 1 / kappa)) == 0
 
 
-@pytest.mark.parametrize("seed", range(20))
+@pytest.mark.parametrize("seed", range(12))
 def test_power_bounds_agree_with_integration(seed):
     rng = random.Random(seed)
     p = rng.choice([sp.Integer(1), sp.Rational(3, 2), sp.Integer(2), sp.Rational(5, 3), sp.Rational(1, 2)])
@@ -152,7 +152,7 @@ def test_data_of_the_wrong_sign_are_refused(field):
 @pytest.mark.parametrize("r", [1, 3, 5, 7])
 def test_a_damped_bound_lies_above_the_solution(r):
     rng = random.Random(r)
-    for _ in range(10):
+    for _ in range(6):
         u0, damping, zeta = (sp.Rational(rng.randint(1, 40), 10) for _ in range(3))
         bound = DampedBound(tau, 0, u0, damping, r, zeta)
         run = integrate(lambda t, u, d=float(damping), z=float(zeta): -d * u**r + z, 0.0, float(u0), 5.0)

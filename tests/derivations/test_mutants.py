@@ -9,7 +9,7 @@ from ptproof.proof.mutation.judging import Patience, judge
 from ptproof.proof.mutation.making import mutants, neighbours
 from ptproof.proof.mutation.outcomes import Word
 
-SHARES, OF_EACH = 12, 6
+SHARES, OF_EACH = 9, 4
 
 
 @pytest.fixture(scope="module")

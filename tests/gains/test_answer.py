@@ -1,7 +1,7 @@
 """The answer to a question about gains: formulas against independent numbers, what does not apply, what is refused."""
 
-import dataclasses
 import math
+from dataclasses import replace
 
 import pytest
 import random_sets
@@ -48,17 +48,20 @@ def test_the_quadratic_case_of_the_paper():
 @pytest.mark.parametrize("norm", [R(3, 2), R(5, 1)])
 def test_the_printed_threshold_is_the_least_critical_value_over_all_times(bounds, norm):
     k, T = R(9, 5), R(3, 2)
+    data = GainData(bounds, k=k, T=T, drift_norm=norm)
+
+    late = sp.Symbol("s", positive=True)
+    formula = sp.lambdify(late, vanishing.critical_values(data, late))
 
     def critical(s):
-        found = gains(GainData(bounds, k=k, T=T, drift_norm=norm, tau_star=R(s)))["critical.V0_at_tau_star"]
-        return math.inf if found is None else found.value
+        return formula(s) if s < vanishing.last_critical(data) else math.inf
 
     ratio = float(bounds.c2 / bounds.c1) * math.sqrt(2 * norm / k)
     turning = float(T) * (ratio - 1)
-    found = minimize_scalar(
-        lambda s: critical(round(s, 5)), bounds=(turning / 3, turning * 1.5), method="bounded", options={"xatol": 1e-5}
-    )
-    threshold = value(gains(GainData(bounds, k=k, T=T, drift_norm=norm)), "critical.V0_threshold_printed")
+    found = minimize_scalar(critical, bounds=(turning / 3, turning * 1.5), method="bounded", options={"xatol": 1e-5})
+    threshold = value(gains(data), "critical.V0_threshold_printed")
+    there = gains(replace(data, tau_star=R(round(10**5 * found.x), 10**5)))
+    assert value(there, "critical.V0_at_tau_star") == pytest.approx(found.fun, rel=1e-8)
     assert found.fun == pytest.approx(threshold, rel=1e-8)
     assert found.x == pytest.approx(turning, rel=1e-2)
 
@@ -148,7 +151,7 @@ def test_a_clock_that_does_not_exist_is_refused(clock, exponent, message):
 def test_the_clip_for_a_residual_is_solved_where_the_gain_is_a_power_of_nu(clock):
     data = GainData(ONE, k=R(2), T=R(1), x0_norm=R(1), residual=R(1, 2), **CLOCKS[clock])
     nu = gains(data)["clip.nu_min_for_residual"].exact
-    end = gains(dataclasses.replace(data, nu_min=nu))["clip.residual_bound"]
+    end = gains(replace(data, nu_min=nu))["clip.residual_bound"]
     assert end.value == pytest.approx(1 / 2)
 
 

@@ -76,9 +76,9 @@ def test_the_bound_is_proved_and_tight_for_every_clock(clock):
     base = example("vanishing")
     tuning = dataclasses.replace(base.tuning, clock=clock, exponent=sp.Integer(2) if clock == "power" else None)
     problem = dataclasses.replace(base, tuning=tuning)
-    found = tight_bound(problem, steps=30)
+    found = tight_bound(problem, steps=20)
     assert found.evidence.verdict is Verdict.PROVED
-    worst = worst_distance(problem, found.initial, starts=16).worst
+    worst = worst_distance(problem, found.initial, starts=8).worst
     assert worst <= found.final <= 4 * worst
 
 
@@ -117,9 +117,9 @@ def test_the_bound_holds_for_a_drift_that_is_not_a_multiple_of_the_identity(matr
     base = example("vanishing")
     E = sp.ImmutableDenseMatrix(2, 2, lambda i, j: R(matrix[i][j]))
     problem = dataclasses.replace(base, drift=gradient_drift(E.tolist(), base.field.expression, base.variables))
-    found = tight_bound(problem, sp.Integer(1), steps=40)
+    found = tight_bound(problem, sp.Integer(1), steps=20)
     assert found.evidence.verdict is Verdict.PROVED
-    keep = range(0, len(found.times), 4)
+    keep = range(0, len(found.times), 2)
     distances = averaged(problem, circle(1.0, 16), [found.times[i] for i in keep])
     assert (distances <= np.array([found.distances[i] for i in keep]) * (1 + 1e-6)).all()
 
@@ -134,7 +134,7 @@ def test_the_bound_holds_for_a_source_away_from_the_origin():
         drift=bounded_drift([sp.sin(TIME) / 2, sp.cos(a) / 3]),
         initial=dataclasses.replace(base.initial, x=(R(2), sp.Integer(0))),
     )
-    found = tight_bound(problem, sp.Integer(1), steps=60)
+    found = tight_bound(problem, sp.Integer(1), steps=30)
     worst = averaged(problem, circle(1.0, 24), [2.0]).max()
     assert worst <= found.final <= 3 * worst
 
@@ -143,7 +143,7 @@ def test_a_field_of_order_four_is_covered():
     base = example("saturated")
     a, b = base.variables
     problem = dataclasses.replace(base, field=dataclasses.replace(base.field, expression=-(a**4 + 2 * b**4), kappa=2))
-    found = tight_bound(problem, sp.Integer(1), steps=60)
+    found = tight_bound(problem, sp.Integer(1), steps=30)
     assert found.evidence.verdict is Verdict.PROVED
     worst = averaged(problem, circle(1.0, 24), [1.0]).max()
     assert worst <= found.final <= 1.2 * worst

@@ -53,9 +53,10 @@ def test_a_domain_can_be_given():
 
 
 def test_a_constant_within_the_enclosure_of_the_best_one_is_undecided():
+    """The best b1 is 0.52354…, which no engine tells from this number in time, nor the coarse enclosure."""
     wavy = "5/2 + cos(2*pi/3*x1)/2 - (x1**2 + x2**2)/2"
     with pytest.raises(AssertionError, match=r"(?s)could not be decided: undecided.*b1: .*smaller rtol"):
-        assert_field_bounds(wavy, b1="0.5233", seconds=4, **PLANE)
+        assert_field_bounds(wavy, b1="0.5233", rtol=0.1, seconds=1, **PLANE)
 
 
 def test_out_of_time_is_undecided():
@@ -159,11 +160,22 @@ def test_bad_conditions_are_refused(arguments, error, words):
 STEP = sp.Piecewise((1, x2 < 1), (2, True))
 
 
+WIDE = {"a1": 9, "a2": "1/9", "b1": "1/9", "b2": 9}
+
+
 @pytest.mark.parametrize(
-    "factor",
-    [STEP, 1 + sp.sign(x1) ** 2, 1 + sp.Heaviside(x2 - 1), 3 + sp.atan(x1) + sp.atan(1 / (x1 - 1)), 1 + sp.floor(x1)],
+    ("factor", "constants"),
+    [
+        (STEP, {}),
+        (STEP, WIDE),
+        (STEP, {"b1": "1/9"}),
+        (1 + sp.sign(x1) ** 2, {"b1": "1/9"}),
+        (1 + sp.Heaviside(x2 - 1), WIDE),
+        (3 + sp.atan(x1) + sp.atan(1 / (x1 - 1)), {}),
+        (3 + sp.atan(x1) + sp.atan(1 / (x1 - 1)), {"b1": "1/9"}),
+        (1 + sp.floor(x1), WIDE),
+    ],
 )
-@pytest.mark.parametrize("constants", [{}, {"a1": 9, "a2": "1/9", "b1": "1/9", "b2": 9}, {"b1": "1/9"}])
 def test_a_field_that_jumps_has_no_bounds(factor, constants):
     with pytest.raises(AssertionError, match=r"(?s)undecided|refuted"):
         assert_field_bounds(-(x1**2 + x2**2) * factor, radius=2, rtol=1, seconds=0.3, **constants, **PLANE)
