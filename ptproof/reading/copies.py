@@ -17,6 +17,7 @@ import os
 import pickle
 import sys
 import threading
+import warnings
 from collections.abc import Callable, Iterator, Mapping
 from multiprocessing.connection import Connection
 from pathlib import Path
@@ -36,12 +37,28 @@ def possible() -> bool:
 
 
 def _alone() -> bool:
-    """Whether this process has one thread, the only kind of which a copy is known to work."""
+    """Whether this process has one thread, the only kind of which a copy is known to work.
+
+    z3 leaves threads that wait to ring for its next question. It ends them itself before a copy is made, of which an
+    empty one is enough; what is left then is somebody else's.
+    """
+    if threading.active_count() > 1:
+        return False
+    if _threads() > 1:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", DeprecationWarning)  # of Python 3.12, that there are threads
+            pid = os.fork()
+        if pid == 0:
+            os._exit(0)
+        os.waitpid(pid, 0)
+    return _threads() == 1
+
+
+def _threads() -> int:
     try:
-        threads = len(list(Path("/proc/self/task").iterdir()))
+        return len(list(Path("/proc/self/task").iterdir()))
     except OSError:
-        threads = 2
-    return threads == 1 and threading.active_count() == 1
+        return 2
 
 
 class Copies:
