@@ -6,7 +6,7 @@ import pytest
 import sympy as sp
 
 from ptproof.proof import ForAll, Goal, eq, ge
-from ptproof.proof.engines.quantified import entailed
+from ptproof.proof.engines.quantified import _arbitrary, _like, entailed
 
 x, y, u, v = sp.symbols("x y u v", real=True)
 F = sp.Function("F", real=True)
@@ -47,3 +47,27 @@ def test_what_follows_for_several_variables(case):
 def test_what_does_not_follow_for_several_variables(case):
     needed, given = DOES_NOT[case]
     assert not follows_from(needed, *given)
+
+
+def test_a_letter_about_which_something_is_said_is_not_arbitrary():
+    """The same letters serve many proofs: where one of them occurs, another has to be taken."""
+    needed, hidden = ForAll((x,), ge(x, 1)), [_like(x, number) for number in range(3)]
+    assert _arbitrary(x, []) == hidden[0]
+    assert _arbitrary(x, hidden[:2]) == hidden[2]
+    for assumed in (hidden[:1], hidden):
+        assert not follows_from(needed, *(ge(letter, 1) for letter in assumed))
+    assert not follows_from(needed, ForAll((y,), ge(y + hidden[0], 2 + y)))
+    assert not entailed(needed, Goal("in the statement", ge(hidden[0], 1), (ge(hidden[0], 1),))).shown
+
+
+def test_nothing_is_told_of_an_arbitrary_value_by_another_that_is_being_looked_at():
+    """``along`` asks about a second arbitrary value while the first is being looked at."""
+    inner = []
+
+    def along(inside, point):
+        inner.append(entailed(ForAll((x,), ge(x, 0)), inside).shown)
+        return []
+
+    needed = ForAll((x,), ge(x, 0), domain=(ge(x, 1),))
+    assert entailed(needed, Goal("nested", ge(y**2, 0)), along=along).shown
+    assert inner == [False]
