@@ -124,7 +124,6 @@ def _certify(
 
 
 def _draw(certificate: FieldCertificate, path: str) -> None:
-
     try:
         certificate.plot(path)
     except (OSError, ValueError) as error:

@@ -85,7 +85,6 @@ def coverage(paper: str, paths: tuple[str, ...], as_json: bool, keep: bool) -> i
 
 def own(papers: Sequence[Opened], labels: Set[str], tex: str) -> tuple[str, Derivation]:
     """The derivation that names most of the labels, with its name; if there is but one, that one."""
-
     derivations = {paper.name: paper.derivation for paper in papers if paper.derivation is not None}
     spoken = {name: {label for item in found.items for label in item.labels} for name, found in derivations.items()}
     named = {name: len(labels & found) for name, found in spoken.items()}
