@@ -67,6 +67,11 @@ def is_plainly_real(symbol: sp.Symbol) -> bool:
     return declared(symbol) == {"real": True}
 
 
+def is_continuum(letter: Letter) -> bool:
+    """Whether the letter ranges over the reals, or over those of one sign: a derivative by it says something."""
+    return bool(letter.is_real) and all(word in ("real", *SIGNS) for word in declared(letter))
+
+
 def like(symbol: sp.Symbol) -> sp.Symbol:
     """A fresh symbol of the same kind: nothing that is known of another symbol is known of it."""
     return sp.Dummy(symbol.name, **symbol.assumptions0)

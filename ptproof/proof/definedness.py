@@ -16,7 +16,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 from sympy.core.relational import Relational
 
-from ptproof.proof.declarations import declared, like
+from ptproof.proof.declarations import declared, is_continuum, like
 from ptproof.proof.kinks import KINKS, switching
 from ptproof.proof.obligation import Obligation as Obligation
 from ptproof.proof.statement import Relation, RelationSign, eq, ge, gt, le
@@ -26,6 +26,7 @@ _TOTAL = (
     sp.exp, sp.sin, sp.cos, sp.atan, sp.sinh, sp.cosh, sp.tanh, sp.asinh, sp.erf, sp.Abs, sp.sign, sp.floor,
     sp.ceiling, sp.Max, sp.Min, sp.Heaviside, sp.Add, sp.Mul,
 )  # fmt: skip
+_WITHOUT_JUMPS = (sp.Abs, sp.Max, sp.Min)
 _NOT_ZERO = {sp.tan: sp.cos, sp.sec: sp.cos, sp.cot: sp.sin, sp.csc: sp.sin}
 _COMPARED: dict[type, RelationSign] = {
     sp.Eq: "=", sp.Ne: "!=", sp.LessThan: "<=", sp.StrictLessThan: "<", sp.GreaterThan: ">=", sp.StrictGreaterThan: ">"
@@ -35,13 +36,16 @@ ZERO, ONE = sp.S.Zero, sp.S.One
 
 @dataclass(frozen=True)
 class _Place:
-    """Where a node stands: under which conditions, and which symbols a derivative around it moves.
+    """Where a node stands: under which conditions, and which letters the derivatives around it move.
 
-    ``whole`` says that it stands under an integral, which asks every branch to be defined on the whole range.
+    In these it has to be ``order`` times continuously differentiable; of an order of 0 it has to be continuous, which
+    the integrand is asked to be where the end of an integral moves. ``whole`` says that it stands under an integral,
+    which asks every branch to be defined on the whole range.
     """
 
     given: tuple[Relation, ...] = ()
-    moving: frozenset[sp.Symbol] = frozenset()
+    moving: frozenset[sp.Expr] = frozenset()
+    order: int = 0
     whole: bool = False
     shown: Collection[sp.Basic] = ()
 
@@ -49,7 +53,11 @@ class _Place:
         return Obligation(node, relation, self.given, under_binder=self.whole or bool(self.moving))
 
     def moves(self, node: sp.Basic) -> bool:
-        return bool(self.moving & node.free_symbols)
+        return any(letter in node.free_symbols or node.has(letter) for letter in self.moving)
+
+    def bends(self, node: sp.Basic) -> bool:
+        """Whether a kink of the node is in the way: of one without a jump, only that of a derivative."""
+        return self.moves(node) and (self.order > 0 or not isinstance(node, _WITHOUT_JUMPS))
 
 
 def obligations(
@@ -77,7 +85,7 @@ def obligations(
     entries = expression if isinstance(expression, sp.MatrixBase) else (expression,)
     seen: set[Obligation] = set()
     for entry in entries:
-        for need in _of(entry, _Place(shown=shown, moving=frozenset(moving))):
+        for need in _of(entry, _Place(shown=shown, moving=frozenset(moving), order=1)):
             if need not in seen:
                 seen.add(need)
                 yield need
@@ -99,7 +107,7 @@ def _domain(relation: Relation, shown: frozenset[sp.Basic]) -> tuple[Obligation,
 
 
 def _of(node: sp.Basic, place: _Place) -> Iterator[Obligation]:
-    if node in place.shown and isinstance(node, sp.Limit):
+    if node in place.shown and isinstance(node, sp.Limit) and not place.moves(node):
         return
     match node:
         case sp.Symbol():
@@ -115,8 +123,9 @@ def _of(node: sp.Basic, place: _Place) -> Iterator[Obligation]:
             yield from _parts(node.point, place)
             # What the bound variable is declared to be says nothing of the point: a plain real takes its place.
             fresh = {variable: sp.Dummy(variable.name, real=True) for variable in node.variables}
-            there = (eq(fresh[letter], value) for letter, value in zip(node.variables, node.point, strict=True))
-            yield from _of(node.expr.xreplace(fresh), replace(place, given=(*place.given, *there)))
+            there = [eq(fresh[letter], value) for letter, value in zip(node.variables, node.point, strict=True)]
+            moved = place.moving | {is_at.left for is_at in there if place.moves(is_at.right)}
+            yield from _of(node.expr.xreplace(fresh), replace(place, given=(*place.given, *there), moving=moved))
         case sp.Integral():
             yield from _integral(node, place)
         case sp.Sum() | sp.Product():
@@ -138,9 +147,10 @@ def _parts(nodes: Collection[sp.Basic], place: _Place) -> Iterator[Obligation]:
 
 def _own(node: sp.Basic, place: _Place) -> Iterator[Obligation]:
     """What the node itself asks, its arguments being defined."""
-    if place.moves(node) and isinstance(node, KINKS):
+    if isinstance(node, KINKS) and place.bends(node):
         if isinstance(node, sp.floor | sp.ceiling | sp.Mod):
-            yield Obligation(node, None, place.given, f"the derivative of {node} is not known")
+            unknown = f"the derivative of {node}" if place.order else f"whether {node} jumps there"
+            yield Obligation(node, None, place.given, f"{unknown} is not known")
         yield from (place.needs(node, Relation(side, "!=", ZERO)) for side in switching(node))
     if isinstance(node, _TOTAL):
         return
@@ -159,7 +169,10 @@ def _own(node: sp.Basic, place: _Place) -> Iterator[Obligation]:
         case sp.atanh():
             yield place.needs(node, Relation(node.args[0] ** 2, "<", ONE))
         case sp.atan2():
-            yield place.needs(node, gt(node.args[0] ** 2 + node.args[1] ** 2, ZERO))
+            y, x = node.args
+            square = x**2 + y**2
+            # It jumps by 2π where y = 0 and x < 0, which is where the distance from the origin is -x.
+            yield place.needs(node, gt(sp.sqrt(square) + x if strict else square, ZERO))
         case sp.Ei():
             yield place.needs(node, Relation(node.args[0], "!=", ZERO))
         case sp.Mod():
@@ -182,10 +195,15 @@ def _power(node: sp.Pow, strict: bool, place: _Place) -> Iterator[Obligation]:
 
 
 def _derivative(node: sp.Derivative, place: _Place) -> Iterator[Obligation]:
+    for letter in node.variables:
+        if not is_continuum(letter):
+            yield Obligation(node, None, place.given, f"{letter} does not run through an interval")
+            return
     if isinstance(node.expr, AppliedUndef) and all(isinstance(entry, sp.Symbol) for entry in node.expr.args):
         yield from _of(node.expr, place)
         return
-    yield from _of(node.expr, replace(place, moving=place.moving | set(node.variables)))
+    order = place.order + node.derivative_count if place.moving else node.derivative_count
+    yield from _of(node.expr, replace(place, moving=place.moving | set(node.variables), order=order))
     carried = differentiated(node)
     if not carried.has(sp.Derivative, sp.Subs):
         yield from _of(carried, place)
@@ -211,10 +229,13 @@ def _integral(node: sp.Integral, place: _Place) -> Iterator[Obligation]:
             yield Obligation(node, None, place.given, f"{variable} is not declared to have all values in {node}")
             return
         finite = [end for end in (low, high) if end not in (sp.oo, -sp.oo)]
-        if len(finite) < 2 and node not in place.shown:
+        if len(finite) < 2 and (node not in place.shown or place.moves(node)):
             yield Obligation(node, None, place.given, f"it is not shown that {node} converges")
             return
         yield from _parts(finite, inside)
+        rest = sp.Integral(function, *within) if (within := node.limits[: node.limits.index(limit)]) else function
+        for end in finite:
+            yield from _at_moving_end(rest, variable, end, replace(place, given=inside.given))
         fresh = like(variable)
         function = function.xreplace({variable: fresh})
         if len(finite) < 2:
@@ -229,11 +250,24 @@ def _integral(node: sp.Integral, place: _Place) -> Iterator[Obligation]:
     yield from _of(function, inside)
 
 
+def _at_moving_end(integrand: sp.Expr, variable: sp.Symbol, end: sp.Expr, place: _Place) -> Iterator[Obligation]:
+    """The derivative of an integral by its end is the integrand's value there, if that is continuous."""
+    if place.order and place.moves(end):
+        there = like(variable)
+        near = replace(
+            place, given=(*place.given, eq(there, end)), moving=place.moving | {there}, order=place.order - 1
+        )
+        yield from _of(integrand.xreplace({variable: there}), near)
+
+
 def _sum(node: sp.Basic, place: _Place) -> Iterator[Obligation]:
     inside, function = place, node.function
     for variable, low, high in reversed(node.limits):
         if sp.oo in (low, high) or -sp.oo in (low, high):
             yield Obligation(node, None, place.given, f"it is not shown that {node} converges")
+            return
+        if place.moves(low) or place.moves(high):
+            yield Obligation(node, None, place.given, f"an end of {node} would have to move")
             return
         yield from _parts((low, high), inside)
         fresh = sp.Dummy(variable.name, integer=True)

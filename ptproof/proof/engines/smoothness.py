@@ -10,7 +10,7 @@ import sympy as sp
 
 from ptproof.errors import InputError
 from ptproof.proof.claim import Goal, engine
-from ptproof.proof.declarations import SIGNS, declared
+from ptproof.proof.declarations import is_continuum
 from ptproof.proof.engines.singular import find_singularity
 from ptproof.proof.engines.structure import Examiner, Known, Need
 from ptproof.proof.statement import Relation, Smooth
@@ -81,7 +81,7 @@ def smoothness(
     proved refuted
     """
     expression, order = sp.sympify(expression), _order(order)
-    if unsuitable := [symbol for symbol in variables if not _is_continuum(symbol)]:
+    if unsuitable := [symbol for symbol in variables if not is_continuum(symbol)]:
         names = ", ".join(map(str, unsuitable))
         return Evidence(ENGINE, Verdict.UNDECIDED, f"not declared as real variables: {names}")
     known = tuple(Known.of(function, value) for function, value in (assumed or {}).items())
@@ -104,11 +104,6 @@ def _order(order: Any) -> int:
     if not (number.is_Integer and number >= 0):
         raise InputError(f"the order of differentiability must be one of 0, 1, 2, ..., not {order}")
     return int(number)
-
-
-def _is_continuum(symbol: sp.Symbol) -> bool:
-    """Whether the symbol ranges over the reals, or over those of one sign."""
-    return bool(symbol.is_real) and all(word in ("real", *SIGNS) for word in declared(symbol))
 
 
 def _told(order: int, glued: Iterable[sp.Expr], shown: Iterable[str]) -> str:
