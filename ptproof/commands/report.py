@@ -59,6 +59,7 @@ def report(
     from ptproof.commands.beside import Beside
     from ptproof.commands.parts import Figures, Sides, set_statements
     from ptproof.proof.run import Interrupted
+    from ptproof.reading.garbage import collecting
     from ptproof.reading.latex.source import read_paper
     from ptproof.report.printing import browser
     from ptproof.report.versions import SETTING, versions
@@ -73,7 +74,7 @@ def report(
         return _show(place, made, single, pdf)
     decided: dict[str, Verification] = {}
     count = how["jobs"] or os.cpu_count() or 1
-    with whole.loading(), Beside(at_once=count > 1) as beside:
+    with collecting(False), whole.loading(), Beside(at_once=count > 1) as beside:
         tex = {name: read_paper(name) for name in sources}
         figures = None if no_figures else Figures(beside, paths, fresh, max(count - 1, 1))
         with opened(paths, fresh) as papers:
@@ -84,7 +85,8 @@ def report(
                 beside.rest()  # a proof's limit of time is one of time alone
             for paper in papers:
                 try:
-                    decided[paper.name] = _decided(paper, **how)
+                    with collecting(True):
+                        decided[paper.name] = _decided(paper, **how)
                 except Interrupted as interrupted:
                     status = options.interrupted(interrupted)
                     _say(_sums({**decided, paper.name: interrupted.verification}))
