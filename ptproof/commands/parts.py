@@ -16,6 +16,7 @@ from ptproof.proof.papers import papers_of
 from ptproof.reading import hashes
 from ptproof.reading.outcomes import Answered, Unanswered, Why
 from ptproof.report.drawn import Drawing, Drawn, draw
+from ptproof.report.formula import knows
 from ptproof.report.kept import keeps, kept_json, kept_sides
 from ptproof.report.letters import notation_of
 from ptproof.report.read import ReadSide, read_sides
@@ -159,10 +160,10 @@ def set_statements(beside: Beside, papers: Sequence[Opened], count: int) -> dict
         typeset.marked_up()
     for place in others:
         match beside.outcome((set_part, place)):
-            case Answered(list(found)):  # what a process did not do is set where it is shown
+            case Answered((list(found), dict(formulas))):  # what a process did not do is set where it is shown
+                knows(formulas)
                 for paper, typeset, lines in zip(papers, settings, found, strict=True):
                     typeset.take(_loaded(paper), place, count, lines)
-                    typeset.marked_up()
     return {paper.name: typeset for paper, typeset in zip(papers, settings, strict=True)}
 
 

@@ -80,8 +80,9 @@ def report(
         with opened(paths, fresh) as papers:
             sides = Sides(beside, papers, max(count - 1, 1))
             settings = set_statements(beside, papers, count)
+            left = any(paper.memory.recall(claim) is None for paper in papers for claim in _derivation(paper).claims)
             read = sides.read(tex)
-            if any(paper.memory.recall(claim) is None for paper in papers for claim in _derivation(paper).claims):
+            if left:
                 beside.rest()  # a proof's limit of time is one of time alone
             for paper in papers:
                 try:

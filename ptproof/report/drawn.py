@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import os
 import sys
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, replace
@@ -116,8 +117,12 @@ class Drawn:
         return {"figures": figures, "tables": [asdict(item) for item in self.tables], "files": self.files}
 
 
+_LATER = 10  # what is drawn is needed last: who sets the pages goes before
+
+
 def draw(drawings: Sequence[Drawing]) -> list[Drawn]:
     """Each of them, one after the other, in a process that loads nothing else."""
+    os.nice(_LATER)
     sys.dont_write_bytecode = True  # what is compiled is for the one that loads the derivation, which distrusts it
     return [item.drawn() for item in drawings]
 

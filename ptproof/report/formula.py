@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import html
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from copy import deepcopy
 from dataclasses import dataclass
 from functools import lru_cache
@@ -197,9 +197,30 @@ def width(source: str) -> float:
     return float(len(source)) if found is None else _width(found)
 
 
-@lru_cache(maxsize=8192)
+_known: dict[str, ElementTree.Element | None] = {}
+_MOST = 8192  # formulas that are kept
+
+
+def converted(sources: Iterable[str]) -> dict[str, ElementTree.Element | None]:
+    """The formulas, for another process that :func:`knows` them then."""
+    return {source: _converted(source) for source in sources}
+
+
+def knows(formulas: Mapping[str, ElementTree.Element | None]) -> None:
+    """Take over formulas that were :func:`converted` in another process."""
+    _known.update(formulas)
+
+
 def _converted(source: str) -> ElementTree.Element | None:
     """The formula, which is shared: nobody changes it; None where the converter does not know its LaTeX."""
+    if source not in _known:
+        if len(_known) >= _MOST:
+            _known.clear()
+        _known[source] = _conversion(source)
+    return _known[source]
+
+
+def _conversion(source: str) -> ElementTree.Element | None:
     from latex2mathml.converter import Converter
 
     try:
