@@ -42,7 +42,8 @@ class Typeset:
 
 
 def _said(derivation: Derivation) -> list[Statement | Assumption]:
-    return [*dict.fromkeys(item for claim in derivation.claims for item in (claim.statement, *claim.assumptions))]
+    of_claims = (item for claim in derivation.claims for item in (claim.statement, *claim.assumptions))
+    return [*dict.fromkeys([*of_claims, *(item.statement for item in derivation.definitions)])]
 
 
 def set_part(
