@@ -80,6 +80,8 @@ def report(
         figures = None if no_figures else Figures(beside, paths, fresh, max(count - 1, 1))
         with opened(paths, fresh) as papers:
             sides = Sides(beside, papers, max(count - 1, 1))
+            if figures is not None:
+                figures.loaded()
             read = cache(partial(sides.read, tex))
             settings = set_statements(beside, papers, count)
             left = any(paper.memory.recall(claim) is None for paper in papers for claim in _derivation(paper).claims)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import base64
-import os
 import sys
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, replace
@@ -12,6 +11,7 @@ from typing import Any, TypeVar
 
 from ptproof.proof.load import files_named, modules_of
 from ptproof.proof.memory import Memory
+from ptproof.reading import system
 from ptproof.reading.outcomes import in_words
 from ptproof.report.content import Figure, Table, brought
 from ptproof.report.versions import SETTING, versions
@@ -117,12 +117,9 @@ class Drawn:
         return {"figures": figures, "tables": [asdict(item) for item in self.tables], "files": self.files}
 
 
-_LATER = 10  # what is drawn is needed last: who sets the pages goes before
-
-
 def draw(drawings: Sequence[Drawing]) -> list[Drawn]:
-    """Each of them, one after the other, in a process that loads nothing else."""
-    os.nice(_LATER)
+    """Each of them, one after the other, in a process that loads nothing else; they are needed last."""
+    system.yield_to_others()
     sys.dont_write_bytecode = True  # what is compiled is for the one that loads the derivation, which distrusts it
     return [item.drawn() for item in drawings]
 
