@@ -135,13 +135,16 @@ def _made(
 ) -> tuple[Made, bool]:
     """The report, and whether everything in it could be drawn."""
     from ptproof.report.pages import all_files
+    from ptproof.report.site import cards_of
 
     guard.doing("while the report was made; none is written")
     begun = [_Begun(paper, decided[paper.name], settings[paper.name]) for paper in papers]
     composed = {item.paper.name: item.composed(read().get(item.paper.name, {})) for item in begun}
+    cards = {name: cards_of(found) for name, (found, _) in composed.items()}
     if figures is not None:
         composed = {paper.name: _illustrated(figures.of(paper), *composed[paper.name]) for paper in papers}
-    files = all_files({name: found for name, (found, _) in composed.items()}, single=single, browser=printer)
+    reports = {name: found for name, (found, _) in composed.items()}
+    files = all_files(reports, single=single, browser=printer, cards=cards)
     several, notes = len(composed) > 1, []
     for name, (found, failures) in composed.items():
         of = f"{name}: " if several else ""
