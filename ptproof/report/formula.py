@@ -137,8 +137,12 @@ def _relation_lines(relation: Relation, names: Names) -> tuple[Line, ...]:
     left, right = latex(relation.left, names), latex(relation.right, names)
     sign = SIGNS[relation.sign]
     whole = f"{left} {sign} {right}"
-    # What is likely to be shown is measured: the whole where it is short, and the sides where it is long.
-    wide = width(left) + width(right) if len(whole) > _LONG else width(whole) - width(sign)
+    # What is likely to be shown is measured: the whole where it is short, the sides where it is long, and of a long
+    # sum its terms.
+    if len(whole) > _LONG:
+        wide = _wide(relation.left, left, names) + _wide(relation.right, right, names)
+    else:
+        wide = width(whole) - width(sign)
     if wide < _ROOM:
         return (Line(whole),)
     if isinstance(relation.left, sp.MatrixBase):
@@ -155,19 +159,30 @@ def _relation_lines(relation: Relation, names: Names) -> tuple[Line, ...]:
 
 def _broken(expression: Any, whole: str, names: Names) -> list[str]:
     """A sum that is too wide for a line, between its terms."""
-    if width(whole) < _ROOM or not isinstance(expression, sp.Add):
+    if not isinstance(expression, sp.Add) or _wide(expression, whole, names) < _ROOM:
         return [whole]
     lines, wide = [""], 0.0
-    for term in ordered(expression.as_ordered_terms()):
-        text = latex(term, names)
-        joined = text if lines == [""] else (f"- {text[1:].lstrip()}" if text.startswith("-") else f"+ {text}")
-        wide += width(joined)  # the terms of a line are as wide as the line
+    for term in _terms(expression, names):
+        wide += width(term)  # the terms of a line are as wide as the line
         if lines[-1] and wide > _ROOM:
-            lines.append(joined)
-            wide = width(joined)
+            lines.append(term)
+            wide = width(term)
         else:
-            lines[-1] = f"{lines[-1]} {joined}".strip()
+            lines[-1] = f"{lines[-1]} {term}".strip()
     return lines
+
+
+def _wide(expression: Any, whole: str, names: Names) -> float:
+    """How wide the expression is, which is printed as ``whole``."""
+    if isinstance(expression, sp.Add) and len(whole) > _LONG:
+        return sum(map(width, _terms(expression, names)))
+    return width(whole)
+
+
+def _terms(expression: sp.Add, names: Names) -> list[str]:
+    """The terms of a sum in their order, each but the first with its sign."""
+    first, *rest = (latex(term, names) for term in ordered(expression.as_ordered_terms()))
+    return [first, *(f"- {text[1:].lstrip()}" if text.startswith("-") else f"+ {text}" for text in rest)]
 
 
 def mathml(source: str, *, display: bool = False) -> str:
