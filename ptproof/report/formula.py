@@ -33,6 +33,7 @@ from ptproof.report.printer import ordered
 SIGNS = {"=": "=", "<=": r"\le", "<": "<", ">=": r"\ge", ">": ">", "!=": r"\ne"}
 _ROOM = 84.0  # characters in a line of the page
 _LONG = 250  # characters of LaTeX that are seldom a line
+_BRACKETS, _APART = 2.0, 1.0  # the width of a matrix's brackets, and of what is between two columns
 _FUNCTIONS = frozenset(
     ["sin", "cos", "tan", "log", "ln", "exp", "sinh", "cosh", "tanh", "atan", "asin", "acos", "arctan", "lim", "sign"]
 )
@@ -138,7 +139,7 @@ def _relation_lines(relation: Relation, names: Names) -> tuple[Line, ...]:
     sign = SIGNS[relation.sign]
     whole = f"{left} {sign} {right}"
     # What is likely to be shown is measured: the whole where it is short, the sides where it is long, and of a long
-    # sum its terms.
+    # sum or matrix its terms or entries.
     if len(whole) > _LONG:
         wide = _wide(relation.left, left, names) + _wide(relation.right, right, names)
     else:
@@ -174,8 +175,13 @@ def _broken(expression: Any, whole: str, names: Names) -> list[str]:
 
 def _wide(expression: Any, whole: str, names: Names) -> float:
     """How wide the expression is, which is printed as ``whole``."""
-    if isinstance(expression, sp.Add) and len(whole) > _LONG:
-        return sum(map(width, _terms(expression, names)))
+    if len(whole) > _LONG:
+        match expression:
+            case sp.Add():
+                return sum(map(width, _terms(expression, names)))
+            case sp.MatrixBase():
+                entries = ([_wide(entry, latex(entry, names), names) for entry in row] for row in expression.tolist())
+                return _BRACKETS + sum(max(column) + _APART for column in zip(*entries, strict=True))
     return width(whole)
 
 
@@ -277,7 +283,7 @@ def _width(node: ElementTree.Element) -> float:
             return _width(node[0]) + 0.7 * max(_width(node[1]), _width(node[2]))
         case "mtable":
             columns = zip(*([_width(cell) for cell in row] for row in node), strict=False)
-            return sum(max(column) + 1 for column in columns)
+            return sum(max(column) + _APART for column in columns)
         case "mspace":
             return 2 * float(re.sub(r"[^\d.]", "", node.get("width", "")) or 0)
     own = len(node.text or "") * (1.8 if node.tag == "mo" and node.text in ("=", "+", "−", "≤", "≥", "<", ">") else 1)
