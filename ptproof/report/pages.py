@@ -23,7 +23,7 @@ def all_files(
     """
     sites = {name: site(report, cards.get(name)) for name, report in reports.items()}
     if len(sites) == 1:
-        return _files(*sites.values(), single, browser)
+        return _files(next(iter(sites.values())), single, browser)
     files = overview_files(sites)
     for name, pages in sites.items():
         files.update(

@@ -55,8 +55,8 @@ class Views:
         """The view with its printed side, whose letters may stand for something else."""
         if read is None:
             return view
-        apart = {spelled(glyph) for glyph in read.apart} & self.spellings
-        return replace(view, read=read, unlike=tuple(sorted({*view.unlike, *apart})))
+        others = self.spellings.intersection(map(spelled, read.apart))
+        return replace(view, read=read, unlike=tuple(sorted(others.union(view.unlike))))
 
 
 def views_of(verification: Verification, derivation: Derivation, typeset: Typeset) -> Views:

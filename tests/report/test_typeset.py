@@ -41,7 +41,9 @@ def test_a_formula_that_another_process_has_converted_is_taken_from_it() -> None
     there = ElementTree.Element("math")
     knows({r"\mystery": there, r"\unknown": None})
     found = element(r"\mystery")
-    assert found is not None and found is not there and found.get("display") == "inline"
+    assert found is not None
+    assert found is not there
+    assert found.get("display") == "inline"
     assert element(r"\unknown") is None
     assert there.attrib == {}
 
