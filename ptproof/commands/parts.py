@@ -16,6 +16,7 @@ from ptproof.proof.papers import papers_of
 from ptproof.reading import hashes
 from ptproof.reading.outcomes import Answered, Unanswered, Why
 from ptproof.report.drawn import Drawing, Drawn, draw
+from ptproof.report.formula import knows
 from ptproof.report.kept import keeps, kept_json, kept_sides
 from ptproof.report.letters import notation_of
 from ptproof.report.read import ReadSide, read_sides
@@ -29,22 +30,35 @@ T = TypeVar("T")
 
 
 class Figures:
-    """The figures and tables of the papers below the paths, drawn beside this process in up to ``count`` others."""
+    """The figures and tables of the papers below the paths, drawn beside this process in up to ``count`` others.
+
+    Those of the paper that is loaded last are begun at once. The others wait until the papers are loaded: copies of
+    this process have then what they need.
+    """
 
     def __init__(self, beside: Beside, paths: Sequence[str], fresh: bool, count: int) -> None:
         self._beside, self._fresh = beside, fresh
         self._known: dict[Drawing, Drawn] = {}
         self._begun: dict[Drawing, tuple[Drawing, ...]] = {}
         self._count = count
-        self._begin(filter(None, (self._drawing(paper.paths) for paper in papers_of(paths))))
+        drawings = [drawing for paper in papers_of(paths) if (drawing := self._drawing(paper.paths))]
+        wanted = [drawing for drawing in drawings if not self._knows(drawing)]
+        if wanted:
+            click.echo("simulating and drawing the figures", err=True)
+        self._begin(wanted[-1:])
+        self._left = wanted[:-1]
+
+    def loaded(self) -> None:
+        """The papers are loaded: begin what is left."""
+        self._begin(self._left)
 
     def of(self, paper: Opened) -> Drawn:
         """What is drawn of a paper that is loaded."""
         wanted = self._drawing(paper.paths, [*_bringing(paper)])
         if wanted is None:
             return Drawn()
-        if wanted not in self._known and wanted not in self._begun:  # of a folder a file alone was named
-            self._begin([wanted])
+        if wanted not in self._begun and not (wanted in self._known or self._knows(wanted)):
+            self._begin([wanted])  # of a folder a file alone was named
         if wanted not in self._known:
             group = self._begun[wanted]
             self._known.update(zip(group, _made(self._beside.outcome(group), len(group)), strict=True))
@@ -58,16 +72,13 @@ class Figures:
         drawing = Drawing.of(paths, self._fresh, files)
         return drawing if drawing.files else None
 
-    def _begin(self, drawings: Iterable[Drawing]) -> None:
-        wanted = []
-        for drawing in drawings:
-            if (known := drawing.known()) is not None:
-                self._known[drawing] = known
-            else:
-                wanted.append(drawing)
-        if wanted:
-            click.echo("simulating and drawing the figures", err=True)
-        for group in spread(wanted, self._count):
+    def _knows(self, drawing: Drawing) -> bool:
+        if (known := drawing.known()) is not None:
+            self._known[drawing] = known
+        return known is not None
+
+    def _begin(self, drawings: Sequence[Drawing]) -> None:
+        for group in spread(drawings, self._count):
             self._begun.update(dict.fromkeys(group, group))
             self._beside.begin(group, draw, group)
 
@@ -159,10 +170,10 @@ def set_statements(beside: Beside, papers: Sequence[Opened], count: int) -> dict
         typeset.marked_up()
     for place in others:
         match beside.outcome((set_part, place)):
-            case Answered(list(found)):  # what a process did not do is set where it is shown
+            case Answered((list(found), dict(formulas))):  # what a process did not do is set where it is shown
+                knows(formulas)
                 for paper, typeset, lines in zip(papers, settings, found, strict=True):
                     typeset.take(_loaded(paper), place, count, lines)
-                    typeset.marked_up()
     return {paper.name: typeset for paper, typeset in zip(papers, settings, strict=True)}
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from dataclasses import replace
+from functools import cache, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,7 +16,7 @@ from ptproof.commands.papers import Opened, opened
 from ptproof.errors import InputError
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     from ptproof.commands.parts import Figures
     from ptproof.proof.load import Derivation
@@ -59,6 +60,7 @@ def report(
     from ptproof.commands.beside import Beside
     from ptproof.commands.parts import Figures, Sides, set_statements
     from ptproof.proof.run import Interrupted
+    from ptproof.reading.garbage import collecting
     from ptproof.reading.latex.source import read_paper
     from ptproof.report.printing import browser
     from ptproof.report.versions import SETTING, versions
@@ -73,18 +75,23 @@ def report(
         return _show(place, made, single, pdf)
     decided: dict[str, Verification] = {}
     count = how["jobs"] or os.cpu_count() or 1
-    with whole.loading(), Beside(at_once=count > 1) as beside:
+    with collecting(False), whole.loading(), Beside(at_once=count > 1) as beside:
         tex = {name: read_paper(name) for name in sources}
         figures = None if no_figures else Figures(beside, paths, fresh, max(count - 1, 1))
         with opened(paths, fresh) as papers:
             sides = Sides(beside, papers, max(count - 1, 1))
+            if figures is not None:
+                figures.loaded()
+            read = cache(partial(sides.read, tex))
             settings = set_statements(beside, papers, count)
-            read = sides.read(tex)
-            if any(paper.memory.recall(claim) is None for paper in papers for claim in _derivation(paper).claims):
-                beside.rest()  # a proof's limit of time is one of time alone
+            left = any(paper.memory.recall(claim) is None for paper in papers for claim in _derivation(paper).claims)
+            if left:  # a proof's limit of time is one of time alone
+                read()
+                beside.rest()
             for paper in papers:
                 try:
-                    decided[paper.name] = _decided(paper, **how)
+                    with collecting(True):
+                        decided[paper.name] = _decided(paper, **how)
                 except Interrupted as interrupted:
                     status = options.interrupted(interrupted)
                     _say(_sums({**decided, paper.name: interrupted.verification}))
@@ -120,7 +127,7 @@ def _derivation(paper: Opened) -> Derivation:
 def _made(
     papers: Sequence[Opened],
     decided: dict[str, Verification],
-    read: Mapping[str, Mapping[str, ReadSide]],
+    read: Callable[[], Mapping[str, Mapping[str, ReadSide]]],
     settings: Mapping[str, Typeset],
     figures: Figures | None,
     single: bool,
@@ -128,15 +135,16 @@ def _made(
 ) -> tuple[Made, bool]:
     """The report, and whether everything in it could be drawn."""
     from ptproof.report.pages import all_files
+    from ptproof.report.site import cards_of
 
     guard.doing("while the report was made; none is written")
-    composed = {
-        paper.name: _composed(paper, decided[paper.name], read.get(paper.name, {}), settings[paper.name])
-        for paper in papers
-    }
+    begun = [_Begun(paper, decided[paper.name], settings[paper.name]) for paper in papers]
+    composed = {item.paper.name: item.composed(read().get(item.paper.name, {})) for item in begun}
+    cards = {name: cards_of(found) for name, (found, _) in composed.items()}
     if figures is not None:
         composed = {paper.name: _illustrated(figures.of(paper), *composed[paper.name]) for paper in papers}
-    files = all_files({name: found for name, (found, _) in composed.items()}, single=single, browser=printer)
+    reports = {name: found for name, (found, _) in composed.items()}
+    files = all_files(reports, single=single, browser=printer, cards=cards)
     several, notes = len(composed) > 1, []
     for name, (found, failures) in composed.items():
         of = f"{name}: " if several else ""
@@ -162,24 +170,32 @@ def _show(place: Path, made: Made, single: bool, pdf: bool) -> int:
     return made.status
 
 
-def _composed(
-    paper: Opened, verification: Verification, read: Mapping[str, ReadSide], typeset: Typeset
-) -> tuple[Report, tuple[str, ...]]:
-    """The content of the report without figures, and what could not be drawn."""
-    from ptproof.report.compose import compose
-    from ptproof.report.drawn import tried
-    from ptproof.report.instruments import instruments_of
-    from ptproof.report.letters import notation_of, title_of
-    from ptproof.report.versions import versions
+class _Begun:
+    """The content of a paper's report but for figures and for what became of printed sides, which others find out."""
 
-    derivation = _derivation(paper)
-    tools, failure = tried("instruments", lambda: tuple(instruments_of(derivation)))
-    failures = (failure,) if failure else ()
-    content = compose(
-        verification, derivation, title=title_of(derivation), notation=notation_of(derivation), versions=versions(),
-        notes=failures, read=read, instruments=tools or (), typeset=typeset,
-    )  # fmt: skip
-    return content, failures
+    def __init__(self, paper: Opened, verification: Verification, typeset: Typeset) -> None:
+        from ptproof.report.drawn import tried
+        from ptproof.report.instruments import instruments_of
+        from ptproof.report.views import views_of
+
+        self.paper, self._verification = paper, verification
+        derivation = _derivation(paper)
+        self._views = views_of(verification, derivation, typeset)
+        self._tools, failure = tried("instruments", lambda: tuple(instruments_of(derivation)))
+        self._failures = (failure,) if failure else ()
+
+    def composed(self, read: Mapping[str, ReadSide]) -> tuple[Report, tuple[str, ...]]:
+        """The content, and what could not be drawn."""
+        from ptproof.report.compose import compose
+        from ptproof.report.letters import notation_of, title_of
+        from ptproof.report.versions import versions
+
+        derivation = _derivation(self.paper)
+        content = compose(
+            self._verification, derivation, title=title_of(derivation), notation=notation_of(derivation),
+            versions=versions(), notes=self._failures, read=read, instruments=self._tools or (), views=self._views,
+        )  # fmt: skip
+        return content, self._failures
 
 
 def _illustrated(drawn: Drawn, content: Report, failures: tuple[str, ...]) -> tuple[Report, tuple[str, ...]]:

@@ -11,6 +11,7 @@ from pathlib import Path
 
 MEMORY = 8 * 2**30  # of one piece of work, where nothing else is said [bytes]
 _DEATH_SIGNAL, _SUBREAPER = 1, 36  # of Linux's prctl
+_LATER = 10  # niceness
 
 
 def _prctl(option: int, value: int) -> None:
@@ -100,3 +101,13 @@ def bury_children() -> None:
             return
         if not left:
             return
+
+
+def yield_to_others() -> None:
+    """From now on this process gets a core after others that want it.
+
+    Linux shares its cores among sessions first, each with a niceness of its own (autogroups), where that is on.
+    """
+    with contextlib.suppress(OSError, AttributeError):
+        os.nice(_LATER)
+        Path("/proc/self/autogroup").write_text(str(_LATER))

@@ -11,6 +11,7 @@ from typing import Any, TypeVar
 
 from ptproof.proof.load import files_named, modules_of
 from ptproof.proof.memory import Memory
+from ptproof.reading import system
 from ptproof.reading.outcomes import in_words
 from ptproof.report.content import Figure, Table, brought
 from ptproof.report.versions import SETTING, versions
@@ -117,7 +118,8 @@ class Drawn:
 
 
 def draw(drawings: Sequence[Drawing]) -> list[Drawn]:
-    """Each of them, one after the other, in a process that loads nothing else."""
+    """Each of them, one after the other, in a process that loads nothing else; they are needed last."""
+    system.yield_to_others()
     sys.dont_write_bytecode = True  # what is compiled is for the one that loads the derivation, which distrusts it
     return [item.drawn() for item in drawings]
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import html
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from copy import deepcopy
 from dataclasses import dataclass
 from functools import lru_cache
@@ -33,6 +33,7 @@ from ptproof.report.printer import ordered
 SIGNS = {"=": "=", "<=": r"\le", "<": "<", ">=": r"\ge", ">": ">", "!=": r"\ne"}
 _ROOM = 84.0  # characters in a line of the page
 _LONG = 250  # characters of LaTeX that are seldom a line
+_BRACKETS, _APART = 2.0, 1.0  # the width of a matrix's brackets, and of what is between two columns
 _FUNCTIONS = frozenset(
     ["sin", "cos", "tan", "log", "ln", "exp", "sinh", "cosh", "tanh", "atan", "asin", "acos", "arctan", "lim", "sign"]
 )
@@ -137,8 +138,12 @@ def _relation_lines(relation: Relation, names: Names) -> tuple[Line, ...]:
     left, right = latex(relation.left, names), latex(relation.right, names)
     sign = SIGNS[relation.sign]
     whole = f"{left} {sign} {right}"
-    # What is likely to be shown is measured: the whole where it is short, and the sides where it is long.
-    wide = width(left) + width(right) if len(whole) > _LONG else width(whole) - width(sign)
+    # What is likely to be shown is measured: the whole where it is short, the sides where it is long, and of a long
+    # sum or matrix its terms or entries.
+    if len(whole) > _LONG:
+        wide = _wide(relation.left, left, names) + _wide(relation.right, right, names)
+    else:
+        wide = width(whole) - width(sign)
     if wide < _ROOM:
         return (Line(whole),)
     if isinstance(relation.left, sp.MatrixBase):
@@ -155,19 +160,35 @@ def _relation_lines(relation: Relation, names: Names) -> tuple[Line, ...]:
 
 def _broken(expression: Any, whole: str, names: Names) -> list[str]:
     """A sum that is too wide for a line, between its terms."""
-    if width(whole) < _ROOM or not isinstance(expression, sp.Add):
+    if not isinstance(expression, sp.Add) or _wide(expression, whole, names) < _ROOM:
         return [whole]
     lines, wide = [""], 0.0
-    for term in ordered(expression.as_ordered_terms()):
-        text = latex(term, names)
-        joined = text if lines == [""] else (f"- {text[1:].lstrip()}" if text.startswith("-") else f"+ {text}")
-        wide += width(joined)  # the terms of a line are as wide as the line
+    for term in _terms(expression, names):
+        wide += width(term)  # the terms of a line are as wide as the line
         if lines[-1] and wide > _ROOM:
-            lines.append(joined)
-            wide = width(joined)
+            lines.append(term)
+            wide = width(term)
         else:
-            lines[-1] = f"{lines[-1]} {joined}".strip()
+            lines[-1] = f"{lines[-1]} {term}".strip()
     return lines
+
+
+def _wide(expression: Any, whole: str, names: Names) -> float:
+    """How wide the expression is, which is printed as ``whole``."""
+    if len(whole) > _LONG:
+        match expression:
+            case sp.Add():
+                return sum(map(width, _terms(expression, names)))
+            case sp.MatrixBase():
+                entries = ([_wide(entry, latex(entry, names), names) for entry in row] for row in expression.tolist())
+                return _BRACKETS + sum(max(column) + _APART for column in zip(*entries, strict=True))
+    return width(whole)
+
+
+def _terms(expression: sp.Add, names: Names) -> list[str]:
+    """The terms of a sum in their order, each but the first with its sign."""
+    first, *rest = (latex(term, names) for term in ordered(expression.as_ordered_terms()))
+    return [first, *(f"- {text[1:].lstrip()}" if text.startswith("-") else f"+ {text}" for text in rest)]
 
 
 def mathml(source: str, *, display: bool = False) -> str:
@@ -197,9 +218,30 @@ def width(source: str) -> float:
     return float(len(source)) if found is None else _width(found)
 
 
-@lru_cache(maxsize=8192)
+_known: dict[str, ElementTree.Element | None] = {}
+_MOST = 8192  # formulas that are kept
+
+
+def converted(sources: Iterable[str]) -> dict[str, ElementTree.Element | None]:
+    """The formulas, for another process that :func:`knows` them then."""
+    return {source: _converted(source) for source in sources}
+
+
+def knows(formulas: Mapping[str, ElementTree.Element | None]) -> None:
+    """Take over formulas that were :func:`converted` in another process."""
+    _known.update(formulas)
+
+
 def _converted(source: str) -> ElementTree.Element | None:
     """The formula, which is shared: nobody changes it; None where the converter does not know its LaTeX."""
+    if source not in _known:
+        if len(_known) >= _MOST:
+            _known.clear()
+        _known[source] = _conversion(source)
+    return _known[source]
+
+
+def _conversion(source: str) -> ElementTree.Element | None:
     from latex2mathml.converter import Converter
 
     try:
@@ -241,7 +283,7 @@ def _width(node: ElementTree.Element) -> float:
             return _width(node[0]) + 0.7 * max(_width(node[1]), _width(node[2]))
         case "mtable":
             columns = zip(*([_width(cell) for cell in row] for row in node), strict=False)
-            return sum(max(column) + 1 for column in columns)
+            return sum(max(column) + _APART for column in columns)
         case "mspace":
             return 2 * float(re.sub(r"[^\d.]", "", node.get("width", "")) or 0)
     own = len(node.text or "") * (1.8 if node.tag == "mo" and node.text in ("=", "+", "−", "≤", "≥", "<", ">") else 1)

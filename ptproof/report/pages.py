@@ -3,23 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from types import MappingProxyType
 
 from ptproof.report.exported import exported_json
 from ptproof.report.markdown import markdown_page
 from ptproof.report.model import Report
 from ptproof.report.overview import overview_files
 from ptproof.report.printing import printed
-from ptproof.report.site import Site, single_page, site, site_files
+from ptproof.report.site import Cards, Site, single_page, site, site_files
 
 
-def all_files(reports: Mapping[str, Report], *, single: bool = False, browser: str = "") -> dict[str, bytes]:
+def all_files(
+    reports: Mapping[str, Report], *, single: bool = False, browser: str = "",
+    cards: Mapping[str, Cards] = MappingProxyType({}),
+) -> dict[str, bytes]:  # fmt: skip
     """The files of the reports by their paths: of one paper as they are, of several each in a folder of its name.
 
-    The rest is as for :func:`report_files`.
+    ``cards`` are those that are set already. The rest is as for :func:`report_files`.
     """
-    if len(reports) == 1:
-        return report_files(*reports.values(), single=single, browser=browser)
-    sites = {name: site(report) for name, report in reports.items()}
+    sites = {name: site(report, cards.get(name)) for name, report in reports.items()}
+    if len(sites) == 1:
+        return _files(next(iter(sites.values())), single, browser)
     files = overview_files(sites)
     for name, pages in sites.items():
         files.update(

@@ -57,9 +57,23 @@ class Site:
         return f"{self.places.get(anchor, 'index.html')}#{anchor}"
 
 
-def site(report: Report) -> Site:
-    """Set every page of the report."""
-    return Site(report, tuple(_pages(report)))
+@dataclass(frozen=True)
+class Cards:
+    """What is said of each erratum, and of what stands in each section by its anchor: no figure changes it."""
+
+    errata: tuple[str, ...]
+    sections: Mapping[str, tuple[str, ...]]
+
+
+def cards_of(report: Report) -> Cards:
+    """The cards of a report, which may have no figures yet."""
+    sections = {section.anchor: tuple(map(str, _cards(section))) for section in report.sections}
+    return Cards(tuple(map(str, _errata(report))), sections)
+
+
+def site(report: Report, cards: Cards | None = None) -> Site:
+    """Set every page of the report, whose cards may be set already."""
+    return Site(report, tuple(_pages(report, cards or cards_of(report))))
 
 
 def site_files(of: Site, above: str = "") -> dict[str, bytes]:
@@ -131,20 +145,20 @@ def _parts() -> Any:
     return html().get_template("parts.html.j2").module
 
 
-def _pages(report: Report) -> Iterator[Page]:
+def _pages(report: Report, cards: Cards) -> Iterator[Page]:
     parts = _parts()
     yield Page("index.html", report.title, _front(report))
-    yield from _split("errata", "Errata", [*_errata(report)], "errata")
+    yield from _split("errata", "Errata", cards.errata, "errata")
     yield Page("graph.html", "Graph of the claims", _topped(_graph(report)))
     taken: dict[str, int] = {}
     for section in report.sections:
         name = slug(section.title)
         taken[name] = taken.get(name, 0) + 1
         name = f"section-{name}" + (f"--{taken[name]}" if taken[name] > 1 else "")
-        cut = packed([*_cards(section)])
-        for number, cards in enumerate(cut, 1):
+        cut = packed(cards.sections[section.anchor])
+        for number, part in enumerate(cut, 1):
             file = f"{name}.html" if number == 1 else f"{name}-{number}.html"
-            whole = _topped(_section(section, cards, number, len(cut)))
+            whole = _topped(_section(section, part, number, len(cut)))
             yield Page(file, section.title + _of(number, len(cut)), whole, section.anchor)
     yield from _split("statements", "Statements by verdict", [_listed(report)], "claims")
     if report.figures or report.appendix:

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from xml.etree.ElementTree import Element
 
 from ptproof.proof.load import Derivation, load
 from ptproof.proof.statement import Assumption, Statement
-from ptproof.report.formula import Line, Names, statement_lines, width
+from ptproof.report.formula import Line, Names, converted, statement_lines, width
 from ptproof.report.letters import notation_of
 
 Lines = tuple[Line, ...]
@@ -41,10 +42,14 @@ class Typeset:
 
 
 def _said(derivation: Derivation) -> list[Statement | Assumption]:
-    return [*dict.fromkeys(item for claim in derivation.claims for item in (claim.statement, *claim.assumptions))]
+    of_claims = (item for claim in derivation.claims for item in (claim.statement, *claim.assumptions))
+    return [*dict.fromkeys([*of_claims, *(item.statement for item in derivation.definitions)])]
 
 
-def set_part(derivations: Sequence[Sequence[str]], place: int, count: int) -> list[list[Lines]]:
-    """For other processes: a part of each of the derivations below these paths."""
+def set_part(
+    derivations: Sequence[Sequence[str]], place: int, count: int
+) -> tuple[list[list[Lines]], dict[str, Element | None]]:
+    """For other processes: a part of each of the derivations below these paths, and its formulas as MathML."""
     loaded = [load(paths) for paths in derivations]
-    return [Typeset(notation_of(item).glyphs).part(item, place, count) for item in loaded]
+    parts = [Typeset(notation_of(item).glyphs).part(item, place, count) for item in loaded]
+    return parts, converted({line.latex for part in parts for lines in part for line in lines})

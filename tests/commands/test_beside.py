@@ -11,6 +11,7 @@ import pytest
 from ptproof.commands.beside import Beside
 from ptproof.commands.parts import spread
 from ptproof.reading.outcomes import Answered, Unanswered, Why
+from ptproof.reading.system import yield_to_others
 
 
 def touch(file: str) -> int:
@@ -76,3 +77,22 @@ def test_all_are_in_some_group(count: int) -> None:
     groups = spread(range(5), count)
     assert sorted(item for group in groups for item in group) == [*range(5)]
     assert len(groups) == min(count, 5)
+
+
+def considerate() -> tuple[int, str]:
+    yield_to_others()
+    group = Path("/proc/self/autogroup")
+    return os.getpriority(os.PRIO_PROCESS, 0), group.read_text() if group.exists() else ""
+
+
+def test_work_that_yields_does_so_within_its_session_and_as_a_session() -> None:
+    own = os.getpriority(os.PRIO_PROCESS, 0)
+    with Beside(at_once=True) as beside:
+        beside.begin("it", considerate)
+        match beside.outcome("it"):
+            case Answered((nice, group)):
+                assert nice == min(own + 10, 19)
+                assert not group or group.endswith("nice 10\n")
+            case other:
+                pytest.fail(str(other))
+    assert os.getpriority(os.PRIO_PROCESS, 0) == own

@@ -6,7 +6,7 @@ import pytest
 import sympy as sp
 
 from ptproof.proof.statement import All, Exists, ForAll, Prose, Relation, Runs, Smooth, eq, every, ge, gt, le, lt
-from ptproof.report.formula import domain_of, latex, mathml, statement_lines, width
+from ptproof.report.formula import _wide, domain_of, latex, mathml, statement_lines, width
 
 x, y = sp.symbols("x y", real=True)
 k = sp.Symbol("k", positive=True)
@@ -167,3 +167,17 @@ def test_bad_latex_is_shown_and_escaped(source):
     found = mathml(source)
     assert "<script" not in found
     ElementTree.fromstring(found)
+
+
+@pytest.mark.parametrize(
+    "long",
+    [
+        sp.Add(*(sp.sin(n * x) ** n / (y + n) for n in range(1, 30))),
+        sp.Matrix([[sp.log(x) ** n / (y + n), sp.Add(*(x**k * sp.cos(n * y) for k in range(9)))] for n in range(6)]),
+        sp.Matrix([[x], [sp.Add(*((-1) ** n * sp.exp(-n * x) / (y + n) for n in range(20)))]]),
+    ],
+)
+def test_what_is_long_is_as_wide_as_its_parts(long: sp.Basic) -> None:
+    whole = latex(long, {})
+    assert len(whole) > 250
+    assert _wide(long, whole, {}) == pytest.approx(width(whole))

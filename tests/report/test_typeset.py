@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from itertools import pairwise
 from pathlib import Path
+from xml.etree import ElementTree
 
 import pytest
 import sympy as sp
 
 from ptproof.proof import load
 from ptproof.proof.statement import eq
-from ptproof.report.formula import statement_lines, width
+from ptproof.report.formula import _conversion, element, knows, markup, statement_lines, width
 from ptproof.report.letters import notation_of
 from ptproof.report.printer import latex
 from ptproof.report.typeset import Typeset, set_part
@@ -24,12 +25,27 @@ def test_the_parts_together_are_the_whole(count: int, sample: Path) -> None:
     glyphs = notation_of(derivation).glyphs
     joined = Typeset(glyphs)
     for place in range(count):
-        (found,) = set_part([[str(sample)]], place, count)
+        (found,), formulas = set_part([[str(sample)]], place, count)
         joined.take(derivation, place, count, found)
-    for claim in derivation.claims:
-        for statement in (claim.statement, *claim.assumptions):
+        shown = {line.latex for lines in found for line in lines}
+        assert {source: markup(formulas[source], source) for source in shown} == {
+            source: markup(_conversion(source), source) for source in shown
+        }
+    for item in (*derivation.claims, *derivation.definitions):
+        for statement in (item.statement, *getattr(item, "assumptions", ())):
             assert statement in joined._set
             assert joined.lines(statement) == statement_lines(statement, glyphs)
+
+
+def test_a_formula_that_another_process_has_converted_is_taken_from_it() -> None:
+    there = ElementTree.Element("math")
+    knows({r"\mystery": there, r"\unknown": None})
+    found = element(r"\mystery")
+    assert found is not None
+    assert found is not there
+    assert found.get("display") == "inline"
+    assert element(r"\unknown") is None
+    assert there.attrib == {}
 
 
 def test_a_part_of_another_length_is_not_taken(sample: Path) -> None:

@@ -121,6 +121,16 @@ class Rules:
             raise InputError(f"the notation explains {expression} by itself")
         if isinstance(expression, sp.MatrixBase):
             return expression.applyfunc(lambda entry: self._of(entry, depth))
+        if expression not in self._parts:
+            self._parts[expression] = self._rewritten(expression, depth)
+        return self._parts[expression]
+
+    @cached_property
+    def _parts(self) -> dict[Any, Any]:
+        """What came of each part: the sides of a paper and of its claims have most of theirs in common."""
+        return {}
+
+    def _rewritten(self, expression: Any, depth: int) -> Any:
         match expression:
             case sp.Symbol():
                 return self._symbol(expression, depth)
