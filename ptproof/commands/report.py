@@ -59,7 +59,6 @@ def report(
     """
     from ptproof.commands.beside import Beside
     from ptproof.commands.parts import Figures, Sides, set_statements
-    from ptproof.proof.run import Interrupted
     from ptproof.reading.garbage import collecting
     from ptproof.reading.latex.source import read_paper
     from ptproof.report.printing import browser
@@ -88,14 +87,8 @@ def report(
             if left:  # a proof's limit of time is one of time alone
                 read()
                 beside.rest()
-            for paper in papers:
-                try:
-                    with collecting(True):
-                        decided[paper.name] = _decided(paper, **how)
-                except Interrupted as interrupted:
-                    status = options.interrupted(interrupted)
-                    _say(_sums({**decided, paper.name: interrupted.verification}))
-                    return status
+            if (status := _all_decided(papers, decided, how)) is not None:
+                return status
             try:
                 made, drawn = _made(papers, decided, read, settings, figures, single, printer)
             except KeyboardInterrupt:  # nothing is half written, and what is decided is shown
@@ -106,6 +99,22 @@ def report(
     status = _show(place, made, single, pdf)
     whole.keep_run(asked, made.data, drawn and all(item.memory.lasts(decided[item.name]) for item in papers))
     return status
+
+
+def _all_decided(papers: Sequence[Opened], decided: dict[str, Verification], how: Mapping[str, Any]) -> int | None:
+    """Each paper's verdicts are added to ``decided``; an exit status where the user has had enough."""
+    from ptproof.proof.run import Interrupted
+    from ptproof.reading.garbage import collecting
+
+    for paper in papers:
+        try:
+            with collecting(True):
+                decided[paper.name] = _decided(paper, **how)
+        except Interrupted as interrupted:
+            status = options.interrupted(interrupted)
+            _say(_sums({**decided, paper.name: interrupted.verification}))
+            return status
+    return None
 
 
 def _decided(paper: Opened, jobs: int | None, cluster: str | None, timeout: float) -> Verification:

@@ -77,11 +77,11 @@ def test_a_letter_that_is_bound_or_another_is_found(report):
     import sympy as sp
 
     from ptproof.proof.statement import Exists, ForAll, eq, ge
-    from ptproof.report.compose import _Composer
-    from ptproof.report.typeset import Typeset
+        from ptproof.report.typeset import Typeset
+    from ptproof.report.views import _Composer
 
     k, other, free = sp.Symbol("k", positive=True), sp.Symbol("k", real=True), sp.Symbol("x", real=True)
-    composer = _Composer({}, {}, Typeset({k: "k", free: "x"}), {})
+    composer = _Composer({}, {}, Typeset({k: "k", free: "x"}))
     for statements, found in [
         ([eq(k, free)], ()), ([eq(other, free)], ("k",)), ([eq(sp.Integral(k, (k, 0, 1)), free)], ("k",)),
         ([eq(free, 1), ForAll((k,), ge(k, 0))], ("k",)), ([Exists((k,), (ge(k, free),))], ("k",)),
