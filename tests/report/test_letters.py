@@ -77,7 +77,7 @@ def test_a_letter_that_is_bound_or_another_is_found(report):
     import sympy as sp
 
     from ptproof.proof.statement import Exists, ForAll, eq, ge
-        from ptproof.report.typeset import Typeset
+    from ptproof.report.typeset import Typeset
     from ptproof.report.views import _Composer
 
     k, other, free = sp.Symbol("k", positive=True), sp.Symbol("k", real=True), sp.Symbol("x", real=True)
