@@ -165,13 +165,11 @@ def _pair(
 
 def fit_order(omegas: Sequence[float], gaps: Sequence[float], expected: float, message: str = "") -> GapOrder:
     """The straight line through (log ω, log gap) and the standard error of its slope; NaN if a gap is not positive."""
-    from scipy.stats import linregress
-
     if not all(math.isfinite(gap) and gap > 0 for gap in gaps):
         return GapOrder(tuple(omegas), tuple(gaps), math.nan, math.nan, math.inf, math.nan, expected, message)
     x, y = np.log(omegas), np.log(gaps)
-    fit = linregress(x, y)
-    line = float(fit.slope), float(fit.intercept), float(fit.stderr)
+    (slope, intercept), covariance = np.polyfit(x, y, 1, cov=True)
+    line = float(slope), float(intercept), math.sqrt(covariance[0, 0])
     return GapOrder(tuple(omegas), tuple(gaps), *line, float((y[-1] - y[-2]) / (x[-1] - x[-2])), expected, message)
 
 
@@ -199,8 +197,6 @@ class _Pair:
 
     def gap(self, rung: float) -> tuple[float, str]:
         """The largest distance at ω = ``rung``, or NaN and why a run did not get through."""
-        from scipy.interpolate import CubicSpline
-
         (begin, end), names = self.span, [state.name for state in self.full.state]
         samples = min(200_000, max(400, math.ceil(_SAMPLES_A_TURN * rung * (end - begin) / (2 * math.pi))))
         fast = self._run(self.full, {name: self.initial[name] for name in names if name in self.initial}, rung, samples)
@@ -213,7 +209,7 @@ class _Pair:
             return math.nan, f"at omega = {rung:g} the average ended as {mean.outcome}"
         rows = [names.index(name) for name in shared]
         # A system that jumps has its samples between the jumps; its average is smooth, and has many.
-        at = mean.x if np.array_equal(fast.t, mean.t) else CubicSpline(mean.t, mean.x, axis=1)(fast.t)
+        at = mean.x if np.array_equal(fast.t, mean.t) else _between(mean, fast.t)
         return float(np.max(np.linalg.norm(fast.x[rows] - self.along(fast.t, at, rung), axis=0))), ""
 
     def _run(self, system: System, initial: Mapping[str, Any], rung: float, samples: int) -> Trajectory:
@@ -221,6 +217,13 @@ class _Pair:
         return simulate(
             system, initial=initial, parameters=given, span=self.span, settings=self.settings, samples=samples
         )
+
+
+def _between(run: Trajectory, times: Array) -> Array:
+    """The states of a smooth run between its samples."""
+    from scipy.interpolate import CubicSpline
+
+    return np.asarray(CubicSpline(run.t, run.x, axis=1)(times))
 
 
 def _correction(average: System | Correction, values: Mapping[Any, Any]) -> tuple[_Numbers, _Numbers]:

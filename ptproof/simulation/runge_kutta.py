@@ -78,9 +78,11 @@ _LOCAL = 3.0
 # How much the error of the step before counts. By the last one alone, every other step fails where stability limits
 # them.
 _DAMPING = 0.08
-# Pieces that take more trials are left to CVODES, which makes two to twenty steps a radian, of half a trial's cost.
-# A plan's tightening is a hundred over its radians, rounded down to a power of ten.
+# Pieces that take more trials are looked at, and left to CVODES where its steps would be longer: where the fastest
+# decay, times the step, is so large that stability limits the step. Where accuracy does, CVODES' lower order takes ten
+# steps for one. A plan's tightening is a hundred over its radians, rounded down to a power of ten.
 _MOST, _SAMPLED = 100, 1
+_STIFF, _AGAIN = 3.0, 1.25
 
 
 def through(plan: Plan, member: Batch, counts: Sequence[int], budget: Budget) -> list[Array]:
@@ -93,9 +95,9 @@ def through(plan: Plan, member: Batch, counts: Sequence[int], budget: Budget) ->
     budget
         The trials of what is found are taken from it.
 
-    A piece that is left out, with all after it, is for another method: the rates have kinks at unknown instants, the
-    run leaves the ball or does not come to the end, or it is so stiff that the steps of an explicit method are too
-    short.
+    What is left out is for another method, from the last sample on, which may be inside a piece: the rates have kinks
+    at unknown instants, the run leaves the ball or does not come to the end, or it is so stiff that the steps of an
+    explicit method are too short.
     """
     found: list[Array] = []
     try:
@@ -106,38 +108,59 @@ def through(plan: Plan, member: Batch, counts: Sequence[int], budget: Budget) ->
     for (row, system), count in zip(parts, counts, strict=True):
         given = [*member.parameters[:, 0], member.edges[row, 0], member.edges[row + 1, 0] - member.edges[row, 0]]
         carries = _piece(plan, system, x, np.array(given), count, budget)
-        if carries is None:
-            break
         steps = int(np.count_nonzero(carries[:, 1] < count)) + 1
         states = carries[np.diff(carries[:, 1], prepend=0.0) > 0, 4:].T
-        if steps > budget.steps or not plan.within(states):
+        states = states[:, : plan.inside(states)] if states.size else states
+        if steps > budget.steps or not states.size:
             break
         budget.steps -= steps
         found.append(states)
+        if states.shape[1] < count:
+            break
         x = states[:, -1]
     return found
 
 
-def _piece(plan: Plan, system: System, x: Array, given: Array, count: int, budget: Budget) -> Array | None:
-    """What is carried on after each trial of one piece, to its end; None where it does not come to that."""
+def _piece(plan: Plan, system: System, x: Array, given: Array, count: int, budget: Budget) -> Array:
+    """What is carried on after each trial of one piece, as far as this method goes."""
     settings = plan.settings
     tolerances = max(_LOCAL * settings.rtol * plan.tightening, 3e-14), max(_LOCAL * settings.absolute, 1e-18)
-    carry, given = np.array([0.0, 0.0, _FIRST / count, 1e-4, *x]), np.array([*given, count, *tolerances])
+    carry, all_given = np.array([0.0, 0.0, _FIRST / count, 1e-4, *x]), np.array([*given, count, *tolerances])
     made, found = np.empty((_TRIALS, len(carry))), []
     buffer, evaluate = trials(system).buffer()
-    for i, array in enumerate((carry, given)):
+    for i, array in enumerate((carry, all_given)):
         buffer.set_arg(i, array.data)
     buffer.set_res(0, made.data)
-    most = _MOST / plan.tightening + _SAMPLED * count
+    most, looked = _MOST / plan.tightening + _SAMPLED * count, 0.0
     while carry[1] < count:
         evaluate()
         found.append(made.copy())
         carry[:] = made[-1]
         number = len(found) * _TRIALS
+        if carry[2] * count < _SMALLEST or number > budget.steps or budget.spent or plan.away(carry[4:]) > plan.radius:
+            break
         too_long = number > 4 * _TRIALS + most * carry[0]  # as far as can be foreseen, once steps have grown
-        if too_long or carry[2] * count < _SMALLEST or budget.spent:
-            return None
+        if too_long and number > _AGAIN * looked:
+            looked = number
+            if _decay(system, carry, given) * carry[2] > _STIFF:
+                break
     return np.concatenate(found)
+
+
+def _decay(system: System, carry: Array, given: Array) -> float:
+    """The fastest rate at which a small difference dies out, in the time of the piece; 0 where that is no number."""
+    start, length = given[-2:]
+    slopes = np.array(jacobian(system)(start + length * carry[0], carry[4:], given[:-2]))
+    return float(max(-length * np.linalg.eigvals(slopes).real.min(), 0.0)) if np.isfinite(slopes).all() else 0.0
+
+
+@lru_cache(maxsize=64)
+def jacobian(system: System) -> Any:
+    """The derivatives of the rates by the states (n × n), of time, states and parameters."""
+    import casadi as ca
+
+    time, x, p, rhs = casadi_expressions(system)
+    return ca.Function("jacobian", [time, x, p], [ca.densify(ca.jacobian(rhs, x))])
 
 
 @lru_cache(maxsize=64)

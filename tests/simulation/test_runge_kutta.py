@@ -108,3 +108,33 @@ def test_other_values_build_nothing():
     simulate("vanishing", model="average", engine="casadi", rtol=1e-5, parameters={"k": 2, "T": 3}, samples=7)
     assert before
     assert trials.cache_info().misses == before
+
+
+def test_who_is_not_stiff_is_followed_however_many_steps_it_takes():
+    states = followed(job(System(t, (x, y), (y, -x)), [1, 0], (0, 2000), rtol=1e-8), 5)
+    np.testing.assert_allclose(states[0], np.cos(np.linspace(0, 2000, 6)[1:]), atol=1e-6)
+
+
+def test_what_turns_stiff_on_the_way_is_kept_as_far_as_it_is_not():
+    made = job(System(t, (x,), (1e5 * t**8 * (sp.cos(t) - x),)), [1.0], (0, 4), rtol=1e-8)
+    states = followed(made, 40)
+    assert 0 < states.shape[1] < 40
+    run = simulate(made.plan.system, initial=[1], span=(0, 4), samples=40, rtol=1e-8, engine="casadi")
+    assert run.outcome == "reached T"
+    np.testing.assert_allclose(run.x[0, 1 : states.shape[1] + 1], states[0], rtol=1e-12)
+    reference = simulate(made.plan.system, initial=[1], span=(0, 4), samples=40, rtol=1e-10, engine="radau")
+    np.testing.assert_allclose(run.x, reference.x, atol=1e-7)
+
+
+def test_an_escape_is_followed_to_the_last_sample_before_it():
+    made = job(System(t, (x,), (x**2,)), [1.0], (0, 2), rtol=1e-8)
+    states = followed(made, 10)
+    np.testing.assert_allclose(states[0], 1 / (1 - np.array([0.2, 0.4, 0.6, 0.8])), rtol=1e-6)
+    run = simulate(made.plan.system, initial=[1], span=(0, 2), samples=10, rtol=1e-8, engine="casadi")
+    assert run.outcome == "escaped"
+    assert run.t[-1] == pytest.approx(1, abs=1e-5)
+
+
+def test_no_more_trials_are_made_than_steps_are_allowed():
+    made = job(System(t, (x, y), (y, -x)), [1, 0], (0, 2000), rtol=1e-8, max_steps=200)
+    assert followed(made) is None

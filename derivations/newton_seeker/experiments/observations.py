@@ -50,9 +50,13 @@ def loop(system: System, rate: Any) -> System:
     return system.with_values(GAINS).with_values({**NUMBERS, **FIELD, h: sp.Rational(str(rate))})
 
 
-@lru_cache(maxsize=64)
 def run(seeker: str, rate: float, end: int = END, rtol: float = TOLERANCES[0]) -> Trajectory:
     """The seeker of this name in the chain from the paper's start; it ends where d passes a hundred times 1/H."""
+    return _run(seeker, rate, end, rtol)  # what is left out and what is said are the same run
+
+
+@lru_cache(maxsize=64)
+def _run(seeker: str, rate: float, end: int, rtol: float) -> Trajectory:
     system = loop(getattr(chain, seeker), rate)
     start = {symbol.name: START[symbol] for symbol in system.state}
     far = FAR * INVERSE

@@ -79,8 +79,11 @@ class _CasADi(Engine):
         budget = Budget(plan.settings)
         found = runge_kutta.through(plan, member, [len(grid) - 1 for grid in grids], budget)
         for grid, states in zip(grids, found, strict=False):
-            samples.add(grid[1:], states)
-        return _by_cvodes(plan, samples, grids[len(found) :], budget)
+            samples.add(grid[1 : states.shape[1] + 1], states)
+        rest, broken_off = grids[len(found) :], False
+        if found and (reached := found[-1].shape[1]) < len(grids[len(found) - 1]) - 1:
+            rest, broken_off = [grids[len(found) - 1][reached:], *rest], True
+        return _by_cvodes(plan, samples, rest, budget, broken_off)
 
     def finals(self, plan: Plan, batch: Batch, workers: int = 1) -> Finals:
         """End states of many; chunks of a fixed size go through CasADi's own map, failing ones one by one."""
@@ -114,11 +117,14 @@ def mapped(system: System, size: int, rtol: float, atol: float, max_steps: int, 
     return run.map(size) if workers == 1 or size == 1 else run.map(size, "thread", min(workers, size))
 
 
-def _by_cvodes(plan: Plan, samples: Samples, grids: Sequence[Array], budget: Budget) -> Run:
-    """The rest of a run, as many samples as possible in one call, since each call starts the method afresh."""
+def _by_cvodes(plan: Plan, samples: Samples, grids: Sequence[Array], budget: Budget, near_trouble: bool) -> Run:
+    """The rest of a run, as many samples as possible in one call, since each call starts the method afresh.
+
+    Where an explicit method has broken off in the middle, more and more, for the run may end between two samples.
+    """
     solve = _Solver(plan, samples.member.parameters[:, 0].tolist(), budget)
-    for grid in grids:
-        reached, size = 0, len(grid) - 1
+    for i, grid in enumerate(grids):
+        reached, size = 0, 2 if near_trouble and i == 0 else len(grid) - 1
         while reached < len(grid) - 1:
             size = min(size, len(grid) - 1 - reached)
             ahead = grid[reached : reached + size + 1]
