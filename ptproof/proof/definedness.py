@@ -49,7 +49,7 @@ class _Place:
         return Obligation(node, relation, self.given, under_binder=self.whole or bool(self.moving))
 
     def moves(self, node: sp.Basic) -> bool:
-        return bool(self.moving & node.free_symbols)
+        return bool(self.moving) and bool(self.moving & node.free_symbols)
 
 
 def obligations(
