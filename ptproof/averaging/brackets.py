@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import operator
+from collections import Counter
 from collections.abc import Mapping, Sequence
 
 import sympy as sp
@@ -67,7 +68,9 @@ def tidy(expression: sp.Expr, factored: int = _FACTORED) -> sp.Expr:
     for form in dict.fromkeys(forms):
         if form.is_Add:
             forms.append(sp.factor_terms(form))
-            if len(form.args) <= factored:
+            if _is_plain(form):
+                forms.append(sp.gcd_terms(form))
+            elif len(form.args) <= factored:
                 forms.append(sp.factor(form))
     if len(forms[0].free_symbols) >= len(masked.free_symbols):
         forms.append(masked)
@@ -75,6 +78,24 @@ def tidy(expression: sp.Expr, factored: int = _FACTORED) -> sp.Expr:
     while shortest.free_symbols & back.keys():
         shortest = shortest.xreplace(back)
     return shortest
+
+
+def _is_plain(form: sp.Add) -> bool:
+    """Whether it is seen that nothing can be taken out of a sum of monomials but a number and a monomial.
+
+    That is so where a letter stands in one term only, and there to the first power: of two factors one has the letter,
+    and the other divides what the letter is multiplied with, which is a monomial.
+    """
+    counts: Counter[sp.Expr] = Counter()
+    single: set[sp.Expr] = set()
+    for term in form.args:
+        for letter, power in term.as_powers_dict().items():
+            if not (letter.is_Number or (letter.is_Symbol and power.is_Integer and power > 0)):
+                return False
+            counts[letter] += 1
+            if power == 1 and letter.is_Symbol:
+                single.add(letter)
+    return any(counts[letter] == 1 for letter in single)
 
 
 def _mask(

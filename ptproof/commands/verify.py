@@ -61,16 +61,20 @@ def _paper(
 ) -> tuple[Shown, int]:
     """What there is to show of a paper, and its exit status."""
     if paper.derivation is None:
-        shown: Shown = replace(paper.known, seconds=time.perf_counter() - begin)
-        return shown, 0 if shown.as_expected else 1
+        known: Shown = replace(paper.known, seconds=time.perf_counter() - begin)
+        return known, 0 if known.as_expected else 1
     verification, status = _decided(paper.derivation, paper.memory, select, **how)
-    if kernel and status in (0, 1):
+    shown = Shown.of(verification)
+    if status not in (0, 1):  # interrupted
+        return shown, status
+    paper.memory.keep_run(select, shown.data, paper.memory.lasts(verification))
+    if kernel:
         try:
-            verification = opinion.confirmed(verification, how["jobs"], keep)
+            shown = Shown.of(opinion.confirmed(verification, how["jobs"], keep))
         except KeyboardInterrupt:
             click.echo("ptproof: interrupted before Coq had answered", err=True)
             status = guard.interrupt_status()
-    return Shown.of(verification), status
+    return shown, status
 
 
 def _decided(
@@ -91,7 +95,6 @@ def _decided(
         return interrupted.verification, options.interrupted(interrupted)
     if not select:
         verification = replace(verification, gaps=len(derivation.gaps))
-    memory.keep_run(select, Shown.of(verification).data, memory.lasts(verification))
     return verification, 0 if verification.as_expected else 1
 
 

@@ -72,6 +72,8 @@ def in_workers(
     by_id = {claim.id: claim for claim in ordered}
     if not by_id:
         return
+    for claim in ordered:
+        _ = claim.content  # it is asked for here and there, and a copy of this process has it
     with Workers(min(workers, len(by_id)), start=read, arguments=(files,)) as processes:
         for id, outcome in processes.each(timeout, run_by_id, {id: (id,) for id in by_id}):
             yield by_id[id], decided(by_id[id], outcome, timeout)

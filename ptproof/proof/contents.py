@@ -98,9 +98,17 @@ def _imports(file: Path, here: Mapping[str, Path]) -> set[str]:
     return found
 
 
+def _statements(node: ast.AST) -> Iterator[ast.AST]:
+    """The statements below a node; imports stand among them and in no expression."""
+    for part in ("body", "orelse", "handlers", "finalbody", "cases"):
+        for inner in getattr(node, part, ()):
+            yield inner
+            yield from _statements(inner)
+
+
 def _names(tree: ast.AST) -> Iterator[tuple[str, bool]]:
     """What is imported: the first part of its name, and whether it is looked for beside the file."""
-    for node in ast.walk(tree):
+    for node in _statements(tree):
         if isinstance(node, ast.Import):
             yield from ((entry.name.partition(".")[0], False) for entry in node.names)
         elif isinstance(node, ast.ImportFrom):

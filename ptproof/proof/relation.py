@@ -10,6 +10,7 @@ from typing import Any, Literal, TypeAlias
 import sympy as sp
 
 from ptproof.errors import InputError
+from ptproof.proof.written import written
 
 RelationSign: TypeAlias = Literal["=", "<=", "<", ">=", ">", "!="]
 _LATEX = {"=": "=", "<=": r"\le", "<": "<", ">=": r"\ge", ">": ">", "!=": r"\ne"}
@@ -82,10 +83,7 @@ class Relation:
         return Relation(side(self.left), self.sign, side(self.right))
 
     def __str__(self) -> str:
-        def text(side: Any) -> str:
-            return str(list(side)) if isinstance(side, sp.MatrixBase) else str(side)
-
-        return f"{text(self.left)} {self.sign} {text(self.right)}"
+        return f"{written(self.left)} {self.sign} {written(self.right)}"
 
     def latex(self, **names: Any) -> str:
         return f"{sp.latex(self.left, **names)} {_LATEX[self.sign]} {sp.latex(self.right, **names)}"

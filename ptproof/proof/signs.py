@@ -5,19 +5,24 @@ from __future__ import annotations
 from typing import Any
 
 import sympy as sp
+from sympy.core.function import AppliedUndef
 
 from ptproof.balls.ball import ball_from, interval, precision, separated
 from ptproof.proof.algebra import NotAlgebraic, is_zero
+from ptproof.proof.declarations import Letter, declared
 from ptproof.proof.statement import MEANING, Relation
 
 _BITS = (64, 128, 256, 1024)
+_BOUND = (sp.Derivative, sp.Integral, sp.Limit, sp.Sum, sp.Product, sp.Subs)
+_ORDINARY = {"real", "positive", "nonnegative", "negative", "nonpositive", "nonzero", "rational", "integer", "finite"}
 
 
 def vanishes(expression: Any) -> bool:
     """Whether it is shown that ``expression`` is 0 wherever it is defined; False says only that it is not shown.
 
-    The normal form of exact algebra is asked first (:func:`ptproof.proof.algebra.is_zero`); products of roots of
-    numbers are then also multiplied out. A floating-point number, a limit or a sum shows nothing, and neither does
+    Where it is certainly another number at some exact values, nothing more is asked. Otherwise the normal form of exact
+    algebra is (:func:`ptproof.proof.algebra.is_zero`); products of roots of numbers are then also multiplied out. A
+    floating-point number, a limit or a sum shows nothing, and neither does
     a quotient whose denominator vanishes identically.
 
     Examples
@@ -29,6 +34,8 @@ def vanishes(expression: Any) -> bool:
     (False, False)
     """
     expression = sp.sympify(expression)
+    if _differs(expression):
+        return False
     try:
         if is_zero(expression):
             return True
@@ -36,6 +43,27 @@ def vanishes(expression: Any) -> bool:
         return bool(sp.expand(numerator) == 0) and not is_zero(denominator)
     except NotAlgebraic:
         return False
+
+
+def _differs(expression: sp.Expr) -> bool:
+    """Whether an enclosure excludes 0 at exact values that the letters of the expression may have."""
+    if not isinstance(expression, sp.Expr) or expression.has(*_BOUND):
+        return False
+    masks = {node: sp.Dummy("value", real=True) for node in sorted(expression.atoms(AppliedUndef), key=str)}
+    masked = expression.xreplace(masks)
+    meaning = {mask: node for node, mask in masks.items()}
+    letters = sorted(masked.free_symbols, key=lambda letter: str(meaning.get(letter, letter)))
+    values = {letter: _example(meaning.get(letter, letter), place) for place, letter in enumerate(letters)}
+    return bool(values) and None not in values.values() and separated(masked, 0, values, (64,)) is not None
+
+
+def _example(letter: Letter, place: int) -> sp.Rational | None:
+    """A number that the letter may stand for, another one in each place; None where its declaration says more."""
+    kind = declared(letter)
+    if not all(kind.values()) or not kind.keys() <= _ORDINARY:
+        return None
+    number = sp.Integer(place + 2) if "integer" in kind else sp.Rational(sp.prime(place + 5), 7)
+    return -number if kind.keys() & {"negative", "nonpositive"} else number
 
 
 def sign_of(expression: Any) -> int | None:
@@ -59,7 +87,7 @@ def sign_of(expression: Any) -> int | None:
     expression = sp.sympify(expression)
     if expression.is_Rational:
         return int(sp.sign(expression))
-    if expression.free_symbols or expression.has(sp.core.function.AppliedUndef):
+    if expression.free_symbols or expression.has(AppliedUndef):
         found = 1 if expression.is_positive else -1 if expression.is_negative else None
     else:
         found = _sign_by_enclosure(expression)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Any
 
 import sympy as sp
@@ -160,7 +160,10 @@ Functions = Mapping[Any, tuple[AppliedUndef, sp.Expr]]
 def _put(node: sp.Basic, symbols: Mapping[sp.Symbol, sp.Expr], functions: Functions) -> Any:
     if isinstance(node, sp.Symbol):
         return symbols.get(node, node)
-    if not node.args or not (node.free_symbols & symbols.keys() or _calls(node, functions)):
+    if not node.args:
+        return node
+    free, called = _within(node)
+    if free.isdisjoint(symbols) and called.isdisjoint(functions):
         return node
     match node:
         case sp.Derivative() if not all(isinstance(variable, sp.Symbol) for variable in node.variables):
@@ -189,8 +192,15 @@ def _put(node: sp.Basic, symbols: Mapping[sp.Symbol, sp.Expr], functions: Functi
     return node.func(*arguments)
 
 
-def _calls(node: sp.Basic, functions: Functions) -> bool:
-    return bool(functions) and any(applied.func in functions for applied in node.atoms(AppliedUndef))
+@lru_cache(maxsize=2**14)
+def _within(node: sp.Basic) -> tuple[frozenset[sp.Symbol], frozenset[Any]]:
+    """The free symbols of a node, and the undefined functions that are applied in it."""
+    own = {node.func} if isinstance(node, AppliedUndef) else set()
+    parts = [_within(entry) for entry in node.args]
+    called = frozenset(own.union(*(called for _, called in parts)))
+    if type(node).free_symbols is sp.Basic.free_symbols:  # nothing is bound here
+        return frozenset[sp.Symbol]().union(*(free for free, _ in parts)), called
+    return frozenset(node.free_symbols), called
 
 
 def _entered(

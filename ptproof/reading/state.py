@@ -130,12 +130,14 @@ class State:
             name for name, (read, _) in _SEEN.items() if self.values[name] is not None and read() != self.values[name]
         )
 
-    def restore(self) -> None:
-        """Set again what can be set; handlers of signals, streams and threads are left."""
-        for name in self.changed():
+    def restore(self) -> tuple[str, ...]:
+        """Set again what can be set, and give what was changed; handlers of signals, streams and threads are left."""
+        found = self.changed()
+        for name in found:
             if (write := _SEEN[name][1]) is not None:
                 write(self.values[name])
         random.setstate(self.chance)
+        return found
 
 
 def seed() -> None:

@@ -95,7 +95,8 @@ def _work(channel: Any, memory: int, failed: BaseException | None) -> NoReturn:
 def _changed(before: State) -> bool:
     """Whether the state of the process is another one, after what can be set again is."""
     with contextlib.suppress(Exception):
-        before.restore()
+        if not before.restore():
+            return False
     return bool(before.changed())
 
 

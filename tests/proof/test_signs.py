@@ -60,3 +60,12 @@ def test_a_cubic_root_is_not_zero():
 
 def test_a_relation_with_a_symbol_is_not_certain():
     assert not holds(Relation(p, ">", 0))
+
+
+def test_a_value_beside_zero_ends_the_question() -> None:
+    """Of letters that are declared to be more than real, or of a sign, no value is taken."""
+    n, m = sp.Symbol("n", even=True), sp.Symbol("m", negative=True)
+    g = sp.Function("g", negative=True)(x)
+    zero = [(-1) ** n - 1, sp.sqrt(m**2) + m, abs(g) + g, sp.Derivative(x**2, x) - 2 * x]
+    assert [vanishes(entry) for entry in zero] == [True] * 4
+    assert [vanishes(entry) for entry in (sp.sqrt(m**2) - m, sp.Function("h", real=True)(x) - x)] == [False] * 2

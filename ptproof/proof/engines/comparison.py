@@ -30,6 +30,7 @@ from ptproof.proof.facts import Fact, usable
 from ptproof.proof.powers import factored
 from ptproof.proof.signs import vanishes
 from ptproof.proof.statement import ForAll, Implication, Relation, ge, gt, le, relations_of
+from ptproof.proof.substitution import BINDERS
 from ptproof.proof.verdict import Evidence, Verdict
 
 ENGINE = "comparison lemma"
@@ -119,7 +120,7 @@ def _check(
     initial = v.subs(s, start)
 
     def read(item: Relation) -> Relation:
-        return item.map(lambda side: side.subs(initial, first))
+        return item.map(lambda side: _at(side, initial, first))
 
     facts = tuple(_map(fact, read) for fact in usable(goal, (*goal.facts, *lemmas)))
     outside = tuple(read(item) for item in goal.relations)
@@ -127,15 +128,15 @@ def _check(
         raise _Failed(f"nothing says that {end} >= {start}")
     interval = _interval(goal, inequality, s, (start, end), outside, facts, read)
     for denominator in denominators:
-        if not interval.positive(denominator.subs(initial, first)):
+        if not interval.positive(_at(denominator, initial, first)):
             raise _Failed(f"{denominator} > 0 is not shown on the whole interval")
 
-    u = solution.subs(initial, first)
-    hints = [item.subs(initial, first) for item in denominators]
+    u = _at(solution, initial, first)
+    hints = [_at(item, initial, first) for item in denominators]
     above = _above(u, interval, hints)
     value = sp.Dummy("v", positive=True) if above else (
         sp.Dummy("v", real=True) if first.is_nonnegative is None else sp.Dummy("v", nonnegative=True))  # fmt: skip
-    phi = inequality.relation.right.subs(v, value)
+    phi = _at(inequality.relation.right, v, value)
     if phi.has(AppliedUndef):
         raise _Failed("the rate depends on the function otherwise than through its value")
     if not is_lipschitz(phi, value):
@@ -144,11 +145,11 @@ def _check(
     _regular(u, interval, hints)
     if value.is_nonnegative and not above and not is_polynomial(phi, value):
         _stays(u, interval)
-    how = _solves(u, phi.subs(value, u), interval, hints, solution)
-    begin = u.subs(s, start)
+    how = _solves(u, _at(phi, value, u), interval, hints, solution)
+    begin = _at(u, s, start)
     if not vanishes(begin - first) and not follows(ge(begin, first), outside, facts).shown:
         raise _Failed(f"{solution} does not start at {initial}, nor above it")
-    bound, reached = statement.right.subs(initial, first), u.subs(s, end)
+    bound, reached = _at(statement.right, initial, first), _at(u, s, end)
     if any(item.has(sp.nan, sp.zoo, sp.oo) for item in (bound, u, phi)):
         raise _Failed(f"{solution} or the bound has no value where {initial} is {first}")
     if not vanishes(bound - reached):
@@ -156,6 +157,11 @@ def _check(
         if not below.shown:
             raise _Failed(f"the solution of the equation is not shown to stay below the bound: {below.how}")
     return f"u = {solution} {how}, starts at or above {initial}, and is defined on the whole interval"
+
+
+def _at(expression: sp.Expr, letter: sp.Expr, value: sp.Expr) -> sp.Expr:
+    """The expression with the value of a letter; where nothing is bound, ``subs`` would look for it for longer."""
+    return expression.subs(letter, value) if expression.has(*BINDERS) else expression.xreplace({letter: value})
 
 
 def _differential_inequality(goal: Goal, at: AppliedUndef) -> tuple[ForAll, sp.Symbol, AppliedUndef]:
