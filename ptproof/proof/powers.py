@@ -7,6 +7,7 @@ from functools import lru_cache
 
 import sympy as sp
 
+from ptproof.proof.factors import factored
 from ptproof.proof.rewriting import everywhere
 
 
@@ -59,12 +60,6 @@ _reduced = everywhere(sp.Pow, _lowest)
 def fraction(exponent: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
     """Numerator and denominator of an exponent."""
     return sp.fraction(sp.together(exponent))
-
-
-@lru_cache(maxsize=2**14)
-def factored(expression: sp.Expr) -> sp.Expr:
-    """The expression as a product of irreducible factors; the same bases come up again and again."""
-    return sp.factor(sp.together(expression))
 
 
 def split_powers(expression: sp.Expr) -> sp.Expr:

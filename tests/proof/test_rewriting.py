@@ -5,6 +5,7 @@ import random
 import pytest
 import sympy as sp
 
+from ptproof.proof.factors import factored
 from ptproof.proof.prepared import prepare
 from ptproof.proof.rewriting import carried_out, everywhere
 
@@ -19,6 +20,20 @@ def some_expression(numbers: random.Random, depth: int) -> sp.Expr:
         return numbers.choice(LEAVES)
     left, right = (some_expression(numbers, depth - 1) for _ in range(2))
     return numbers.choice([left + right, left * right, left - right, left**2 + right, left / (1 + right**2)])
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_factors_are_those_of_sympy(seed):
+    numbers = random.Random(seed)
+    expression = some_expression(numbers, numbers.choice([2, 3]))
+    assert factored(expression) == sp.factor(sp.together(expression))
+
+
+@pytest.mark.parametrize(
+    "expression", [2 * x + 2 * y, -2 * x - 2 * y, (1 - x) / (2 - 2 * y), x**2 - r**2, sp.sqrt(2) * x + 2, x + sp.pi]
+)
+def test_signs_and_numbers_of_factors_are_those_of_sympy(expression):
+    assert factored(expression) == sp.factor(sp.together(expression))
 
 
 @pytest.mark.parametrize("seed", range(20))

@@ -26,8 +26,8 @@ from ptproof.proof.declarations import is_plainly_real
 from ptproof.proof.engines.lipschitz import is_lipschitz, is_polynomial
 from ptproof.proof.engines.quantified import at_point, instances, mask_positive
 from ptproof.proof.engines.reals import follows
+from ptproof.proof.factors import factored
 from ptproof.proof.facts import Fact, usable
-from ptproof.proof.powers import factored
 from ptproof.proof.signs import vanishes
 from ptproof.proof.statement import ForAll, Implication, Relation, ge, gt, le, relations_of
 from ptproof.proof.substitution import BINDERS

@@ -35,7 +35,7 @@ SECONDS = 20.0
 _SECONDS_TO_CONTRADICT = 0.5
 # Far more than it takes where it is enough, so that a busy machine does not change the verdict.
 _SECONDS_TOLD = 4.0
-_SECONDS_ALONE = 0.5  # most of what follows without facts does so in a twentieth of a second
+_SECONDS_ALONE = 0.1  # most of what follows without facts does so in a twentieth of a second
 _SECONDS_TO_BE_DEFINED = 5.0
 _ABSURD = Relation(sp.S.One, "<", sp.S.Zero)
 
