@@ -141,7 +141,7 @@ def _candidates(ready: Prepared, goal: Goal, seed: int, end: float) -> Iterator[
         yield point
         misses, found = (misses + 1, found) if point is None else (0, found + 1)
         enough = _WORK if found < _FEW else _WORK / 4
-        if misses > _MISSES_IN_A_ROW or sampler.work.steps > enough or time.process_time() > end:
+        if misses > _MISSES_IN_A_ROW or sampler.work.steps > enough or (end < math.inf and time.process_time() > end):
             return
 
 
@@ -228,7 +228,7 @@ def _confirmed(ready: Prepared, point: Point) -> bool:
     try:
         for digits in _DIGITS:
             evaluator = point.evaluator(digits)
-            if not all(holds(bound.relation, evaluator) for bound in ready.bounds):
+            if not all(bound.sides.hold(evaluator, evaluator.point) for bound in ready.bounds):
                 return False
             if not satisfied(point.open, evaluator, dense=digits == _DIGITS[0]):
                 return False
@@ -245,12 +245,13 @@ def _trusted(ready: Prepared, point: Point) -> bool:
     by how the functions were made is not asked.
     """
     made = dict.fromkeys(ready.defined) | dict.fromkeys(ready.solutions)
-    several = [item for item in point.open if len(item.variables) > 1]
+    several = [one.item for one in point.open if len(one.variables) > 1]
     found = [{node.func for e in expressions_of([item]) for node in e.atoms(AppliedUndef)} for item in several]
     inside: set[Any] = set().union(*found)
     if not all(found):
         return False
-    return all((function, concrete) in made for function, concrete in point.functions.items() if function in inside)
+    drawn = ((name.function, concrete) for name, concrete in point.functions.items())
+    return all((function, concrete) in made for function, concrete in drawn if function in inside)
 
 
 def _consistent(ready: Prepared, point: Point) -> bool:

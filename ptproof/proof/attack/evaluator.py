@@ -10,29 +10,29 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Callable, Mapping
-from typing import Any, TypeAlias
+from typing import Any
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from ptproof.proof.attack.concrete import Concrete
 from ptproof.proof.attack.elementary import COMPARISONS, UNARY, angle, below, meets
-from ptproof.proof.attack.functions import Concrete
 from ptproof.proof.attack.limiting import integral, limit
-from ptproof.proof.attack.numbers import ONE, ZERO, Exact, NotReal, Number, Undefined, Unsure
+from ptproof.proof.attack.numbers import ONE, SHORT, ZERO, Exact, NotReal, Number, Undefined, Unsure
+from ptproof.proof.attack.program import ADD, CONSTANT, FUNCTION, MUL, OTHER, OUTSIDE, POWER, Kind, program
 from ptproof.proof.attack.scope import Inadmissible, Scope, Work
 from ptproof.proof.attack.series import Calculus, Series, Value, base, hashable
-from ptproof.proof.attack.tree import Node, tree
+from ptproof.proof.attack.tree import Name, Node, tree
 
 
 class Evaluator:
     """Values of expressions at one precision, with ``functions`` in place of the undefined ones."""
 
-    def __init__(self, digits: int, functions: Mapping[Any, Concrete], work: Work | None = None) -> None:
+    def __init__(self, digits: int, functions: Mapping[Name, Concrete], work: Work | None = None) -> None:
         self.calculus = Calculus(digits)
         self.functions = functions
         self.work = work if work is not None else Work()
         self.point = Scope.of({})
-        self._concrete: dict[object, Concrete | None] = {}
         self._tag = itertools.count(1)
         self._depth = 0
         self._integrals: dict[Any, Number | Unsure] = {}
@@ -54,40 +54,73 @@ class Evaluator:
     def worth(self, node: Node, scope: Scope) -> Value:
         """The value of an expression that was taken apart before."""
         found = scope.known.get(node)
-        if found is None:
-            work = self.work
-            before = work.steps
-            if scope.outer is not None and node.letters.isdisjoint(scope.given):
-                found = scope.known[node] = self.worth(node, scope.outer)
-                work.steps += work.steps == before  # a look counts as a step
-                return found
-            work.steps += 1
-            if work.steps > work.limit:
-                raise Unsure("too much work")
-            if node.handler is None:
-                node.handler = _handler(node.expression)
-            found = scope.known[node] = node.handler(self, node, scope)
-        return found
+        return self._evaluated(node, scope) if found is None else found
+
+    def _evaluated(self, node: Node, scope: Scope) -> Value:
+        """The value of a node that is not known here; everything that it takes is known afterwards."""
+        known, outer, work = scope.known, scope.outer, self.work
+        if work.steps > work.limit:
+            raise Unsure("too much work")
+        given = None if outer is None else scope.given
+        steps = node.programs.get(given)
+        if steps is None:
+            steps = node.programs[given] = program(node, given, _kind)
+        calculus, numbers, count = self.calculus, self.calculus.numbers, 0
+        value: Any
+        try:
+            for step, code, how, parts in steps:
+                if step in known:
+                    continue
+                count += 1
+                if code == MUL:
+                    value = known[parts[0]]
+                    for part in parts[1:]:  # all of them: 0 times something undefined is undefined
+                        other: Any = known[part]
+                        if type(value) is Exact and type(other) is Exact:
+                            value = value * other
+                            if value.height_bits() > SHORT:
+                                value = numbers.tidy(value)
+                        else:
+                            value = calculus.mul(value, other)
+                elif code == ADD:
+                    value = calculus.add([known[part] for part in parts])
+                elif code == CONSTANT:
+                    value, around = how, outer
+                    while around is not None and step not in around.known:
+                        around.known[step], around = value, around.outer
+                elif code == OUTSIDE:
+                    assert outer is not None
+                    before = work.steps
+                    value = self.worth(step, outer)
+                    count -= work.steps != before  # a look counts as a step
+                elif code == POWER:
+                    value = self._power(known[parts[0]], how, step, scope)
+                elif code == FUNCTION:
+                    value = how(calculus, known[parts[0]])
+                else:
+                    value = how(self, step, scope)
+                known[step] = value
+        finally:
+            work.steps += count
+        return value
+
+    def _power(self, value: Value, whole: int | None, node: Node, scope: Scope) -> Value:
+        if whole is not None and type(value) is not Series:
+            return self.calculus.numbers.whole_power(value, whole)
+        return self.calculus.power(value, self.worth(node.parts[1], scope))
 
     def _symbol(self, node: Node, scope: Scope) -> Value:
         raise Unsure(f"{node.expression} has no value")
-
-    def _number(self, node: Node, scope: Scope) -> Value:
-        return node.rational
 
     def _applied(self, node: Node, scope: Scope) -> Value:
         given = scope.value_of(node)
         if given is not None:
             return given
-        function = node.function
-        if function in self._concrete:
-            concrete = self._concrete[function]
-        else:
-            concrete = self._concrete[function] = self.functions.get(node.expression.func)
+        concrete = self.functions.get(node.function)
         if concrete is None:
             raise Unsure(f"{node.expression.func} has no concrete function")
         arguments = [self.worth(argument, scope) for argument in node.parts]
-        inside = self.point.around(dict(zip(concrete.places, arguments, strict=True)))
+        inside = self.point.around(dict(zip(concrete.places, arguments, strict=True)), concrete.given)
         self._depth += 1
         if self._depth > 8:
             raise Unsure("functions are defined by each other")
@@ -101,33 +134,15 @@ class Evaluator:
 
     # The nodes -------------------------------------------------------------------------------------------------------
 
-    def _values(self, node: Node, scope: Scope) -> list[Value]:
-        known, values = scope.known, []
-        for part in node.parts:
-            value = known.get(part)
-            values.append(self.worth(part, scope) if value is None else value)
-        return values
-
-    def _add(self, node: Node, scope: Scope) -> Value:
-        return self.calculus.add(self._values(node, scope))
-
-    def _mul(self, node: Node, scope: Scope) -> Value:
-        # All of them are evaluated: 0 times something undefined is undefined.
-        return self.calculus.product(self._values(node, scope))
-
-    def _pow(self, node: Node, scope: Scope) -> Value:
-        base, exponent = node.parts
-        value = self.worth(base, scope)
-        if exponent.whole is not None and type(value) is not Series:
-            return self.calculus.numbers.whole_power(value, exponent.whole)
-        return self.calculus.power(value, self.worth(exponent, scope))
-
     def _constant(self, node: sp.Expr, scope: Scope) -> Value:
         return self.calculus.numbers.constant(type(node).__name__)
 
     def _float(self, node: sp.Expr, scope: Scope) -> Value:
         sign, mantissa, exponent, _ = node._mpf_
         return Exact((-1) ** sign * int(mantissa)) * Exact(2) ** exponent
+
+    def _unknown(self, node: sp.Expr, scope: Scope) -> Value:
+        raise Unsure(f"{type(node).__name__} is not evaluated")
 
     def _undefined(self, node: sp.Expr, scope: Scope) -> Value:
         raise Undefined(f"{node} is not a number")
@@ -200,35 +215,30 @@ class Evaluator:
             if count:
                 series = moved[variable] = Series(next(self._tag), (start, ONE, *(ZERO,) * (count - 1)))
                 levels.append((series.tag, count))
-        value = self.worth(node.parts[0], scope.around(moved))
+        value = self.worth(node.parts[0], scope.around(moved, node.moved))
         for tag, count in reversed(levels):
             if not isinstance(value, Series) or value.tag != tag:
                 return ZERO
             value = self.calculus.mul(Exact(math.factorial(count)), value.terms[count])
         return value
 
-    def _subs(self, node: sp.Expr, scope: Scope) -> Value:
-        inner, variables, points = node.args
-        values = {variable: self.value(point, scope) for variable, point in zip(variables, points, strict=True)}
-        return self.value(inner, scope.with_values(values))
+    def _subs(self, node: Node, scope: Scope) -> Value:
+        inner, letters, points, given = node.put
+        values = [self.worth(point, scope) for point in points]
+        return self.worth(inner, scope.around(dict(zip(letters, values, strict=True)), given))
 
     def _sum(self, node: sp.Expr, scope: Scope) -> Value:
         term, *ranges = node.args
         variable, low, high = ranges[-1]
         first, last = (self.number(end, scope) for end in (low, high))
-        if len(ranges) > 1 or type(first) is not Exact or type(last) is not Exact:
+        whole = all(type(end) is Exact and end.q == 1 for end in (first, last))
+        if len(ranges) > 1 or not whole or last - first > 500:
             raise Unsure("a sum with these ends is not evaluated")
-        if first.q != 1 or last.q != 1 or last - first > 500:
-            raise Unsure("a sum with these ends is not evaluated")
-        values = [
-            self.value(term, scope.with_values({variable: Exact(n)})) for n in range(int(first.p), int(last.p) + 1)
-        ]
+        places = map(Exact, range(int(first.p), int(last.p) + 1))
+        values = [self.value(term, scope.with_values({variable: place})) for place in places]
         if type(node).__name__ == "Sum":
             return self.calculus.add(values) if values else ZERO
-        product: Value = ONE
-        for value in values:
-            product = self.calculus.mul(product, value)
-        return product
+        return self.calculus.product(values) if values else ONE
 
     def _integral(self, node: Node, scope: Scope) -> Value:
         key = (node, tuple(hashable(scope.value_of(symbol)) for symbol in node.free))
@@ -246,13 +256,13 @@ class Evaluator:
         return limit(self, node, scope)
 
 
-_Handler: TypeAlias = Callable[[Evaluator, Node, Scope], Value]
-_ON_NODES: dict[str, _Handler] = {
-    "Add": Evaluator._add,
-    "Mul": Evaluator._mul,
-    "Pow": Evaluator._pow,
-    "Derivative": Evaluator._derivative,
-    "Integral": Evaluator._integral,
+_ON_NODES: dict[str, Kind] = {
+    "Add": Kind(ADD),
+    "Mul": Kind(MUL),
+    "Pow": Kind(POWER),
+    "Derivative": Kind(OTHER, Evaluator._derivative),
+    "Integral": Kind(OTHER, Evaluator._integral),
+    "Subs": Kind(OTHER, Evaluator._subs),
 }
 _NODES: dict[str, Callable[[Evaluator, Any, Scope], Value]] = {
     "Float": Evaluator._float,
@@ -266,7 +276,6 @@ _NODES: dict[str, Callable[[Evaluator, Any, Scope], Value]] = {
     "ceiling": Evaluator._floor,
     "Mod": Evaluator._modulo,
     "atan2": Evaluator._atan2,
-    "Subs": Evaluator._subs,
     "Sum": Evaluator._sum,
     "Product": Evaluator._sum,
     "Limit": Evaluator._limit,
@@ -275,19 +284,17 @@ _NODES: dict[str, Callable[[Evaluator, Any, Scope], Value]] = {
 }
 
 
-def _handler(expression: Any) -> _Handler:
-    """What evaluates expressions of this type."""
-    if isinstance(expression, AppliedUndef):
-        return Evaluator._applied
-    if expression.is_Symbol:
-        return Evaluator._symbol
+def _kind(node: Node) -> Kind:
+    """How a node is evaluated."""
+    expression = node.expression
+    if isinstance(expression, AppliedUndef | sp.Symbol):
+        return Kind(OTHER, Evaluator._applied if expression.args else Evaluator._symbol)
     if expression.is_Rational:
-        return Evaluator._number
+        return Kind(CONSTANT)
     name = type(expression).__name__
     if name in _ON_NODES:
         return _ON_NODES[name]
     if (function := UNARY.get(name)) is not None:
-        return lambda evaluator, node, scope: function(evaluator.calculus, evaluator.worth(node.parts[0], scope))
-    if (found := _NODES.get(name)) is None:
-        raise Unsure(f"{name} is not evaluated")
-    return lambda evaluator, node, scope: found(evaluator, node.expression, scope)
+        return Kind(FUNCTION, function)
+    found = _NODES.get(name, Evaluator._unknown)
+    return Kind(OTHER, lambda evaluator, node, scope: found(evaluator, node.expression, scope))

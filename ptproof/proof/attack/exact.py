@@ -7,20 +7,20 @@ from typing import Any
 
 import sympy as sp
 
-from ptproof.proof.attack.functions import concretely
 from ptproof.proof.attack.preparation import Prepared
+from ptproof.proof.attack.putting import concretely, put
 from ptproof.proof.attack.sampling import Point
 
 
 def exact_values(ready: Prepared, point: Point) -> dict[Any, Any]:
     """Each symbol with its exact value, and each undefined function, applied to letters, with an expression in them."""
     known: dict[Any, sp.Expr] = {
-        atom: sp.Rational(value.numerator, value.denominator) for atom, value in point.values.items()
+        atom.expression: sp.Rational(int(value.p), int(value.q)) for atom, value in point.values.items()
     }
-    for atom, expression in point.defined:
-        known[atom] = _with(expression, known, point)
+    for atom, body in point.defined:
+        known[atom.expression] = _with(body.expression, known, point)
     values = {atom: known[atom] for atom in ready.atoms if atom.is_Symbol and atom in known}
-    for function, concrete in point.functions.items():
+    for function, concrete in point.by_function.items():
         letters = tuple(sp.Symbol(f"s{i + 1}", real=True) for i in range(len(concrete.arguments)))
         body = concrete.body.xreplace(dict(zip(concrete.arguments, letters, strict=True)))
         values[function(*letters)] = _with(body, known, point)
@@ -29,7 +29,7 @@ def exact_values(ready: Prepared, point: Point) -> dict[Any, Any]:
 
 
 def _with(expression: sp.Expr, known: Mapping[Any, sp.Expr], point: Point) -> sp.Expr:
-    return concretely(expression, point.functions).xreplace(dict(known))
+    return put(concretely(expression, point.by_function), dict(known))
 
 
 def _pinned(ready: Prepared, known: Mapping[Any, sp.Expr], point: Point) -> dict[Any, sp.Expr]:

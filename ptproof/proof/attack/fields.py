@@ -17,7 +17,8 @@ from typing import Any
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ptproof.proof.attack.functions import Concrete, concretely
+from ptproof.proof.attack.concrete import Concrete
+from ptproof.proof.attack.putting import concretely, put
 from ptproof.proof.statement import ForAll, expressions_of
 
 _POWERS = (1, 2, 3)
@@ -162,7 +163,7 @@ def _holds(
         return None
     letters = {x: sp.Symbol(f"_place{i}", real=True) for i, x in enumerate(item.variables)}
     put_in: Mapping[Any, Any] = {**dict(values), **letters}
-    sides = [concretely(side.xreplace(put_in), dict(functions)) for side in (relation.left, relation.right)]
+    sides = [concretely(put(side, put_in), dict(functions)) for side in (relation.left, relation.right)]
     if any(side.has(AppliedUndef, sp.Derivative, sp.Subs) for side in sides):
         return None
     places = tuple(letters.values())

@@ -4,65 +4,16 @@ from __future__ import annotations
 
 import itertools
 import random
-from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from collections.abc import Collection, Sequence
+from functools import lru_cache
 from typing import Any
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ptproof.proof.attack.tree import BINDERS, Node, tree
+from ptproof.proof.attack.concrete import Concrete
+from ptproof.proof.attack.putting import concretely
 from ptproof.proof.statement import ForAll
-
-
-@dataclass(frozen=True)
-class Concrete:
-    """A smooth function as an expression in ``arguments``; other symbols in it are those of the point."""
-
-    arguments: tuple[sp.Symbol, ...]
-    body: sp.Expr
-
-    @cached_property
-    def places(self) -> tuple[Node, ...]:
-        """The arguments, taken apart."""
-        return tuple(map(tree, self.arguments))
-
-    @cached_property
-    def core(self) -> Node:
-        """The body, taken apart."""
-        return tree(self.body)
-
-    @cached_property
-    def inside(self) -> frozenset[Any]:
-        """The undefined functions in it."""
-        return frozenset(node.func for node in self.body.atoms(AppliedUndef))
-
-
-def concretely(expression: sp.Expr, functions: Mapping[Any, Concrete]) -> sp.Expr:
-    """The expression with these functions put in, and derivatives carried out."""
-    inside = {node.func for node in expression.atoms(AppliedUndef)}.union(*(one.inside for one in functions.values()))
-    return _put_in(expression, tuple((function, one) for function, one in functions.items() if function in inside))
-
-
-@lru_cache(maxsize=2048)
-def _put_in(expression: sp.Expr, functions: tuple[tuple[Any, Concrete], ...]) -> sp.Expr:
-    for function, concrete in functions:
-        if expression.has(function):
-            expression = expression.replace(function, sp.Lambda(concrete.arguments, concrete.body))
-    return expression.doit(integrals=False, limits=False)
-
-
-def put(expression: sp.Expr, values: Mapping[Any, Any]) -> sp.Expr:
-    """The expression with values in place of letters and applied functions, all at once."""
-    return _put(expression, tuple(values.items()))
-
-
-@lru_cache(maxsize=4096)
-def _put(expression: sp.Expr, values: tuple[tuple[Any, Any], ...]) -> sp.Expr:
-    if expression.has(*BINDERS):
-        return expression.subs(dict(values), simultaneous=True)
-    return expression.xreplace(dict(values))
 
 
 @lru_cache(maxsize=64)
@@ -189,8 +140,9 @@ def _at_rest(item: ForAll) -> list[tuple[Any, Concrete]]:
     for value, forbidden in ((START, ("negative", "nonpositive", "integer")), (sp.S.Zero, ("nonzero",))):
         if any(getattr(node, f"is_{word}") for node in moving for word in forbidden):
             continue
-        if item.relation.right.xreplace(dict.fromkeys(moving, value)).doit() == 0:
-            return [(node.func, Concrete(_arguments(1), value)) for node in sorted(moving, key=str)]
+        resting = {node.func: Concrete(_arguments(1), value) for node in sorted(moving, key=str)}
+        if concretely(item.relation.right, resting).doit() == 0:
+            return list(resting.items())
     return []
 
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import sympy as sp
 
-from ptproof.proof.attack.tree import tree
+from ptproof.proof.attack.tree import Node, tree
 
 
 @dataclass(frozen=True)
@@ -22,6 +22,19 @@ class Isolated:
     @cached_property
     def bound(self) -> sp.Expr:
         return -self.rest / self.factor
+
+    @cached_property
+    def letter(self) -> Node:
+        """The atom, taken apart, as the next ones are."""
+        return tree(self.atom)
+
+    @cached_property
+    def end(self) -> Node:
+        return tree(self.bound)
+
+    @cached_property
+    def divisor(self) -> Node:
+        return tree(self.factor)
 
     @cached_property
     def plain(self) -> bool:

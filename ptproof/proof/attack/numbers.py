@@ -19,6 +19,7 @@ from ptproof.proof.attack.magnitudes import NOTHING, ORDINARY, exact_root, power
 
 BITS_OF_A_DIGIT = math.log2(10)
 _LONGEST = 3000  # bits of an exact rational, before it becomes a ball
+SHORT = _LONGEST // 2  # bits of either part of one, with which it does not
 
 Ball: TypeAlias = flint.arb
 Exact: TypeAlias = flint.fmpq
@@ -103,14 +104,14 @@ class Arithmetic:
 
     def tidy(self, value: Exact) -> Number:
         """An exact rational that became too long, as a ball."""
-        if value.height_bits() > _LONGEST // 2 and value.p.bit_length() + value.q.bit_length() > _LONGEST:
+        if value.height_bits() > SHORT and value.p.bit_length() + value.q.bit_length() > _LONGEST:
             return self.ball(value)
         return value
 
     def sign(self, value: Number) -> int:
         """-1, 0 or 1; a value that is 0 to nearly all digits counts as 0 where no term was lost."""
         if type(value) is Exact:
-            return (1 if value > ZERO else -1) if value else 0
+            return (1 if value.p > 0 else -1) if value else 0
         if value > 0:
             return 1
         if value < 0:

@@ -12,11 +12,13 @@ from typing import Any
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ptproof.proof.attack.functions import Concrete, differentiable, solutions
+from ptproof.proof.attack.concrete import Concrete
+from ptproof.proof.attack.functions import differentiable, solutions
 from ptproof.proof.attack.isolation import Isolated, isolated, isolated_in
+from ptproof.proof.attack.kinds import Sides
 from ptproof.proof.attack.settings import Setting, settings
 from ptproof.proof.attack.trajectories import trajectories
-from ptproof.proof.attack.tree import BINDERS, tree
+from ptproof.proof.attack.tree import BINDERS, Node, tree
 from ptproof.proof.claim import Goal
 from ptproof.proof.statement import (
     Exists,
@@ -39,8 +41,9 @@ class Bound:
 
     relation: Relation
     isolated: tuple[Isolated, ...]
-    roots: tuple[tuple[Any, sp.Expr], ...]
-    atoms: frozenset[Any]
+    roots: tuple[tuple[Node, Node], ...]
+    atoms: tuple[Node, ...]
+    sides: Sides
 
 
 @dataclass(frozen=True)
@@ -180,18 +183,19 @@ def _definitions(quantified: Iterable[ForAll]) -> Iterable[tuple[Any, Concrete, 
 @lru_cache(maxsize=1024)
 def _bound(relation: Relation, atoms: tuple[Any, ...]) -> Bound:
     letters = tree(relation.left).letters | tree(relation.right).letters
-    inside = frozenset(atom for atom in atoms if tree(atom) in letters)
+    inside = sorted({atom for atom in atoms if tree(atom) in letters}, key=str)
     difference = sp.Add(relation.left, -relation.right, evaluate=True)
     found = []
-    for atom in sorted(inside, key=str):
+    for atom in inside:
         one = isolated(difference, atom)
         if one is not None:
             found.append(one)
     roots: tuple[tuple[Any, sp.Expr], ...] = ()
     if relation.sign == "=" and not found:
-        places = _special((relation,), tuple(sorted(inside, key=str)))
+        places = _special((relation,), tuple(inside))
         roots = _roots(difference, inside) or tuple((one.atom, one.bound) for one in places)
-    return Bound(relation, tuple(found), roots, inside)
+    ends = tuple((tree(atom), tree(root)) for atom, root in roots)
+    return Bound(relation, tuple(found), ends, tuple(map(tree, inside)), Sides.of(relation))
 
 
 def _roots(difference: sp.Expr, atoms: Iterable[Any]) -> tuple[tuple[Any, sp.Expr], ...]:

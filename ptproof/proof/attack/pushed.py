@@ -14,7 +14,9 @@ from typing import Any
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ptproof.proof.attack.functions import START, VALUE, Concrete, concretely, put
+from ptproof.proof.attack.concrete import Concrete
+from ptproof.proof.attack.functions import START, VALUE
+from ptproof.proof.attack.putting import concretely, put
 from ptproof.proof.attack.trajectories import Motion, equations
 from ptproof.proof.statement import ForAll
 
@@ -51,7 +53,7 @@ def pushes(
 
 
 def _without_drifts(rate: sp.Expr, drifts: set[Any]) -> sp.Expr:
-    return rate.xreplace({node: sp.S.Zero for node in rate.atoms(AppliedUndef) if node.func in drifts})
+    return put(rate, {node: sp.S.Zero for node in rate.atoms(AppliedUndef) if node.func in drifts})
 
 
 @lru_cache(maxsize=64)

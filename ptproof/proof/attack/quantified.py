@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterable
-from functools import lru_cache
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
 from typing import Any
 
 from ptproof.proof.attack.evaluator import Evaluator
@@ -24,43 +25,77 @@ _OFFSETS = (
 _PLACES = (Exact(-10), Exact(-1), Exact(-1, 3), Exact(0), Exact(1, 7), Exact(1), Exact(5))
 
 
-def satisfied(items: Iterable[ForAll], evaluator: Evaluator, *, dense: bool) -> bool:
+@dataclass(frozen=True, eq=False)
+class Everywhere:
+    """A quantified assumption as the evaluator takes it.
+
+    Attributes
+    ----------
+    item
+        The assumption.
+    variables, given
+        The bound variables, and these as a set.
+    domain, said
+        Where it speaks, and the scalar relations that it says.
+    ends
+        For each variable the ends that the domain gives it: whether it is a lower one, an upper one, and what it is.
+    """
+
+    item: ForAll
+    variables: tuple[Node, ...]
+    given: frozenset[Node]
+    domain: tuple[Sides, ...]
+    said: tuple[Sides, ...]
+    ends: tuple[tuple[tuple[bool, bool, Node], ...], ...]
+
+    @cached_property
+    def tight(self) -> tuple[Sides, ...]:
+        """Of the inequalities that it says the sides, the smaller one first."""
+        parts = (part for part in self.item.relation.components() if part.sign in ("<=", "<", ">=", ">"))
+        return tuple(Sides.of(part.standard()) for part in parts)
+
+
+@lru_cache(maxsize=512)
+def everywhere(item: ForAll) -> Everywhere:
+    """The assumption, taken apart."""
+    variables = tuple(map(tree, item.variables))
+    said = tuple(map(Sides.of, item.relation.components()))
+    ends = tuple(tuple(_ends(variable, item.domain)) for variable in item.variables)
+    return Everywhere(item, variables, frozenset(variables), tuple(map(Sides.of, item.domain)), said, ends)
+
+
+def _ends(variable: Any, domain: Iterable[Relation]) -> Iterator[tuple[bool, bool, Node]]:
+    for part in domain:
+        for one, other, sign in ((part.left, part.right, part.sign), (part.right, part.left, _turned(part.sign))):
+            if one == variable and not other.has(variable):
+                yield sign in (">=", ">"), sign in ("<=", "<"), tree(other)
+
+
+def satisfied(items: Iterable[Everywhere], evaluator: Evaluator, *, dense: bool) -> bool:
     """Whether each of the assumptions holds at every place of a grid; raises where that cannot be told."""
     return all(_holds(item, evaluator, dense) for item in items)
 
 
-@lru_cache(maxsize=512)
-def _taken_apart(item: ForAll) -> tuple[tuple[Node, ...], tuple[Sides, ...], tuple[Sides, ...]]:
-    """The bound variables, the domain and what is said, as the evaluator takes them."""
-    said = item.relation.components()
-    return tuple(map(tree, item.variables)), tuple(map(Sides.of, item.domain)), tuple(map(Sides.of, said))
-
-
-def _holds(item: ForAll, evaluator: Evaluator, dense: bool) -> bool:
-    variables, domain, said = _taken_apart(item)
-    axes = [_axis(variable, item.domain, evaluator, dense) for variable in item.variables]
+def _holds(item: Everywhere, evaluator: Evaluator, dense: bool) -> bool:
+    variables, around = item.variables, evaluator.point.around
+    axes = [_axis(variable, ends, evaluator, dense) for variable, ends in zip(variables, item.ends, strict=True)]
     for place in itertools.islice(itertools.product(*axes), 400):
-        scope = evaluator.point.around(dict(zip(variables, place, strict=True)))
-        if all(_inside(part, evaluator, scope) for part in domain) and not all(
-            part.hold(evaluator, scope) for part in said
+        scope = around(dict(zip(variables, place, strict=True)), item.given)
+        if all(_inside(part, evaluator, scope) for part in item.domain) and not all(
+            part.hold(evaluator, scope) for part in item.said
         ):
             return False
-    return (
-        not dense
-        or len(axes) != 1
-        or all(_holds_between(item, part, axes[0], evaluator) for part in item.relation.components())
-    )
-
-
-def _holds_between(item: ForAll, part: Relation, places: list[Number], evaluator: Evaluator) -> bool:
-    """Whether an inequality holds also where it is tightest between the places of the grid."""
-    if part.sign not in ("<=", "<", ">=", ">") or len(places) < 3:
+    if not dense or len(axes) != 1 or len(axes[0]) < 3:
         return True
-    numbers, ((variable,), domain, _) = evaluator.calculus.numbers, _taken_apart(item)
-    sides = Sides.of(part.standard())
+    return all(_holds_between(item, sides, axes[0], evaluator) for sides in item.tight)
+
+
+def _holds_between(item: Everywhere, sides: Sides, places: list[Number], evaluator: Evaluator) -> bool:
+    """Whether an inequality holds also where it is tightest between the places of the grid."""
+    numbers, (variable,) = evaluator.calculus.numbers, item.variables
 
     def scope_at(place: Number) -> Scope:
-        return evaluator.point.around({variable: place})
+        return evaluator.point.around({variable: place}, item.given)
 
     def slack(place: Number) -> Any:
         scope = scope_at(place)
@@ -76,7 +111,7 @@ def _holds_between(item: ForAll, part: Relation, places: list[Number], evaluator
             left, right = numbers.add([low, third]), numbers.sub(high, third)
             for place in (left, right):
                 scope = scope_at(place)
-                if all(_inside(where, evaluator, scope) for where in domain) and not sides.hold(evaluator, scope):
+                if all(_inside(where, evaluator, scope) for where in item.domain) and not sides.hold(evaluator, scope):
                     return False
             low, high = (low, right) if slack(left) < slack(right) else (left, high)
     return True
@@ -89,20 +124,17 @@ def _inside(part: Sides, evaluator: Evaluator, scope: Scope) -> bool:
         return False
 
 
-def _axis(variable: Any, domain: Iterable[Relation], evaluator: Evaluator, dense: bool) -> list[Number]:
+def _axis(variable: Node, ends: Iterable[tuple[bool, bool, Node]], evaluator: Evaluator, dense: bool) -> list[Number]:
     """Places of one bound variable between the ends that the domain gives it."""
     numbers = evaluator.calculus.numbers
     low: Number | None = None
     high: Number | None = None
-    for part in domain:
-        for one, other, sign in ((part.left, part.right, part.sign), (part.right, part.left, _turned(part.sign))):
-            if one != variable or other.has(variable):
-                continue
-            end = evaluator.number(other, evaluator.point)
-            if sign in (">=", ">") and (low is None or numbers.sign(numbers.sub(end, low)) > 0):
-                low = end
-            if sign in ("<=", "<") and (high is None or numbers.sign(numbers.sub(end, high)) < 0):
-                high = end
+    for lower, upper, place in ends:
+        end = evaluator.plain(place, evaluator.point)
+        if lower and (low is None or numbers.sign(numbers.sub(end, low)) > 0):
+            low = end
+        if upper and (high is None or numbers.sign(numbers.sub(end, high)) < 0):
+            high = end
     if low is not None and high is not None:
         width = numbers.sub(high, low)
         shares = _CLOSE if dense else _SHARES

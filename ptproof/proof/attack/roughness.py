@@ -10,30 +10,30 @@ import itertools
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from fractions import Fraction
 from itertools import pairwise
-from typing import Any
 
 import sympy as sp
 
+from ptproof.proof.attack.concrete import Concrete
 from ptproof.proof.attack.evaluator import Evaluator
-from ptproof.proof.attack.kinds import fits_kind, holds
+from ptproof.proof.attack.kinds import fits_kind
 from ptproof.proof.attack.magnitudes import as_float, spread
-from ptproof.proof.attack.numbers import ZERO, Exact, NotReal, Undefined, Unsure, exact
+from ptproof.proof.attack.numbers import ONE, ZERO, Exact, NotReal, Undefined, Unsure
 from ptproof.proof.attack.preparation import Prepared
 from ptproof.proof.attack.sampling import Point
 from ptproof.proof.attack.scope import Inadmissible
 from ptproof.proof.attack.series import Series, base
+from ptproof.proof.attack.tree import Name, Node, tree
 from ptproof.proof.statement import Smooth
 
-_STEPS = tuple(Fraction(1, 10**k) for k in (6, 11, 16))
+_STEPS = tuple(Exact(1, 10**k) for k in (6, 11, 16))
 _BOUNDED, _APART = 1e3, 200.0
 _NOISE = 1e-20  # what is smaller may be rounding where a value is 0, and is no jump
 
 
 def rough(statement: Smooth, ready: Prepared, point: Point, digits: int) -> str:
     """Why the statement fails at the point; empty if no reason was found."""
-    variables = [variable for variable in statement.variables if variable in point.values]
+    variables = [tree(variable) for variable in statement.variables if tree(variable) in point.values]
     directions = _directions(variables)
     fixed = replace(point, functions=_fixed(point), made={})  # a function with a kink there must not move along
     evaluator = point.evaluator(digits)
@@ -66,19 +66,19 @@ def _torn(sides: Sequence[Sequence[float]]) -> str:
     return ""
 
 
-def _directions(variables: Sequence[Any]) -> list[dict[Any, Fraction]]:
-    axes = [{variable: Fraction(1)} for variable in variables]
+def _directions(variables: Sequence[Node]) -> list[dict[Node, Exact]]:
+    axes = [{variable: ONE} for variable in variables]
     if len(variables) < 2:
         return axes
-    slopes = (Fraction(1), Fraction(-3, 2), Fraction(2, 3), Fraction(-5, 4))
+    slopes = (ONE, Exact(-3, 2), Exact(2, 3), Exact(-5, 4))
     return [*axes, dict(zip(variables, itertools.cycle(slopes), strict=False))]
 
 
 def _approached(
     expression: sp.Expr,
-    along: Mapping[Any, Fraction],
+    along: Mapping[Node, Exact],
     order: int,
-    towards: Mapping[Any, Fraction],
+    towards: Mapping[Node, Exact],
     side: int,
     ready: Prepared,
     point: Point,
@@ -95,7 +95,7 @@ def _approached(
             return None
         try:
             evaluator = replace(point, values=values, made={}).evaluator(digits)
-            if not all(holds(bound.relation, evaluator) for bound in ready.bounds):
+            if not all(bound.sides.hold(evaluator, evaluator.point) for bound in ready.bounds):
                 return None
             found.append(_derivatives(expression, along, order, evaluator))
         except (Unsure, Inadmissible):
@@ -103,21 +103,21 @@ def _approached(
     return [list(values) for values in zip(*found, strict=True)]
 
 
-def _fixed(point: Point) -> Mapping[Any, Any]:
-    known = {atom: sp.Rational(value.numerator, value.denominator) for atom, value in point.values.items()}
+def _fixed(point: Point) -> Mapping[Name, Concrete]:
+    known = {atom.expression: sp.Rational(int(value.p), int(value.q)) for atom, value in point.values.items()}
     return {
         function: replace(concrete, body=concrete.body.xreplace(known))
         for function, concrete in point.functions.items()
     }
 
 
-def _derivatives(expression: sp.Expr, along: Mapping[Any, Fraction], order: int, evaluator: Evaluator) -> list[float]:
+def _derivatives(expression: sp.Expr, along: Mapping[Node, Exact], order: int, evaluator: Evaluator) -> list[float]:
     scope = evaluator.point
     if order:
         rest = (ZERO,) * (order - 1)
-        starts = {atom: base(evaluator.number(atom, scope)) for atom in along}
-        moving = {atom: Series(0, (starts[atom], exact(slope), *rest)) for atom, slope in along.items()}
-        scope = scope.with_values(moving)
+        starts = {atom: base(evaluator.plain(atom, scope)) for atom in along}
+        moving = {atom: Series(0, (starts[atom], slope, *rest)) for atom, slope in along.items()}
+        scope = scope.around(moving)
     value = evaluator.value(expression, scope)
     terms = value.terms if isinstance(value, Series) else (value, *((ZERO,) * order))
     evaluator.work.steps += 5 * order**2

@@ -32,23 +32,23 @@ class Scope:
     outer: Scope | None = None
 
     @classmethod
-    def of(cls, values: Mapping[Any, Value]) -> Scope:
+    def of(cls, known: dict[Node, Value]) -> Scope:
         """The scope in which these symbols and applied functions have values, and no others."""
-        known = {tree(letter): value for letter, value in values.items()}
         return cls(known, frozenset(known))
 
-    def joined(self, letter: Any, value: Value) -> Scope:
+    def joined(self, letter: Node, value: Value) -> Scope:
         """The same values and one more, and nothing evaluated yet: of what has no value before, much may depend."""
-        known = {node: self.known[node] for node in self.given} | {tree(letter): value}
+        known = {node: self.known[node] for node in self.given}
+        known[letter] = value
         return Scope(known, frozenset(known))
 
     def with_values(self, values: Mapping[Any, Value]) -> Scope:
         """The same with other symbols, or with other values of the same ones."""
         return self.around({tree(letter): value for letter, value in values.items()})
 
-    def around(self, known: dict[Node, Value]) -> Scope:
-        """The same with values of these letters by their nodes."""
-        return Scope(known, frozenset(known), self)
+    def around(self, known: dict[Node, Value], given: frozenset[Node] | None = None) -> Scope:
+        """The same with values of these letters, which are ``given``, by their nodes."""
+        return Scope(known, frozenset(known) if given is None else given, self)
 
     def value_of(self, letter: Node) -> Value | None:
         """The value that a letter is given here, or around."""

@@ -11,9 +11,11 @@ from typing import Any
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from ptproof.proof.attack.concrete import Concrete
 from ptproof.proof.attack.fields import Field, Range, fields
-from ptproof.proof.attack.functions import Concrete, concretely, solutions
+from ptproof.proof.attack.functions import solutions
 from ptproof.proof.attack.pushed import pushes
+from ptproof.proof.attack.putting import concretely
 from ptproof.proof.attack.trajectories import Motion, drifts, is_equation, motions
 from ptproof.proof.statement import ForAll
 

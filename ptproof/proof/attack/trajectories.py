@@ -11,7 +11,9 @@ from typing import Any
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ptproof.proof.attack.functions import VALUE, Concrete, closed_forms, concretely, put
+from ptproof.proof.attack.concrete import Concrete
+from ptproof.proof.attack.functions import VALUE, closed_forms
+from ptproof.proof.attack.putting import concretely, put
 from ptproof.proof.statement import ForAll
 
 

@@ -11,6 +11,7 @@ from weakref import WeakValueDictionary
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from ptproof.proof.attack.declared import tests
 from ptproof.proof.attack.elementary import asked
 from ptproof.proof.attack.numbers import Exact
 
@@ -25,13 +26,13 @@ class Node:
     ----------
     expression
         What it stands for.
-    handler
-        What evaluates it, once that is known.
+    programs
+        The steps that evaluate it, by the letters that have other values than around; None stands for all letters.
     """
 
     def __init__(self, expression: Any) -> None:
         self.expression = expression
-        self.handler: Callable[[Any, Node, Any], Any] | None = None
+        self.programs: dict[frozenset[Node] | None, Any] = {}
 
     @cached_property
     def parts(self) -> tuple[Node, ...]:
@@ -61,14 +62,31 @@ class Node:
         return int(expression) if expression.is_Integer and abs(expression.p) < 10**6 else None
 
     @cached_property
-    def function(self) -> object:
-        """A key for the undefined function that is applied: SymPy hashes these anew each time."""
-        return _functions.setdefault(self.expression.func, object())
+    def function(self) -> Name:
+        """The undefined function that is applied."""
+        return named(self.expression.func)
+
+    @cached_property
+    def tests(self) -> tuple[frozenset[int], tuple[tuple[Callable[[Any], bool], bool], ...]]:
+        """What the declaration of a letter asks of an exact value."""
+        return tests(self.expression)
+
+    @cached_property
+    def put(self) -> tuple[Node, tuple[Node, ...], tuple[Node, ...], frozenset[Node]]:
+        """Of a substitution: in what, for which letters, by what; and the letters as a set."""
+        inner, letters, values = self.expression.args
+        nodes = tuple(map(tree, letters))
+        return tree(inner), nodes, tuple(map(tree, values)), frozenset(nodes)
 
     @cached_property
     def asked(self) -> tuple[bool | None, frozenset[int] | None]:
         """What the declaration of an undefined function asks of its values."""
         return asked(self.expression)
+
+    @cached_property
+    def moved(self) -> frozenset[Node]:
+        """Of a derivative: the letters by which it is taken."""
+        return frozenset(variable for variable, _, _ in self.levels)
 
     @cached_property
     def levels(self) -> tuple[tuple[Node, int | None, bool], ...]:
@@ -81,10 +99,27 @@ class Node:
         )
 
 
+class Name:
+    """An undefined function: there is one for all that are equal, since SymPy hashes these anew each time."""
+
+    __slots__ = ("function",)
+
+    def __init__(self, function: Any) -> None:
+        self.function = function
+
+
 _nodes: dict[Any, Node] = {}
 _letters: WeakValueDictionary[Any, Node] = WeakValueDictionary()  # a scope knows its letters by their nodes
-_functions: dict[Any, object] = {}
+_functions: dict[Any, Name] = {}
 atexit.register(_letters.clear)  # later SymPy could not compare any more what a dying node is looked up by
+
+
+def named(function: Any) -> Name:
+    """The name of an undefined function."""
+    found = _functions.get(function)
+    if found is None:
+        found = _functions[function] = Name(function)
+    return found
 
 
 def tree(expression: Any) -> Node:

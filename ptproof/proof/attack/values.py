@@ -3,41 +3,43 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
 from ptproof.proof.attack.kinds import fits_kind
 from ptproof.proof.attack.magnitudes import size
-from ptproof.proof.attack.numbers import Ball, Exact, Number, Unsure, fraction
+from ptproof.proof.attack.numbers import ONE, Ball, Exact, Number, Unsure, exact, fraction
+from ptproof.proof.attack.tree import Node
 
 _PLAIN = ("1", "2", "0", "1/2", "-1", "3", "-2", "-1/2", "3/2", "5")
 _SMALL = ("1/1000", "1/1000000000", "1/1000000000000000000000000000000", "-1/1000000000")
 _LARGE = ("10", "100", "1000000", "100000000000000000000", "-1000000")
 _HALVES = ("5/2", "-3/2", "1/3", "-2/3", "7/4", "9/10", "11/10")
-AWKWARD = tuple(Fraction(text) for text in (*_PLAIN, *_HALVES, *_LARGE, *_SMALL))
-MODERATE = tuple(Fraction(text) for text in (*_PLAIN, *_HALVES, "10", "1/10"))
+AWKWARD = tuple(exact(Fraction(text)) for text in (*_PLAIN, *_HALVES, *_LARGE, *_SMALL))
+MODERATE = tuple(exact(Fraction(text)) for text in (*_PLAIN, *_HALVES, "10", "1/10"))
+_FACTORS = tuple(Exact(*ratio) for ratio in ((1, 2), (2, 1), (1, 10), (10, 1), (-1, 1)))
 _LONGEST = 400  # bits
 
 
 class Drawer:
     """Draws values of atoms: first all equal, then one awkward among plain ones, two equal ones, and anything."""
 
-    def __init__(self, atoms: Sequence[Any], parts: Sequence[Any], generator: random.Random, moderate: bool) -> None:
+    def __init__(self, atoms: Sequence[Node], generator: random.Random, moderate: bool) -> None:
         self.atoms = tuple(atoms)
         self.random = generator
         self.moderate = moderate
+        self.whole = {atom: bool(atom.expression.is_integer) for atom in self.atoms}
+        self.signs = {atom: _signs(atom.expression) for atom in self.atoms}
         self.choices = {atom: self._choices(atom) for atom in self.atoms}
-        self.whole = {atom: bool(atom.is_integer) for atom in self.atoms}
-        self.signs = {atom: _signs(atom) for atom in self.atoms}
 
-    def _choices(self, atom: Any) -> list[Fraction]:
+    def _choices(self, atom: Node) -> list[Exact]:
         pool = MODERATE if self.moderate else AWKWARD
-        whole = [Fraction(n) for n in (1, 2, 3, 4, 5, 7, 0, -1, -2, -3)]
-        return [value for value in (whole if atom.is_integer else pool) if fits_kind(atom, value)]
+        whole = [Exact(n) for n in (1, 2, 3, 4, 5, 7, 0, -1, -2, -3)]
+        return [value for value in (whole if self.whole[atom] else pool) if fits_kind(atom, value)]
 
-    def values(self, attempt: int, taken: set[Any]) -> dict[Any, Fraction]:
-        """One assignment of every atom that is not in ``taken``."""
+    def values(self, attempt: int, taken: Mapping[Node, Any]) -> dict[Node, Exact]:
+        """One assignment of every atom that is not ``taken``."""
         free = [atom for atom in self.atoms if atom not in taken]
         if attempt < 10:
             same = AWKWARD[attempt] if not self.moderate else MODERATE[attempt]
@@ -54,27 +56,27 @@ class Drawer:
             values[second] = self._nearest(second, values[first])
         return values
 
-    def _nearest(self, atom: Any, value: Fraction) -> Fraction:
-        for candidate in (value, abs(value), -value, Fraction(1)):
+    def _nearest(self, atom: Node, value: Exact) -> Exact:
+        for candidate in (value, abs(value), -value, ONE):
             if fits_kind(atom, candidate):
                 return candidate
         return self._generic(atom)
 
-    def _any(self, atom: Any) -> Fraction:
+    def _any(self, atom: Node) -> Exact:
         return self.random.choice(self.choices[atom]) if self.choices[atom] else self._generic(atom)
 
-    def _generic(self, atom: Any) -> Fraction:
+    def _generic(self, atom: Node) -> Exact:
         """A rational of ordinary size, of the declared kind."""
         if self.whole[atom]:
             return self._any_whole(atom)
-        value = Fraction(self.random.randint(1, 40), self.random.choice((1, 2, 3, 4, 5, 7, 10, 11)))
+        top, below = self.random.randint(1, 40), self.random.choice((1, 2, 3, 4, 5, 7, 10, 11))
         signs = self.signs[atom]
-        return value * (signs[0] if len(signs) == 1 else self.random.choice(signs))
+        return Exact(top * (signs[0] if len(signs) == 1 else self.random.choice(signs)), below)
 
-    def _any_whole(self, atom: Any) -> Fraction:
-        return self.random.choice(self.choices[atom]) if self.choices[atom] else Fraction(1)
+    def _any_whole(self, atom: Node) -> Exact:
+        return self.random.choice(self.choices[atom]) if self.choices[atom] else ONE
 
-    def between(self, atom: Any, low: Number | None, high: Number | None, strict: bool) -> Fraction | None:
+    def between(self, atom: Node, low: Number | None, high: Number | None, strict: bool) -> Exact | None:
         """A value of the kind of the atom between two ends, at an end where that is exact and allowed."""
         candidates: list[Fraction] = []
         if not strict and self.random.random() < 0.4:
@@ -90,21 +92,19 @@ class Drawer:
             candidates += [a + step for step in self._steps()] + ([2 * a] if a > 0 else [])
         elif b is not None:
             candidates += [b - step for step in self._steps()] + [b / 2, b / 100]
-        if atom.is_integer:
+        if self.whole[atom]:
             candidates = [Fraction(round(value)) for value in candidates]
         within = (v for v in candidates if (a is None or v >= a) and (b is None or v <= b))
-        return next((value for value in within if fits_kind(atom, value)), None)
+        return next((exact(value) for value in within if fits_kind(atom, value)), None)
 
     def _steps(self) -> list[Fraction]:
         steps = [Fraction(1), Fraction(1, 2), Fraction(3), Fraction(1, 1000), Fraction(20)]
         self.random.shuffle(steps)
         return steps
 
-    def others(self, atom: Any, value: Fraction) -> Iterable[Fraction]:
+    def others(self, atom: Node, value: Exact) -> Iterable[Exact]:
         """Other values of an atom, small and large."""
-        scaled = [
-            value * factor for factor in (Fraction(1, 2), Fraction(2), Fraction(1, 10), Fraction(10), Fraction(-1))
-        ]
+        scaled = [value * factor for factor in _FACTORS]
         chosen = self.random.sample(self.choices[atom], min(6, len(self.choices[atom])))
         return [candidate for candidate in (*scaled, *chosen) if candidate != value and fits_kind(atom, candidate)]
 

@@ -9,12 +9,13 @@ from typing import Any
 import mpmath
 import sympy as sp
 
+from ptproof.proof.attack.concrete import Concrete
 from ptproof.proof.attack.evaluator import Evaluator
-from ptproof.proof.attack.functions import Concrete
 from ptproof.proof.attack.magnitudes import as_float as as_float
 from ptproof.proof.attack.numbers import Ball, NotReal, Number, Undefined, Unsure, exact, undisturbed
 from ptproof.proof.attack.scope import Inadmissible, Scope
 from ptproof.proof.attack.series import Calculus
+from ptproof.proof.attack.tree import named, tree
 
 NO_VALUE = (NotReal, Undefined)
 NOT_KNOWN = (Unsure, Inadmissible, OverflowError, ValueError, RecursionError)
@@ -30,9 +31,9 @@ class Place:
     def __init__(
         self, values: Mapping[Any, Number], functions: Mapping[Any, Concrete] | None = None, digits: int = 50
     ) -> None:
-        self._evaluator = Evaluator(digits, functions or {})
+        self._evaluator = Evaluator(digits, {named(key): value for key, value in (functions or {}).items()})
         self._evaluator.point = Scope.of(
-            {key: value if type(value) is Ball else exact(value) for key, value in values.items()}
+            {tree(key): value if type(value) is Ball else exact(value) for key, value in values.items()}
         )
         self.calculus: Calculus = self._evaluator.calculus
 

@@ -11,8 +11,9 @@ import sympy as sp
 from ptproof.proof import ForAll, Goal, eq, ge, gt, le, lt
 from ptproof.proof.attack import attack
 from ptproof.proof.attack.fields import Range, fields
-from ptproof.proof.attack.functions import START, concretely
+from ptproof.proof.attack.functions import START
 from ptproof.proof.attack.preparation import prepared
+from ptproof.proof.attack.putting import concretely
 
 x, y, s, t, u = sp.symbols("x y s t u", real=True)
 a, b, c, k, T = sp.symbols("a b c k T", positive=True)
