@@ -85,7 +85,7 @@ def with_ancestors(claims: Iterable[Claim]) -> tuple[Claim, ...]:
     return tuple(found.values())
 
 
-def load(paths: Sequence[str | Path] = (), only: Collection[Path] | None = None) -> Derivation:
+def load(paths: str | Path | Sequence[str | Path] = (), only: Collection[Path] | None = None) -> Derivation:
     """Import every module below ``paths`` (the shipped derivations where left out) and collect what they hold.
 
     A folder that holds Python files is one derivation and is imported as a package, so its modules may say
@@ -98,7 +98,8 @@ def load(paths: Sequence[str | Path] = (), only: Collection[Path] | None = None)
         If a path does not exist, holds no claim, definition or gap (:class:`NoClaims`), or a module cannot be imported:
         with file, line and reason.
     """
-    chosen = [Path(path) for path in paths] or [shipped()]
+    several = [paths] if isinstance(paths, str | Path) else paths
+    chosen = [Path(path) for path in several] or [shipped()]
     names = {file: _module_name(file, chosen) for file in files_of(chosen)}
     _distrust_compiled({file.parent for file in names})
     modules = [_module(file, name) for file, name in names.items() if only is None or file in only]

@@ -28,6 +28,7 @@ def test_an_imported_claim_keeps_the_place_of_its_own_section(tmp_path):
         + "first = claim('first', '', eq(x, x))(exact)\nsecond = claim('second', '', eq(x, x))(exact)\n"
     )
     assert [claim.id for claim in load([tmp_path]).claims] == ["third", "first", "second"]
+    assert load(str(tmp_path)).claims == load([tmp_path]).claims  # one path, and no sequence of letters
 
 
 def test_a_text_of_the_same_size_and_second_is_not_taken_for_the_one_that_was_compiled(tmp_path):
