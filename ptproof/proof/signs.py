@@ -49,7 +49,10 @@ def _differs(expression: sp.Expr) -> bool:
     """Whether an enclosure excludes 0 at exact values that the letters of the expression may have."""
     if not isinstance(expression, sp.Expr) or expression.has(*_BOUND):
         return False
-    masks = {node: sp.Dummy("value", real=True) for node in sorted(expression.atoms(AppliedUndef), key=str)}
+    applied = sorted(expression.atoms(AppliedUndef), key=str)
+    if len({node.func for node in applied}) < len(applied):
+        return False  # two arguments may be the same in other words, and then so are the two values
+    masks = {node: sp.Dummy("value", real=True) for node in applied}
     masked = expression.xreplace(masks)
     meaning = {mask: node for node, mask in masks.items()}
     letters = sorted(masked.free_symbols, key=lambda letter: str(meaning.get(letter, letter)))

@@ -69,3 +69,10 @@ def test_a_value_beside_zero_ends_the_question() -> None:
     zero = [(-1) ** n - 1, sp.sqrt(m**2) + m, abs(g) + g, sp.Derivative(x**2, x) - 2 * x]
     assert [vanishes(entry) for entry in zero] == [True] * 4
     assert [vanishes(entry) for entry in (sp.sqrt(m**2) - m, sp.Function("h", real=True)(x) - x)] == [False] * 2
+
+
+def test_values_of_a_function_at_arguments_that_are_equal_are_equal() -> None:
+    f, w = sp.Function("f", real=True), sp.Symbol("w", positive=True)
+    assert vanishes(f(1 / (1 + 1 / w)) - f(w / (w + 1)))
+    assert vanishes(w * f(sp.exp(w) * sp.exp(2 * w)) - f(sp.exp(3 * w)) * w)
+    assert not vanishes(f(w) - f(w + 1))
