@@ -58,16 +58,27 @@ def _html(node: SyntaxTreeNode) -> str:
 
 _INDEX = re.compile(r"(?<![\w:.])(\w*?[^\W\d_][\u0300-\u036f]?)_([A-Za-zα-ωϵ]{1,5}[₀-₉]*)(?![A-Za-z0-9_])")
 
+# An exponent: a word, a sign, or what stands in parentheses, which may hold others.
+_POWER = re.compile(
+    r"\^(?:\(((?:[^()]|\((?:[^()]|\([^()]*\))*\))*)\)|([^\W_][^\W_\u0300-\u036f]*[\u0300-\u036f]?|[*∗]))"
+)
+
 
 def worded(text: str) -> Markup:
-    """Text, escaped, with the index of a letter set low: ν_min, μT_f; names such as file_name stay as they are."""
+    """Text, escaped, with exponents set high and the index of a letter low: m^(2κ), ν_min, μT_f.
+
+    Names such as file_name stay as they are.
+    """
+
+    def high(found: re.Match[str]) -> str:
+        return f"<sup>{_POWER.sub(high, found[1] or found[2])}</sup>"
 
     def low(found: re.Match[str]) -> str:
         letters, index = found.groups()
         name = "_" in letters or (len(letters) > 3 and letters.isascii())
         return found[0] if name else f"{letters}<sub>{index}</sub>"
 
-    return Markup(_INDEX.sub(low, html.escape(text)))
+    return Markup(_INDEX.sub(low, _POWER.sub(high, html.escape(text))))
 
 
 def to_markdown(text: str) -> str:

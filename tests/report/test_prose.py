@@ -2,7 +2,7 @@
 
 import pytest
 
-from ptproof.report.prose import code, display_math, escape, hosted, inline_math, to_html, to_markdown
+from ptproof.report.prose import code, display_math, escape, hosted, inline_math, to_html, to_markdown, worded
 
 
 def test_paragraphs_and_items():
@@ -21,6 +21,21 @@ def test_formulas_become_mathml():
 
 def test_roles_are_shown_as_code():
     assert to_html(":func:`~ptproof.transforms.clocks.clock.dilate`") == "<p><code>dilate</code></p>"
+
+
+@pytest.mark.parametrize(
+    ("text", "shown"),
+    [
+        ("[F]/m^(2κ)", "[F]/m<sup>2κ</sup>"),
+        ("e^(−kT(2/ν_min − 1))", "e<sup>−kT(2/ν<sub>min</sub> − 1)</sup>"),
+        ("x^(a^(b + 1))", "x<sup>a<sup>b + 1</sup></sup>"),
+        ("|e^d̂ − 1| < F^*", "|e<sup>d̂</sup> − 1| &lt; F<sup>*</sup>"),
+        ("x_d^2", "x<sub>d</sub><sup>2</sup>"),
+        ("e^, 2^(a and (a^ b)", "e^, 2^(a and (a^ b)"),
+    ],
+)
+def test_exponents_stand_high_and_indices_low(text, shown):
+    assert worded(text) == shown
 
 
 @pytest.mark.parametrize("text", ["a*b*c", "x_1 and x_2", "[a](b)", "<b>", "# no", "a | b", "$5", "`", "~~x~~"])
