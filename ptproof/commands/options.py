@@ -84,13 +84,15 @@ def loaded(paths: tuple[str, ...], memory: Memory | None = None, select: str = "
     What its code prints, now and while it is used, goes to standard error.
     """
     from ptproof.proof.load import load
+    from ptproof.reading.garbage import collecting
 
     with streams.aside():
         guard.doing("while the derivation was loaded; nothing is decided")
         folder = os.getcwd()
         guard.limit()
         try:
-            derivation = load(paths) if memory is None else memory.load(select)
+            with collecting(False):
+                derivation = load(paths) if memory is None else memory.load(select)
         except KeyboardInterrupt:
             if guard.own_interrupt():
                 raise InputError("the derivation raised KeyboardInterrupt while it was loaded") from None

@@ -52,6 +52,7 @@ class Memory:
         self._cache = Cache(folder and folder / self._environment[:16], say)
         self._before: dict[str, str] = {}
         self._files: dict[str, str] = {}
+        self._recalled: dict[str, Evidence] = {}
         self._said: tuple[dict[str, str], str] = {}, ""  # the files, and what a claim's key says of them
         self._looked = 0.0
         self._open, self._whole = False, True
@@ -120,8 +121,13 @@ class Memory:
         """The evidence of a claim from an earlier run."""
         if self._fresh or not self._open:
             return None
-        evidence = read_evidence(self._cache.read(self._key(claim)))
-        return evidence if evidence is not None and _lasting(claim, evidence) else None
+        key = self._key(claim)
+        if key not in self._recalled:
+            evidence = read_evidence(self._cache.read(key))
+            if evidence is None or not _lasting(claim, evidence):
+                return None
+            self._recalled[key] = evidence
+        return self._recalled[key]
 
     def keep(self, claim: Claim, evidence: Evidence, read: Sequence[str] = ()) -> None:
         """Keep the evidence of a claim whose proof has read these files."""

@@ -16,7 +16,18 @@ Names = Mapping[Any, str]
 
 class _Printer(LatexPrinter):
     """SymPy's printer, but a sum does not open with a minus sign where it need not (τ − t₀, not −t₀ + τ), and a norm
-    needs no parentheses around it before an exponent."""
+    needs no parentheses around it before an exponent. Each part is printed once: statements have much in common."""
+
+    def __init__(self, settings: dict[str, Any]) -> None:
+        super().__init__(settings)
+        self._shown: dict[sp.Basic, str] = {}
+
+    def _print(self, expr: Any, **kwargs: Any) -> str:
+        if kwargs or not isinstance(expr, sp.Basic):
+            return str(super()._print(expr, **kwargs))
+        if expr not in self._shown:
+            self._shown[expr] = str(super()._print(expr))
+        return self._shown[expr]
 
     def _as_ordered_terms(self, expr: sp.Expr, order: str | None = None) -> list[sp.Expr]:
         return ordered(super()._as_ordered_terms(expr, order=order))
@@ -44,12 +55,13 @@ class _Printer(LatexPrinter):
         for factor in sp.Mul.make_args(expr):
             exponent = factor.as_base_exp()[1]
             if exponent.free_symbols and exponent.is_negative:
-                masks[factor] = sp.Symbol(f"zz{len(names)}", positive=True)
-                names[masks[factor]] = self._print(factor)
+                shown = self._print(factor)  # which may need letters as well
+                masks[factor] = sp.Symbol(f"zz{len(names):06}", positive=True)
+                names[masks[factor]] = shown
         if masks:
             expr = sp.Mul(*(masks.get(factor, factor) for factor in sp.Mul.make_args(expr)))
             if not isinstance(expr, sp.Mul):
-                return str(self._print(expr))
+                return self._print(expr)
         return str(super()._print_Mul(expr))
 
 
@@ -78,23 +90,12 @@ def ordered(terms: list[sp.Expr]) -> list[sp.Expr]:
 
 def latex(expression: Any, names: Names, dots: bool = False) -> str:
     """SymPy's LaTeX with the glyphs of the notation; with ``dots`` between factors."""
-    if not isinstance(expression, sp.Basic):
-        return _printed(expression, names, dots)
-    known = _known(tuple(names.items()), dots)
-    if expression not in known:
-        known[expression] = _printed(expression, names, dots)
-    return known[expression]
-
-
-def _printed(expression: Any, names: Names, dots: bool) -> str:
-    settings = {"symbol_names": dict(names), "ln_notation": True, **({"mul_symbol": "dot"} if dots else {})}
-    return str(_Printer(settings).doprint(expression))
+    return str(_printer(tuple(names.items()), dots).doprint(expression))
 
 
 @lru_cache(maxsize=16)
-def _known(names: tuple[tuple[Any, str], ...], dots: bool) -> dict[Any, str]:
-    """What was set in these letters: many statements share a side or a letter."""
-    return {}
+def _printer(names: tuple[tuple[Any, str], ...], dots: bool) -> _Printer:
+    return _Printer({"symbol_names": dict(names), "ln_notation": True, **({"mul_symbol": "dot"} if dots else {})})
 
 
 def numbers(value: sp.Expr) -> str:

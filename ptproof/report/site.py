@@ -43,10 +43,12 @@ class Page:
 
 @dataclass(frozen=True)
 class Site:
-    """The pages of a report, with their content; ``places`` says on which page each anchor stands."""
+    """The pages of a report, with their content, and the script of its instruments; ``places`` says on which page each
+    anchor stands."""
 
     report: Report
     pages: tuple[Page, ...]
+    moving: str
 
     @cached_property
     def places(self) -> dict[str, str]:
@@ -59,21 +61,24 @@ class Site:
 
 @dataclass(frozen=True)
 class Cards:
-    """What is said of each erratum, and of what stands in each section by its anchor: no figure changes it."""
+    """What is said of each erratum, and of what stands in each section by its anchor, and the script of the
+    instruments: no figure changes it."""
 
     errata: tuple[str, ...]
     sections: Mapping[str, tuple[str, ...]]
+    moving: str
 
 
 def cards_of(report: Report) -> Cards:
     """The cards of a report, which may have no figures yet."""
     sections = {section.anchor: tuple(map(str, _cards(section))) for section in report.sections}
-    return Cards(tuple(map(str, _errata(report))), sections)
+    return Cards(tuple(map(str, _errata(report))), sections, _moving(report) if report.instruments else "")
 
 
 def site(report: Report, cards: Cards | None = None) -> Site:
     """Set every page of the report, whose cards may be set already."""
-    return Site(report, tuple(_pages(report, cards or cards_of(report))))
+    cards = cards or cards_of(report)
+    return Site(report, tuple(_pages(report, cards)), cards.moving)
 
 
 def site_files(of: Site, above: str = "") -> dict[str, bytes]:
@@ -88,7 +93,7 @@ def site_files(of: Site, above: str = "") -> dict[str, bytes]:
     files["formulas.js"] = formulas(_short(of.report)).encode()
     files["letters.js"] = meanings(of.report).encode()
     if of.report.instruments:
-        files["instruments.js"] = _moving(of.report).encode()
+        files["instruments.js"] = of.moving.encode()
     files["search.js"] = search_index(of.report, of.places).encode()
     return files
 

@@ -6,6 +6,7 @@ import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import TypeVar
 
 import sympy as sp
@@ -142,10 +143,15 @@ class _Composer:
         free = free_symbols(statements) - (
             bound - free_symbols([said for said in statements if said not in quantified])
         )
-        named = {symbol for said in expressions_of(statements) for symbol in said.atoms(sp.Symbol)}
+        named = set[sp.Symbol]().union(*map(_letters, expressions_of(statements)))
         functions = {sp.Symbol(applied.func.__name__) for applied in undefined_functions(statements)}
         others = {item for item in named | functions if item not in self.glyphs or item not in free}
         return tuple(sorted({spelled(latex(item, self.glyphs)) for item in others} & self.spellings))
+
+
+@lru_cache(maxsize=8192)
+def _letters(expression: sp.Expr) -> frozenset[sp.Symbol]:
+    return frozenset(expression.atoms(sp.Symbol))  # claims share what they assume
 
 
 def _same(claim: Claim) -> bool:

@@ -64,6 +64,12 @@ def test_powers_with_symbolic_exponents_keep_their_places():
     assert latex(x * k ** (-2), {}) == r"\frac{x}{k^{2}}"
 
 
+def test_a_power_in_another_is_not_taken_for_it():
+    a, m, n = sp.symbols("a m n", positive=True)
+    assert latex(a**-m * (1 + k * a**-m) ** -n, {}) == r"a^{- m} \left(1 + k a^{- m}\right)^{- n}"
+    assert latex(k * a**-m, {}) == r"k a^{- m}"
+
+
 def test_runs_are_a_system_with_its_starts_and_what_follows():
     t = sp.Symbol("t", real=True)
     said = Runs(t, (x, y), (-y, x), (0, 3), (eq(x, 1), eq(y, 0)), (lt(x, 0),), (2, 3))
