@@ -16,7 +16,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from ptproof.proof.attack.concrete import Concrete
-from ptproof.proof.attack.elementary import COMPARISONS, UNARY, angle, below, meets
+from ptproof.proof.attack.elementary import ANYTHING, COMPARISONS, UNARY, angle, below, meets
 from ptproof.proof.attack.limiting import integral, limit
 from ptproof.proof.attack.numbers import ONE, ZERO, Exact, NotReal, Number, Undefined, Unsure
 from ptproof.proof.attack.program import ADD, FUNCTION, MUL, OTHER, POWER, Kind, follow, program
@@ -89,16 +89,20 @@ class Evaluator:
         concrete = self.functions.get(node.function)
         if concrete is None:
             raise Unsure(f"{node.expression.func} has no concrete function")
-        arguments = [self.worth(argument, scope) for argument in node.parts]
-        inside = self.point.around(dict(zip(concrete.places, arguments, strict=True)), concrete.given)
-        self._depth += 1
-        if self._depth > 8:
-            raise Unsure("functions are defined by each other")
-        try:
-            value = self.worth(concrete.core, inside)
-        finally:
-            self._depth -= 1
-        if not meets(node.asked, base(value), self.calculus):
+        arguments, core = [self.worth(argument, scope) for argument in node.parts], concrete.core
+        if core.constant is not None:
+            value = self.point.known[core] = core.constant
+            self.work.steps += 1
+        else:
+            inside = self.point.around(dict(zip(concrete.places, arguments, strict=True)), concrete.given)
+            self._depth += 1
+            if self._depth > 8:
+                raise Unsure("functions are defined by each other")
+            try:
+                value = self.worth(core, inside)
+            finally:
+                self._depth -= 1
+        if node.asked != ANYTHING and not meets(node.asked, base(value), self.calculus):
             raise Inadmissible(f"{node.expression} is {base(value)}")
         return value
 
@@ -187,9 +191,11 @@ class Evaluator:
                 levels.append((series.tag, count))
         value = self.worth(node.parts[0], scope.around(moved, node.moved))
         for tag, count in reversed(levels):
-            if not isinstance(value, Series) or value.tag != tag:
+            if type(value) is not Series or value.tag != tag:
                 return ZERO
-            value = self.calculus.mul(Exact(math.factorial(count)), value.terms[count])
+            value = value.terms[count]
+            if count > 1:
+                value = self.calculus.mul(Exact(math.factorial(count)), value)
         return value
 
     def _subs(self, node: Node, scope: Scope) -> Value:
