@@ -245,7 +245,7 @@ def antiderivative(expression: sp.Expr, time: sp.Symbol) -> sp.Expr | None:
         root, exponent = power.as_base_exp()
         slope = sp.diff(root, time)
         if exponent.has(time) or slope.has(time) or exponent == -1:
-            slope = sp.simplify(slope) if not exponent.has(time) and exponent != -1 else slope
+            slope = sp.cancel(slope) if not exponent.has(time) and exponent != -1 else slope
             if exponent.has(time) or slope.has(time) or exponent == -1:
                 return None
         total += term / power * root ** (exponent + 1) / (slope * (exponent + 1))

@@ -98,6 +98,7 @@ class Sampler:
         for bound in goal.bounds:
             for one in bound.isolated:
                 self.ends.setdefault(one.letter, []).append((one, bound.relation.sign))
+        self.bounds = [(bound, sorted(bound.isolated, key=lambda one: not one.plain)) for bound in goal.bounds]
         self.openings = [_Opening(_open(goal, frozenset())), *(_opening(goal, setting) for setting in goal.settings)]
         self.attempt = 0
         self.work = Work(limit=_LIMIT)
@@ -143,17 +144,15 @@ class Sampler:
 
     def _definitions(self, found: dict[Node, Node]) -> dict[Node, Node]:
         """Letters that a field or equalities give, and some that are put at the end of an inequality."""
-        bounds = list(self.goal.bounds)
+        bounds = list(self.bounds)
         self.random.shuffle(bounds)
-        bounds.sort(key=lambda bound: bound.relation.sign != "=")
-        for bound in bounds:
+        bounds.sort(key=lambda pair: pair[0].relation.sign != "=")
+        for bound, choices in bounds:
             sign = bound.relation.sign
             if sign in ("<", ">", "!=") or (sign != "=" and self.random.random() < 0.55):
                 continue
-            choices = [one for one in bound.isolated if one.letter not in found]
-            choices.sort(key=lambda one: not one.plain)
             for one in choices:
-                if not _reaches(one.end, one.letter, found):
+                if one.letter not in found and not _reaches(one.end, one.letter, found):
                     found[one.letter] = one.end
                     break
             if bound.roots:
