@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 import sympy as sp
 
 from ptproof.proof.attack.concrete import Concrete
+from ptproof.proof.attack.declared import UNTESTED
 from ptproof.proof.attack.elementary import meets
 from ptproof.proof.attack.evaluator import Evaluator
 from ptproof.proof.attack.fields import Range
@@ -99,6 +100,7 @@ class Sampler:
             for one in bound.isolated:
                 self.ends.setdefault(one.letter, []).append((one, bound.relation.sign))
         self.bounds = [(bound, sorted(bound.isolated, key=lambda one: not one.plain)) for bound in goal.bounds]
+        self.kinds = [atom for atom in self.drawer.atoms if atom.tests != UNTESTED]
         self.openings = [_Opening(_open(goal, frozenset())), *(_opening(goal, setting) for setting in goal.settings)]
         self.attempt = 0
         self.work = Work(limit=_LIMIT)
@@ -167,7 +169,7 @@ class Sampler:
 
     def _settled(self, point: Point) -> Point | None:
         """The point, changed where an assumption does not hold there; None if that does not help."""
-        if not all(fits_kind(atom, value) for atom, value in point.values.items() if atom is not self.start):
+        if not all(fits_kind(atom, point.values[atom]) for atom in self.kinds if atom in point.values):
             return None
         for _ in range(_SWEEPS):
             evaluator = point.evaluator(50)
