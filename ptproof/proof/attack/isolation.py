@@ -21,7 +21,9 @@ class Isolated:
 
     @cached_property
     def bound(self) -> sp.Expr:
-        return -self.rest / self.factor
+        if self.factor is sp.S.NegativeOne:
+            return self.rest
+        return -self.rest if self.factor is sp.S.One else -self.rest / self.factor
 
     @cached_property
     def letter(self) -> Node:

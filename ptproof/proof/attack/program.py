@@ -29,9 +29,9 @@ class Kind(NamedTuple):
 
 
 class Step(NamedTuple):
-    """One node, and the nodes that it takes, which were evaluated before; or, without a node, some numbers."""
+    """One node, and the nodes that it takes, which were evaluated before; or some numbers on the way to a node."""
 
-    node: Node | None
+    node: Node
     code: int
     how: Any
     parts: tuple[Node, ...]
@@ -55,18 +55,15 @@ def program(root: Node, given: frozenset[Node] | None, kind: Callable[[Node], Ki
         seen.add(node)
         if node.constant is not None:
             if not numbers:
-                steps.append(Step(None, NUMBERS, numbers, ()))
+                steps.append(Step(root, NUMBERS, numbers, ()))
             numbers[node] = node.constant
             return
-        here, parts = Kind(OUTSIDE), ()
-        if given is None or not node.letters.isdisjoint(given):
-            here = kind(node)
-            whole = node.parts[1].whole if here.code == POWER else None
-            here = here._replace(how=whole) if here.code == POWER else here
-            parts = () if here.code == OTHER else node.parts[:1] if whole is not None else node.parts
+        here = Kind(OUTSIDE) if given is not None and node.letters.isdisjoint(given) else kind(node)
+        whole = node.parts[1].whole if here.code == POWER else None
+        parts = () if here.code in (OUTSIDE, OTHER) else node.parts[:1] if whole is not None else node.parts
         for part in parts:
             add(part)
-        steps.append(Step(node, *here, parts))
+        steps.append(Step(node, here.code, whole if here.code == POWER else here.how, parts))
         if here.code in (OUTSIDE, OTHER):
             numbers = {}
 
@@ -90,6 +87,7 @@ def follow(steps: tuple[Step, ...], evaluator: Evaluates, scope: Scope) -> None:
     known, outer, work, calculus = scope.known, scope.outer, evaluator.work, evaluator.calculus
     numbers, count = calculus.numbers, 0
     value: Any
+    base: Any
     try:
         for step, code, how, parts in steps:
             if step in known:
