@@ -118,10 +118,7 @@ class Sampler:
     def _draw(self) -> Point:
         generator = self.random
         again, number = divmod(self.attempt, _POOL)
-        functions = {
-            function: maker.drawn(f"{self.seed}:{again // _ROUNDS}:{k}", number)
-            for k, (function, maker) in enumerate(self.makers)
-        }
+        functions: dict[Name, Concrete] = {}
         if self.solutions and generator.random() < 0.75:
             functions.update(_without_circles(generator.sample(self.solutions, len(self.solutions))))
         opening, letters = self.openings[0], {}
@@ -132,10 +129,14 @@ class Sampler:
             letters.update({letter: tree(self._within_range(interval)) for letter, interval in opening.ranges})
         functions.update(self.defined)
         functions.update({function: draw(self.random) for function, draw in self.limited})
+        others = {
+            function: functions.get(function) or maker.drawn(f"{self.seed}:{again // _ROUNDS}:{k}", number)
+            for k, (function, maker) in enumerate(self.makers)
+        }
         found = self._definitions(letters)
         values = self.drawer.values(self.attempt, found)
         values[self.start] = generator.choice(_STARTS)
-        return Point(values, _ordered(found), functions, opening.open, self.work)
+        return Point(values, _ordered(found), others | functions, opening.open, self.work)
 
     def _within_range(self, interval: Range) -> sp.Rational:
         """A value of a letter for which a field satisfies its assumptions: mostly the best one."""
