@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from functools import cached_property
 from typing import Any
@@ -15,6 +16,7 @@ from ptproof.balls.matrices import (
     Growth,
     Vector,
     grown,
+    grown_over,
     identity,
     inverse,
     magnitudes,
@@ -127,8 +129,8 @@ class _Step:
     def bounded(self, parts: Sequence[arb_mat], *, signed: bool = False) -> arb_mat:
         """Bounds of the magnitudes of a polynomial's matrices; with ``signed`` of the values, on the diagonal."""
         n, count = self.field.dimension, len(parts)
-        entries = [part.entries() for part in parts]
-        spectrum = spectra(arb_mat(n * n, count, [part[i] for i in range(n * n) for part in entries])).tolist()
+        rows = zip(*(part.entries() for part in parts), strict=True)
+        spectrum = spectra(arb_mat(n * n, count, list(itertools.chain.from_iterable(rows)))).tolist()
         bounds = (highest if signed and i % (n + 1) == 0 else largest for i in range(n * n))
         return arb_mat(n, n, [bound(row) for bound, row in zip(bounds, spectrum, strict=True)])
 
@@ -138,6 +140,11 @@ class _Step:
         bounds = self.bounded([back * J * basis for J in self.jacobians], signed=True)
         total = self.half * (bounds + magnitudes(back) * self.jacobian_rest * magnitudes(basis))
         return arb_mat([[entry.upper() for entry in row] for row in total.tolist()])
+
+    @cached_property
+    def spread(self) -> arb_mat:
+        """Bounds of P B, in magnitudes."""
+        return self.bounded([part * self.region.frame for part in self.proposal.spread])
 
     def spreading(self) -> arb_mat:
         """Bounds of S⁻¹(h J P − P') B, in matrices of magnitudes."""
@@ -149,7 +156,7 @@ class _Step:
             for j, part in enumerate(spread):
                 defects[i + j] += J * part
         bounds = self.bounded([self.back * part * frame for part in defects])
-        left = magnitudes(self.half * self.jacobian_rest) * self.bounded([part * frame for part in spread])
+        left = magnitudes(self.half * self.jacobian_rest) * self.spread
         return bounds + magnitudes(self.back) * left
 
     def bending(self, errors: Sequence[arb]) -> tuple[Vector, list[Vector]]:
@@ -173,17 +180,18 @@ class _Step:
         apart = [(c - p).abs_upper() for c, p in zip(region.centre, point, strict=True)]
         first = _plus(times(left_out, region.radii), times(magnitudes(self.back), apart))
         rates, known = self.rates(), _plus(self.defect(), times(self.spreading(), region.radii))
-        along = times(self.bounded([part * region.frame for part in spread]), region.radii)
+        along = times(self.spread, region.radii)
         outward, inward = magnitudes(basis), magnitudes(self.back)
-        growth = grown(rates, known, first, 2)
+        over = grown_over(rates, known, first, 2)
         for factor in (1.25, 2, 8):
-            tube = [(arb(factor) * entry + arb(2) ** (-2 * flint.ctx.prec)).upper() for entry in growth.over]
+            tube = [(arb(factor) * entry + arb(2) ** (-2 * flint.ctx.prec)).upper() for entry in over]
             errors = _plus(along, times(outward, tube))
             self.slopes: list[Vector]
             bent, self.slopes = self.bending(errors)
             growth = grown(rates, _plus(known, times(inward, bent)), first, 2)
             if all(entry < limit for entry, limit in zip(growth.over, tube, strict=True)):
                 return growth, errors
+            over = growth.over
         raise Undefined("no tube closes around the step")
 
     def guarded(self, errors: Sequence[arb]) -> None:

@@ -18,7 +18,8 @@ _BITS = 64  # bounds need no more
 
 def matrix(rows: Any) -> arb_mat:
     """A matrix of balls from an array of floats (n × m)."""
-    return arb_mat(len(rows), len(rows[0]), [arb(float(entry)) for row in rows for entry in row])
+    entries = np.asarray(rows, dtype=float)
+    return arb_mat(*entries.shape, entries.ravel().tolist())
 
 
 def column(entries: Sequence[arb]) -> arb_mat:
@@ -72,15 +73,24 @@ def grown(rates: arb_mat, source: Sequence[arb], start: Sequence[arb], duration:
 
     Raises :class:`Undefined` where a bound is not finite.
     """
+    over = grown_over(rates, source, start, duration)
+    with flint.ctx.workprec(_BITS):
+        end = _solved(rates.tolist(), source, start, duration)
+    if not all(entry.is_finite() for entry in end):
+        raise Undefined("growth beyond all bounds")
+    return Growth(end, [a.max(b).upper() for a, b in zip(end, over, strict=True)])
+
+
+def grown_over(rates: arb_mat, source: Sequence[arb], start: Sequence[arb], duration: Any) -> Vector:
+    """What the same u do not exceed on the way alone."""
     rows = rates.tolist()
     if any(entry < 0 for i, row in enumerate(rows) for j, entry in enumerate(row) if i != j):
         raise ValueError("the rates off the diagonal must not be negative")
     with flint.ctx.workprec(_BITS):
-        end = _solved(rows, source, start, duration)
         over = _solved([[entry.max(arb(0)) for entry in row] for row in rows], source, start, duration)
-    if not all(entry.is_finite() for entry in (*end, *over)):
+    if not all(entry.is_finite() for entry in over):
         raise Undefined("growth beyond all bounds")
-    return Growth(end, [a.max(b).upper() for a, b in zip(end, over, strict=True)])
+    return over
 
 
 def _solved(rates: list[Vector], source: Sequence[arb], start: Sequence[arb], duration: Any) -> Vector:

@@ -29,7 +29,7 @@ def spectra(rows: arb_mat) -> arb_mat:
 
 def largest(spectrum: Sequence[arb]) -> arb:
     """What a polynomial with these Chebyshev coefficients does not exceed in absolute value on [−1, 1]."""
-    return sum((entry.abs_upper() for entry in spectrum), arb(0)).upper()
+    return sum(map(arb.abs_upper, spectrum), arb(0)).upper()
 
 
 def highest(spectrum: Sequence[arb]) -> arb:

@@ -20,6 +20,9 @@ from ptproof.reading import system
 from ptproof.reading.outcomes import Unanswered, Why, end_in_words, too_much
 from ptproof.reading.worker import ALIVE, CLOSED, HEAD, keep, whole
 
+_YOUNG = (
+    20_000  # objects, after which circles are looked for among the new ones: expressions make few, and many objects
+)
 _GLANCE = 0.2  # between two looks at the memory [s]
 _CLOSED = "the work closed the channel of its answer"
 _PATIENCE = 1.0  # for a keeper to say how its worker ended [s]
@@ -50,6 +53,7 @@ def serve(
     # What was read stays as it is: no collection in a worker looks at it, which would also copy its memory.
     gc.collect()
     gc.freeze()
+    gc.set_threshold(_YOUNG)
     signal.signal(signal.SIGTERM, lambda *_: sys.exit())
     here = os.getpid()
     try:

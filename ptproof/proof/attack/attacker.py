@@ -207,16 +207,16 @@ def _agree(part: Relation, evaluator: Evaluator) -> bool:
 
 def _relation_holds(part: Relation, evaluator: Evaluator) -> bool:
     """Whether it holds; a limit that grows beyond all bounds counts as infinite."""
-    if part.left not in _INFINITE and part.right not in _INFINITE:
+    if not any(side is end for side in (part.left, part.right) for end in _INFINITE):
         try:
             return holds(part, evaluator)
         except Grows:
             return False
-    if part.right in _INFINITE and part.left.func.__name__ == "Limit" and part.sign == "=":
+    if any(part.right is end for end in _INFINITE) and part.left.func.__name__ == "Limit" and part.sign == "=":
         try:
             evaluator.number(part.left, evaluator.point)
         except Grows as limit:
-            return bool(part.right == sp.oo) == (limit.sign > 0)
+            return (part.right is sp.oo) == (limit.sign > 0)
         return False
     raise Unsure("infinite sides are compared for limits only")
 

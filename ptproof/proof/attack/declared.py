@@ -28,6 +28,9 @@ _EVERY_RATIONAL = {
     "rational": True, "irrational": False, "algebraic": True, "transcendental": False, "real": True, "imaginary": False,
 }  # fmt: skip
 
+UNTESTED = (frozenset({-1, 0, 1}), ())
+"""What :func:`tests` says of an atom that may be any rational."""
+
 
 @lru_cache(maxsize=4096)
 def tests(atom: Any) -> tuple[frozenset[int], tuple[tuple[Callable[[Any], bool], bool], ...]]:

@@ -11,6 +11,9 @@ from ptproof.proof.attack.series import HALF, Calculus, Series, Value, base
 
 _HELD = {"positive": (1,), "negative": (-1,), "zero": (0,), "nonnegative": (0, 1), "nonpositive": (-1, 0)}
 
+ANYTHING = (None, None)
+"""What is :func:`asked` of a value that may be any real number."""
+
 
 @lru_cache(maxsize=4096)
 def asked(declared: Any) -> tuple[bool | None, frozenset[int] | None]:

@@ -16,10 +16,10 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from ptproof.proof.attack.concrete import Concrete
-from ptproof.proof.attack.elementary import COMPARISONS, UNARY, angle, below, meets
+from ptproof.proof.attack.elementary import ANYTHING, COMPARISONS, UNARY, angle, below, meets
 from ptproof.proof.attack.limiting import integral, limit
-from ptproof.proof.attack.numbers import ONE, SHORT, ZERO, Exact, NotReal, Number, Undefined, Unsure
-from ptproof.proof.attack.program import ADD, CONSTANT, FUNCTION, MUL, OTHER, OUTSIDE, POWER, Kind, program
+from ptproof.proof.attack.numbers import ONE, ZERO, Exact, NotReal, Number, Undefined, Unsure
+from ptproof.proof.attack.program import ADD, FUNCTION, MUL, OTHER, POWER, Kind, follow, program
 from ptproof.proof.attack.scope import Inadmissible, Scope, Work
 from ptproof.proof.attack.series import Calculus, Series, Value, base, hashable
 from ptproof.proof.attack.tree import Name, Node, tree
@@ -52,62 +52,32 @@ class Evaluator:
         return self.worth(tree(expression), scope)
 
     def worth(self, node: Node, scope: Scope) -> Value:
-        """The value of an expression that was taken apart before."""
+        """The value of an expression that was taken apart before; everything that it takes is known afterwards."""
         found = scope.known.get(node)
-        return self._evaluated(node, scope) if found is None else found
-
-    def _evaluated(self, node: Node, scope: Scope) -> Value:
-        """The value of a node that is not known here; everything that it takes is known afterwards."""
-        known, outer, work = scope.known, scope.outer, self.work
-        if work.steps > work.limit:
+        if found is not None:
+            return found
+        if (node.constant is not None or node.symbol) and (found := self._looked_up(node, scope)) is not None:
+            return found
+        if self.work.steps > self.work.limit:
             raise Unsure("too much work")
-        given = None if outer is None else scope.given
+        given = None if scope.outer is None else scope.given
         steps = node.programs.get(given)
         if steps is None:
             steps = node.programs[given] = program(node, given, _kind)
-        calculus, numbers, count = self.calculus, self.calculus.numbers, 0
-        value: Any
-        try:
-            for step, code, how, parts in steps:
-                if step in known:
-                    continue
-                count += 1
-                if code == MUL:
-                    value = known[parts[0]]
-                    for part in parts[1:]:  # all of them: 0 times something undefined is undefined
-                        other: Any = known[part]
-                        if type(value) is Exact and type(other) is Exact:
-                            value = value * other
-                            if value.height_bits() > SHORT:
-                                value = numbers.tidy(value)
-                        else:
-                            value = calculus.mul(value, other)
-                elif code == ADD:
-                    value = calculus.add([known[part] for part in parts])
-                elif code == CONSTANT:
-                    value, around = how, outer
-                    while around is not None and step not in around.known:
-                        around.known[step], around = value, around.outer
-                elif code == OUTSIDE:
-                    assert outer is not None
-                    before = work.steps
-                    value = self.worth(step, outer)
-                    count -= work.steps != before  # a look counts as a step
-                elif code == POWER:
-                    value = self._power(known[parts[0]], how, step, scope)
-                elif code == FUNCTION:
-                    value = how(calculus, known[parts[0]])
-                else:
-                    value = how(self, step, scope)
-                known[step] = value
-        finally:
-            work.steps += count
-        return value
+        follow(steps, self, scope)
+        return scope.known[node]
 
-    def _power(self, value: Value, whole: int | None, node: Node, scope: Scope) -> Value:
-        if whole is not None and type(value) is not Series:
-            return self.calculus.numbers.whole_power(value, whole)
-        return self.calculus.power(value, self.worth(node.parts[1], scope))
+    def _looked_up(self, node: Node, scope: Scope) -> Value | None:
+        """The value of a number, or of a symbol around, which is known here afterwards too: that is one step."""
+        found, around = node.constant, scope.outer
+        while found is None and around is not None:
+            found, around = around.known.get(node), around.outer
+        if found is not None:
+            self.work.steps += 1
+            within: Scope | None = scope
+            while within is not None and node not in within.known:
+                within.known[node], within = found, within.outer
+        return found
 
     def _symbol(self, node: Node, scope: Scope) -> Value:
         raise Unsure(f"{node.expression} has no value")
@@ -119,16 +89,20 @@ class Evaluator:
         concrete = self.functions.get(node.function)
         if concrete is None:
             raise Unsure(f"{node.expression.func} has no concrete function")
-        arguments = [self.worth(argument, scope) for argument in node.parts]
-        inside = self.point.around(dict(zip(concrete.places, arguments, strict=True)), concrete.given)
-        self._depth += 1
-        if self._depth > 8:
-            raise Unsure("functions are defined by each other")
-        try:
-            value = self.worth(concrete.core, inside)
-        finally:
-            self._depth -= 1
-        if not meets(node.asked, base(value), self.calculus):
+        arguments, core = [self.worth(argument, scope) for argument in node.parts], concrete.core
+        if core.constant is not None:
+            value = self.point.known[core] = core.constant
+            self.work.steps += 1
+        else:
+            inside = self.point.around(dict(zip(concrete.places, arguments, strict=True)), concrete.given)
+            self._depth += 1
+            if self._depth > 8:
+                raise Unsure("functions are defined by each other")
+            try:
+                value = self.worth(core, inside)
+            finally:
+                self._depth -= 1
+        if node.asked != ANYTHING and not meets(node.asked, base(value), self.calculus):
             raise Inadmissible(f"{node.expression} is {base(value)}")
         return value
 
@@ -217,9 +191,11 @@ class Evaluator:
                 levels.append((series.tag, count))
         value = self.worth(node.parts[0], scope.around(moved, node.moved))
         for tag, count in reversed(levels):
-            if not isinstance(value, Series) or value.tag != tag:
+            if type(value) is not Series or value.tag != tag:
                 return ZERO
-            value = self.calculus.mul(Exact(math.factorial(count)), value.terms[count])
+            value = value.terms[count]
+            if count > 1:
+                value = self.calculus.mul(Exact(math.factorial(count)), value)
         return value
 
     def _subs(self, node: Node, scope: Scope) -> Value:
@@ -289,8 +265,6 @@ def _kind(node: Node) -> Kind:
     expression = node.expression
     if isinstance(expression, AppliedUndef | sp.Symbol):
         return Kind(OTHER, Evaluator._applied if expression.args else Evaluator._symbol)
-    if expression.is_Rational:
-        return Kind(CONSTANT)
     name = type(expression).__name__
     if name in _ON_NODES:
         return _ON_NODES[name]

@@ -13,6 +13,7 @@ from sympy.core.function import AppliedUndef
 
 from ptproof.proof.attack.concrete import Concrete
 from ptproof.proof.attack.putting import concretely
+from ptproof.proof.attack.tree import BINDERS
 from ptproof.proof.statement import ForAll
 
 
@@ -141,7 +142,8 @@ def _at_rest(item: ForAll) -> list[tuple[Any, Concrete]]:
         if any(getattr(node, f"is_{word}") for node in moving for word in forbidden):
             continue
         resting = {node.func: Concrete(_arguments(1), value) for node in sorted(moving, key=str)}
-        if concretely(item.relation.right, resting).doit() == 0:
+        rate = concretely(item.relation.right, resting)
+        if (rate.doit() if rate.has(*BINDERS) else rate) == 0:
             return list(resting.items())
     return []
 
@@ -245,7 +247,7 @@ def antiderivative(expression: sp.Expr, time: sp.Symbol) -> sp.Expr | None:
         root, exponent = power.as_base_exp()
         slope = sp.diff(root, time)
         if exponent.has(time) or slope.has(time) or exponent == -1:
-            slope = sp.simplify(slope) if not exponent.has(time) and exponent != -1 else slope
+            slope = sp.cancel(slope) if not exponent.has(time) and exponent != -1 else slope
             if exponent.has(time) or slope.has(time) or exponent == -1:
                 return None
         total += term / power * root ** (exponent + 1) / (slope * (exponent + 1))

@@ -21,7 +21,9 @@ class Isolated:
 
     @cached_property
     def bound(self) -> sp.Expr:
-        return -self.rest / self.factor
+        if self.factor is sp.S.NegativeOne:
+            return self.rest
+        return -self.rest if self.factor is sp.S.One else -self.rest / self.factor
 
     @cached_property
     def letter(self) -> Node:
@@ -44,21 +46,21 @@ class Isolated:
 
 def isolated(difference: sp.Expr, atom: Any) -> Isolated | None:
     """The difference as factor·atom + rest, where it is written so."""
-    factor: sp.Expr = sp.S.Zero
-    rest: sp.Expr = sp.S.Zero
+    letter, with_it, rest = tree(atom), [], []
     for term in sp.Add.make_args(difference):
-        if tree(atom) not in tree(term).letters:
-            rest += term
+        if letter not in tree(term).letters:
+            rest.append(term)
             continue
         factors = list(sp.Mul.make_args(term))
         if factors.count(atom) != 1:
             return None
         factors.remove(atom)
         other = sp.Mul(*factors)
-        if tree(atom) in tree(other).letters:
+        if letter in tree(other).letters:
             return None
-        factor += other
-    return None if factor == 0 else Isolated(atom, factor, rest)
+        with_it.append(other)
+    factor = sp.Add(*with_it)
+    return None if factor == 0 else Isolated(atom, factor, sp.Add(*rest))
 
 
 @lru_cache(maxsize=4096)

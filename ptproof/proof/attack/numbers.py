@@ -11,6 +11,7 @@ import math
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from fractions import Fraction
+from functools import cache
 from typing import Any, TypeAlias
 
 import flint
@@ -59,6 +60,13 @@ def undisturbed() -> Iterator[None]:
         flint.ctx.prec = before
 
 
+@cache
+def _precision(digits: int) -> tuple[int, float, float, Ball]:
+    """The bits of a ball, the base-2 logarithm of what counts as 0, as what a term is hidden, and what counts as 0."""
+    bits, negligible = round(digits * BITS_OF_A_DIGIT) + 3, -0.6 * digits * BITS_OF_A_DIGIT
+    return bits, negligible, 2.0 ** (-bits / 2), power_of_two(math.floor(negligible))
+
+
 class Arithmetic:
     """Real arithmetic with bounded errors at one precision.
 
@@ -68,11 +76,8 @@ class Arithmetic:
 
     def __init__(self, digits: int) -> None:
         self.digits = digits
-        self.bits = round(digits * BITS_OF_A_DIGIT) + 3
-        self.negligible = -0.6 * digits * BITS_OF_A_DIGIT
         self.absorbed = False
-        self._hidden = 2.0 ** (-self.bits / 2)
-        self._nearly_zero = power_of_two(math.floor(self.negligible))
+        self.bits, self.negligible, self._hidden, self._nearly_zero = _precision(digits)
 
     def ready(self) -> None:
         """Compute with this precision: it is one for the whole process, and others may have changed it."""

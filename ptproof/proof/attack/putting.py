@@ -68,7 +68,12 @@ class _Putting:
                 letter = sp.Dummy("moving", real=True)
                 inner, variable, values[letter] = inner.xreplace({variable: letter}), letter, value
             counts.append((variable, count))
-        return put(sp.diff(self.into(inner), *counts), values)
+        return put(_derived(self.into(inner), tuple(counts)), values)
+
+
+@lru_cache(maxsize=2048)
+def _derived(expression: sp.Expr, counts: tuple[tuple[Any, Any], ...]) -> sp.Expr:
+    return sp.diff(expression, *counts)
 
 
 def put(expression: sp.Expr, values: Mapping[Any, Any]) -> sp.Expr:

@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 import sympy as sp
 
 from ptproof.proof.attack.concrete import Concrete
+from ptproof.proof.attack.declared import UNTESTED
 from ptproof.proof.attack.elementary import meets
 from ptproof.proof.attack.evaluator import Evaluator
 from ptproof.proof.attack.fields import Range
@@ -98,6 +99,8 @@ class Sampler:
         for bound in goal.bounds:
             for one in bound.isolated:
                 self.ends.setdefault(one.letter, []).append((one, bound.relation.sign))
+        self.bounds = [(bound, sorted(bound.isolated, key=lambda one: not one.plain)) for bound in goal.bounds]
+        self.kinds = [atom for atom in self.drawer.atoms if atom.tests != UNTESTED]
         self.openings = [_Opening(_open(goal, frozenset())), *(_opening(goal, setting) for setting in goal.settings)]
         self.attempt = 0
         self.work = Work(limit=_LIMIT)
@@ -115,10 +118,7 @@ class Sampler:
     def _draw(self) -> Point:
         generator = self.random
         again, number = divmod(self.attempt, _POOL)
-        functions = {
-            function: maker.drawn(f"{self.seed}:{again // _ROUNDS}:{k}", number)
-            for k, (function, maker) in enumerate(self.makers)
-        }
+        functions: dict[Name, Concrete] = {}
         if self.solutions and generator.random() < 0.75:
             functions.update(_without_circles(generator.sample(self.solutions, len(self.solutions))))
         opening, letters = self.openings[0], {}
@@ -129,10 +129,14 @@ class Sampler:
             letters.update({letter: tree(self._within_range(interval)) for letter, interval in opening.ranges})
         functions.update(self.defined)
         functions.update({function: draw(self.random) for function, draw in self.limited})
+        others = {
+            function: functions.get(function) or maker.drawn(f"{self.seed}:{again // _ROUNDS}:{k}", number)
+            for k, (function, maker) in enumerate(self.makers)
+        }
         found = self._definitions(letters)
         values = self.drawer.values(self.attempt, found)
         values[self.start] = generator.choice(_STARTS)
-        return Point(values, _ordered(found), functions, opening.open, self.work)
+        return Point(values, _ordered(found), others | functions, opening.open, self.work)
 
     def _within_range(self, interval: Range) -> sp.Rational:
         """A value of a letter for which a field satisfies its assumptions: mostly the best one."""
@@ -143,17 +147,15 @@ class Sampler:
 
     def _definitions(self, found: dict[Node, Node]) -> dict[Node, Node]:
         """Letters that a field or equalities give, and some that are put at the end of an inequality."""
-        bounds = list(self.goal.bounds)
+        bounds = list(self.bounds)
         self.random.shuffle(bounds)
-        bounds.sort(key=lambda bound: bound.relation.sign != "=")
-        for bound in bounds:
+        bounds.sort(key=lambda pair: pair[0].relation.sign != "=")
+        for bound, choices in bounds:
             sign = bound.relation.sign
             if sign in ("<", ">", "!=") or (sign != "=" and self.random.random() < 0.55):
                 continue
-            choices = [one for one in bound.isolated if one.letter not in found]
-            choices.sort(key=lambda one: not one.plain)
             for one in choices:
-                if not _reaches(one.end, one.letter, found):
+                if one.letter not in found and not _reaches(one.end, one.letter, found):
                     found[one.letter] = one.end
                     break
             if bound.roots:
@@ -168,7 +170,7 @@ class Sampler:
 
     def _settled(self, point: Point) -> Point | None:
         """The point, changed where an assumption does not hold there; None if that does not help."""
-        if not all(fits_kind(atom, value) for atom, value in point.values.items() if atom is not self.start):
+        if not all(fits_kind(atom, point.values[atom]) for atom in self.kinds if atom in point.values):
             return None
         for _ in range(_SWEEPS):
             evaluator = point.evaluator(50)

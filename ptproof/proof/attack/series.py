@@ -6,6 +6,7 @@ another derivative keeps its own variable.
 
 from __future__ import annotations
 
+from itertools import islice
 from typing import NamedTuple, TypeAlias
 
 from ptproof.proof.attack.magnitudes import size, spread
@@ -44,17 +45,12 @@ class Calculus:
         return self.numbers.add(terms)
 
     def _sum(self, terms: list[Value]) -> Value:
-        series = [term for term in terms if type(term) is Series]
-        tag = max(term.tag for term in series)
-        order = next(len(term.terms) for term in series if term.tag == tag)
-        rows: list[list[Value]] = [[] for _ in range(order)]
-        for term in terms:
-            if isinstance(term, Series) and term.tag == tag:
-                for row, coefficient in zip(rows, term.terms, strict=True):
-                    row.append(coefficient)
-            else:
-                rows[0].append(term)
-        return Series(tag, tuple(self.add(row) if row else ZERO for row in rows))
+        tag = max(term.tag for term in terms if type(term) is Series)
+        moving = [term.terms for term in terms if type(term) is Series and term.tag == tag]
+        start = self.add([term.terms[0] if type(term) is Series and term.tag == tag else term for term in terms])
+        if len(moving) == 1:
+            return Series(tag, (start, *moving[0][1:]))
+        return Series(tag, (start, *(self.add(list(row)) for row in islice(zip(*moving, strict=True), 1, None))))
 
     def neg(self, value: Value) -> Value:
         if isinstance(value, Series):
@@ -65,15 +61,16 @@ class Calculus:
         return self.add([left, self.neg(right)])
 
     def mul(self, left: Value, right: Value) -> Value:
-        if type(left) is not Series and type(right) is not Series:
-            return self.numbers.mul(left, right)
-        if not isinstance(left, Series) or (isinstance(right, Series) and right.tag > left.tag):
+        if type(left) is not Series:
+            if type(right) is not Series:
+                return self.numbers.mul(left, right)
             left, right = right, left
-        assert isinstance(left, Series)
-        if not isinstance(right, Series) or right.tag < left.tag:
-            return Series(left.tag, tuple(self.mul(term, right) for term in left.terms))
-        order = len(left.terms)
-        return Series(left.tag, tuple(self._convolution(left.terms, right.terms, k) for k in range(order)))
+        elif type(right) is Series and right.tag > left.tag:
+            left, right = right, left
+        if type(right) is not Series or right.tag < left.tag:
+            return Series(left.tag, tuple([self.mul(term, right) for term in left.terms]))
+        order = range(len(left.terms))
+        return Series(left.tag, tuple([self._convolution(left.terms, right.terms, k) for k in order]))
 
     def product(self, factors: list[Value]) -> Value:
         """The product of at least one factor, from left to right."""
@@ -86,9 +83,10 @@ class Calculus:
         return total
 
     def _convolution(self, left: tuple[Value, ...], right: tuple[Value, ...], k: int) -> Value:
-        pairs = [(left[j], right[k - j]) for j in range(k + 1)]
-        products = [self.mul(one, other) for one, other in pairs if not (_nothing(one) or _nothing(other))]
-        return self.add(products) if products else ZERO
+        products = [
+            self.mul(left[j], right[k - j]) for j in range(k + 1) if not (_nothing(left[j]) or _nothing(right[k - j]))
+        ]
+        return ZERO if not products else products[0] if len(products) == 1 else self.add(products)
 
     def inverse(self, value: Value) -> Value:
         if not isinstance(value, Series):

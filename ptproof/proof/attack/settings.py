@@ -44,12 +44,13 @@ def settings(
     ends = [(function, concrete) for function, concrete in ends if concrete.body.is_Symbol]
     system = tuple(item for item in rest if is_equation(item))
     for k, field in enumerate(fields(rest, ends)[:_FIELDS]):
-        choices = [
+        every = (
             ({**dict(field.functions), **others}, zeros)
             for others in drifts(system, {**defined, **dict(field.functions)})
             for zeros in _zeros(system, {**defined, **dict(field.functions), **others})
-        ]
-        for functions, zeros in choices[k % len(choices) :][: 1 if k else None]:  # all of them in the first field
+        )
+        choices = list(itertools.islice(every, k + 1 if k else None))  # all of them in the first field, else one
+        for functions, zeros in choices[k % len(choices) :][: 1 if k else None]:
             letters = {**dict(field.letters), **zeros}
             for motion in motions(system, {**defined, **functions}, letters) if system else [Motion(())]:
                 found.append(_setting(field, functions, letters, motion, field.items))

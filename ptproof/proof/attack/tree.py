@@ -26,12 +26,18 @@ class Node:
     ----------
     expression
         What it stands for.
+    constant
+        Its value, if it is a rational number.
+    symbol
+        Whether it is a symbol.
     programs
         The steps that evaluate it, by the letters that have other values than around; None stands for all letters.
     """
 
     def __init__(self, expression: Any) -> None:
         self.expression = expression
+        self.constant = Exact(int(expression.p), int(expression.q)) if expression.is_Rational else None
+        self.symbol = bool(expression.is_Symbol)
         self.programs: dict[frozenset[Node] | None, Any] = {}
 
     @cached_property
@@ -49,11 +55,6 @@ class Node:
     def free(self) -> tuple[Node, ...]:
         """The free symbols, in an order of their own."""
         return tuple(map(tree, sorted(self.expression.free_symbols, key=str)))
-
-    @cached_property
-    def rational(self) -> Exact:
-        """The value of a rational number."""
-        return Exact(int(self.expression.p), int(self.expression.q))
 
     @cached_property
     def whole(self) -> int | None:

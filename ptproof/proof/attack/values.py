@@ -9,7 +9,7 @@ from typing import Any
 
 from ptproof.proof.attack.kinds import fits_kind
 from ptproof.proof.attack.magnitudes import size
-from ptproof.proof.attack.numbers import ONE, Ball, Exact, Number, Unsure, exact, fraction
+from ptproof.proof.attack.numbers import ONE, ZERO, Ball, Exact, Number, Unsure, exact, fraction
 from ptproof.proof.attack.tree import Node
 
 _PLAIN = ("1", "2", "0", "1/2", "-1", "3", "-2", "-1/2", "3/2", "5")
@@ -19,6 +19,8 @@ _HALVES = ("5/2", "-3/2", "1/3", "-2/3", "7/4", "9/10", "11/10")
 AWKWARD = tuple(exact(Fraction(text)) for text in (*_PLAIN, *_HALVES, *_LARGE, *_SMALL))
 MODERATE = tuple(exact(Fraction(text)) for text in (*_PLAIN, *_HALVES, "10", "1/10"))
 _FACTORS = tuple(Exact(*ratio) for ratio in ((1, 2), (2, 1), (1, 10), (10, 1), (-1, 1)))
+_SHARES = tuple(Exact(*ratio) for ratio in ((1, 2), (1, 3), (9, 10), (1, 1000), (999, 1000)))
+_STEPS = tuple(Exact(*ratio) for ratio in ((1, 1), (1, 2), (3, 1), (1, 1000), (20, 1)))
 _LONGEST = 400  # bits
 
 
@@ -78,29 +80,28 @@ class Drawer:
 
     def between(self, atom: Node, low: Number | None, high: Number | None, strict: bool) -> Exact | None:
         """A value of the kind of the atom between two ends, at an end where that is exact and allowed."""
-        candidates: list[Fraction] = []
+        candidates: list[Exact] = []
         if not strict and self.random.random() < 0.4:
-            candidates += [fraction(end) for end in (low, high) if type(end) is Exact]
+            candidates += [end for end in (low, high) if type(end) is Exact]
         a, b = (None if end is None else _rational(end) for end in (low, high))
         if a is not None and b is not None:
             if a > b:
                 return None
-            shares = [Fraction(1, 2), Fraction(1, 3), Fraction(9, 10), Fraction(1, 1000), Fraction(999, 1000)]
-            self.random.shuffle(shares)
-            candidates += [a + (b - a) * share for share in shares]
+            width = b - a
+            candidates += [a + width * share for share in self._shuffled(_SHARES)]
         elif a is not None:
-            candidates += [a + step for step in self._steps()] + ([2 * a] if a > 0 else [])
+            candidates += [a + step for step in self._shuffled(_STEPS)] + ([2 * a] if a > 0 else [])
         elif b is not None:
-            candidates += [b - step for step in self._steps()] + [b / 2, b / 100]
+            candidates += [b - step for step in self._shuffled(_STEPS)] + [b / 2, b / 100]
         if self.whole[atom]:
-            candidates = [Fraction(round(value)) for value in candidates]
+            candidates = [Exact(round(fraction(value))) for value in candidates]
         within = (v for v in candidates if (a is None or v >= a) and (b is None or v <= b))
-        return next((exact(value) for value in within if fits_kind(atom, value)), None)
+        return next((value for value in within if fits_kind(atom, value)), None)
 
-    def _steps(self) -> list[Fraction]:
-        steps = [Fraction(1), Fraction(1, 2), Fraction(3), Fraction(1, 1000), Fraction(20)]
-        self.random.shuffle(steps)
-        return steps
+    def _shuffled(self, values: Sequence[Exact]) -> list[Exact]:
+        found = list(values)
+        self.random.shuffle(found)
+        return found
 
     def others(self, atom: Node, value: Exact) -> Iterable[Exact]:
         """Other values of an atom, small and large."""
@@ -116,14 +117,14 @@ def _signs(atom: Any) -> tuple[int, ...]:
     return (-1,) if atom.is_negative or atom.is_nonpositive else (1, -1)
 
 
-def _rational(end: Number) -> Fraction:
+def _rational(end: Number) -> Exact:
     """A rational close to the end, of a length that is fit for further work."""
     if type(end) is not Ball:
-        return fraction(end)
+        return end
     bits = size(end)
     if bits > _LONGEST:
         raise Unsure("an end is too large for further work")
     if bits < -_LONGEST:
-        return Fraction(0)
+        return ZERO
     mantissa, exponent = end.mid().man_exp()
-    return (int(mantissa) * Fraction(2) ** int(exponent)).limit_denominator(10**24)
+    return exact((int(mantissa) * Fraction(2) ** int(exponent)).limit_denominator(10**24))
