@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ast
 import importlib
 import sys
 from difflib import get_close_matches
@@ -27,8 +26,9 @@ def commands() -> dict[str, str]:
     for file in sorted(resources.files(__package__).iterdir(), key=lambda file: file.name):
         name, dot, ending = file.name.partition(".")
         if dot and ending == "py":
-            words = (ast.get_docstring(ast.parse(file.read_text("utf-8"))) or "").split("\n", 1)[0]
-            if words.startswith(opening := f"``ptproof {name}``: "):
+            opening = f'"""``ptproof {name}``: '
+            words = file.read_text("utf-8").partition("\n")[0].removesuffix('"""')
+            if words.startswith(opening):
                 help = words.removeprefix(opening)
                 found[name] = help[:1].upper() + help[1:]
     return found

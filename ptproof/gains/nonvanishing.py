@@ -63,6 +63,7 @@ def ultimate_bound(bounds: FieldBounds, k: sp.Expr, drift_bound: sp.Expr, gain: 
     return (bounds.a1 / bounds.a2) ** (1 / (2 * bounds.kappa)) * radius
 
 
+@lru_cache(maxsize=8)
 def exact_bound(data: GainData) -> sp.Expr:
     """For κ = 1 the exact solution of the scalar inequality as an expression in τ, without a clip: it bounds √V.
 

@@ -20,7 +20,6 @@ from ptproof.proof.attack.numbers import NotReal, Undefined, Unsure, undisturbed
 from ptproof.proof.attack.preparation import Prepared, prepared
 from ptproof.proof.attack.quantified import satisfied
 from ptproof.proof.attack.roughness import rough
-from ptproof.proof.attack.runs import tried
 from ptproof.proof.attack.sampling import MISSES, Point, Sampler
 from ptproof.proof.attack.worth import text
 from ptproof.proof.claim import Goal
@@ -93,6 +92,8 @@ def attack(goal: Goal, *, seed: int = 0, points: int = POINTS, seconds: float = 
         case Exists():
             return Attack(0, 0, None, "not attacked: no choice can be shown to be the wrong one by trying")
         case Runs() as said:
+            from ptproof.proof.attack.runs import tried  # NumPy, which most small derivations do without
+
             found = tried(said, seed, seconds)
             hit = found.failure and Hit(*found.failure, FAILS)
             return Attack(found.runs, found.runs, hit, str(hit or f"attacked on {found.runs} runs in floats"))

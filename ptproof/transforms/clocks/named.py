@@ -21,6 +21,7 @@ the others.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import lru_cache
 
 import sympy as sp
 
@@ -128,4 +129,10 @@ def named_clock(
     """The clock of that name in :data:`CLOCKS`, on [start, start + horizon)."""
     check_clock(name, exponent)
     more = {"order": exponent} if exponent is not None else {}
-    return CLOCKS[name](t, tau, start=start, horizon=horizon, **more)
+    return _made(CLOCKS[name], t, tau, start=start, horizon=horizon, **more)
+
+
+@lru_cache(maxsize=64, typed=True)
+def _made(make: Callable[..., Clock], *times: sp.Symbol, **numbers: sp.Expr) -> Clock:
+    """A clock is a value, and what it checks of itself takes a tenth of a second."""
+    return make(*times, **numbers)

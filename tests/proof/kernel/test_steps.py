@@ -65,7 +65,7 @@ PAIRS = {
         stated("witness-false", Exists((w,), (lt(w, a), gt(w, b)))),
     ),
     "number": (
-        stated("number", Exists((w,), (le(sp.cos(x), 1 + w * x**2), le(x**2, w * x**2)), (x,))),
+        stated("number", Exists((w,), (le(x, 1 + w * x**2), le(x**2, w * x**2)), (x,))),
         stated("number-false", Exists((w,), (le(x**4, w * x**2),), (x,))),
     ),
     "grows": (
