@@ -457,7 +457,14 @@ Ltac leaf :=
   cbv beta;
   lazymatch goal with
   | |- True => exact I
-  | |- ex_RInt _ _ _ => match goal with H : forall a b, ex_RInt _ a b |- _ => apply H end
+  | |- ex_RInt _ _ _ =>
+      eexists;
+      match goal with
+      | I : forall a b, is_RInt _ a b _ |- _ => apply I
+      | I : forall _ a b, is_RInt _ a b _ |- _ => apply I
+      | I : forall _ _ a b, is_RInt _ a b _ |- _ => apply I
+      | I : forall _ _ _ a b, is_RInt _ a b _ |- _ => apply I
+      end
   | |- ex_derive _ _ => first [ solve [derivative_sides] | differentiable ]
   | |- locally _ _ => near
   | |- _ \/ (_ = 0 /\ _) => first [ left; solve [sign] | apply rpow_defined; sign ]
@@ -468,7 +475,13 @@ Ltac leaf :=
   | |- _ => first [ inequality | solve [derivatives; inequality] ]
   end.
 
-Ltac integrals := repeat match goal with E : forall a b, RInt ?f a b = _ |- context [RInt ?f _ _] => rewrite E end.
+(* Integrals that are known, also for all values of outer variables. *)
+Ltac integrals := repeat match goal with
+  | I : forall a b, is_RInt _ a b _ |- context [RInt _ _ _] => rewrite (is_RInt_unique _ _ _ _ (I _ _))
+  | I : forall _ a b, is_RInt _ a b _ |- context [RInt _ _ _] => rewrite (is_RInt_unique _ _ _ _ (I _ _ _))
+  | I : forall _ _ a b, is_RInt _ a b _ |- context [RInt _ _ _] => rewrite (is_RInt_unique _ _ _ _ (I _ _ _ _))
+  | I : forall _ _ _ a b, is_RInt _ a b _ |- context [RInt _ _ _] => rewrite (is_RInt_unique _ _ _ _ (I _ _ _ _ _))
+  end.
 Ltac leaf_or_say := integrals; first [ leaf | lazymatch goal with |- ?g => fail 1 "at" g end ].
 
 (* A variable replaced: by what it is equal to, or by a bound and what is above the bound. *)
@@ -732,21 +745,48 @@ Ltac right_limit :=
   | eapply right_opp; [ right_limit | reflexivity ] ].
 Ltac tends := unfold Rminus, Rdiv in *; eapply right_value; [ right_limit | first [ rational | rewrite ?Rmult_0_r, ?Rmult_0_l; rational ] ].
 
-(* Integrals by an antiderivative F of f, which is differentiated here. *)
-Ltac integral f F :=
+(* sin and cos of a whole multiple of an angle, by those of the angle. *)
+Fixpoint turned_by (n : nat) (c s : R) : R * R :=
+  match n with O => (1, 0) | S m => let p := turned_by m c s in (fst p * c - snd p * s, snd p * c + fst p * s) end.
+Lemma turned_by_angle : forall n t, turned_by n (cos t) (sin t) = (cos (INR n * t), sin (INR n * t)).
+Proof.
+  induction n as [|n IH]; intro t.
+  - cbn [turned_by INR]. rewrite Rmult_0_l, cos_0, sin_0. reflexivity.
+  - cbn [turned_by]. rewrite IH, S_INR, Rmult_plus_distr_r, Rmult_1_l, cos_plus, sin_plus. reflexivity.
+Qed.
+Lemma cos_of_multiple : forall n t a, a = INR n * t -> cos a = fst (turned_by n (cos t) (sin t)).
+Proof. intros n t a E. rewrite E, turned_by_angle. reflexivity. Qed.
+Lemma sin_of_multiple : forall n t a, a = INR n * t -> sin a = snd (turned_by n (cos t) (sin t)).
+Proof. intros n t a E. rewrite E, turned_by_angle. reflexivity. Qed.
+Ltac as_multiple_angle a t L n :=
+  let E := fresh in pose proof (L n t a ltac:(cbn [INR]; field; sides)) as E; cbn [turned_by fst snd] in E; rewrite E; clear E.
+Ltac multiple_angle a t L :=
+  first [ as_multiple_angle a t L 0%nat | as_multiple_angle a t L 2%nat | as_multiple_angle a t L 3%nat
+        | as_multiple_angle a t L 4%nat | as_multiple_angle a t L 5%nat | as_multiple_angle a t L 6%nat ].
+(* Two polynomials in waves of multiples of t: sin^2 is 1 - cos^2, all else are numbers. *)
+Ltac waves t :=
+  as_reals;
+  repeat match goal with
+  | |- context [cos ?a] => assert_fails (constr_eq a t); multiple_angle a t cos_of_multiple
+  | |- context [sin ?a] => assert_fails (constr_eq a t); multiple_angle a t sin_of_multiple
+  end;
+  let P := fresh in
+  assert (P : sin t ^ 2 = 1 - cos t ^ 2) by (pose proof (sin2_cos2 t) as P; unfold Rsqr in P; lra);
+  revert P; generalize (sin t) (cos t); intros ? ? P;
+  first [ ring [P] | field [P]; sides ].
+
+(* Integrals by an antiderivative F of what the function f is equal to, which is differentiated here. The function's
+   waves are those of multiples of the angle t. *)
+Ltac integral f g F t :=
+  let W := fresh in
+  assert (W : f = g)
+    by (apply FunctionalExtensionality.functional_extensionality; let x := fresh in intro x; cbv beta; integrals;
+        first [ reflexivity | rational | let u := eval cbv beta in (t x) in waves u | same_values; rational | trigonometric ]);
   let D := fresh in let C := fresh in
-  assert (D : forall x : R, is_derive F x (f x))
+  assert (D : forall x : R, is_derive F x (g x))
     by (intro; auto_derive; [ solve [derivative_sides] | cbv beta; first [ rational | same_values; rational | trigonometric ] ]);
-  assert (C : forall x : R, continuous f x) by (intro; apply (ex_derive_continuous f); differentiable);
-  let E := fresh in let X := fresh in
-  assert (E : forall a b, RInt f a b = F b - F a)
-    by (intros; apply is_RInt_unique; apply (is_RInt_derive F f); intros; [ apply D | apply C ]);
-  assert (X : forall a b, ex_RInt f a b)
-    by (intros a b; exists (F b - F a); apply (is_RInt_derive F f); intros; [ apply D | apply C ]);
-  cbv beta in E; clear D C.
-Ltac integrand f g :=
-  let E := fresh in
-  assert (E : f = g)
-    by (apply FunctionalExtensionality.functional_extensionality; intro; cbv beta; integrals;
-        first [ reflexivity | rational | same_values; rational | trigonometric ]);
-  rewrite E; clear E.
+  assert (C : forall x : R, continuous g x) by (intro; apply (ex_derive_continuous g); differentiable);
+  let I := fresh in
+  assert (I : forall a b, is_RInt f a b (F b - F a))
+    by (try rewrite W; intros; apply (is_RInt_derive F g); intros; [ apply D | apply C ]);
+  cbv beta in I; clear D C W.
