@@ -333,7 +333,7 @@ Ltac near_smoothly :=
 
 (* Whether two derivatives are the same is asked of what is derived, not of the definition by filters: a hypothesis that
    does not fit is then passed over at once. *)
-#[global] Opaque ex_derive is_derive Derive RInt exp sin cos ln sqrt PI.
+#[global] Opaque ex_derive is_derive Derive RInt is_RInt ex_RInt exp sin cos ln sqrt PI.
 
 (* sin and cos at whole multiples of pi. *)
 Lemma sin_multiple : forall n, sin (INR n * PI) = 0.
