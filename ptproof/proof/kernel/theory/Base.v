@@ -745,6 +745,32 @@ Ltac right_limit :=
   | eapply right_opp; [ right_limit | reflexivity ] ].
 Ltac tends := unfold Rminus, Rdiv in *; eapply right_value; [ right_limit | first [ rational | rewrite ?Rmult_0_r, ?Rmult_0_l; rational ] ].
 
+(* sin and cos at whole multiples of pi. *)
+Lemma sin_multiple : forall n, sin (INR n * PI) = 0.
+Proof.
+  induction n as [|n IH]; [rewrite Rmult_0_l; exact sin_0|].
+  rewrite S_INR, Rmult_plus_distr_r, Rmult_1_l, neg_sin, IH. ring.
+Qed.
+Lemma cos_multiple : forall n, cos (INR n * PI) = (-1) ^ n.
+Proof.
+  induction n as [|n IH]; [rewrite Rmult_0_l; exact cos_0|].
+  rewrite S_INR, Rmult_plus_distr_r, Rmult_1_l, neg_cos, IH. simpl. ring.
+Qed.
+Ltac times_PI a n := replace a with (INR n * PI) by (cbn [INR]; field; sides).
+Ltac multiple_of_PI a :=
+  first [ times_PI a 0%nat | times_PI a 1%nat | times_PI a 2%nat | times_PI a 3%nat | times_PI a 4%nat | times_PI a 5%nat
+        | times_PI a 6%nat | times_PI a 8%nat | times_PI a 10%nat | times_PI a 12%nat ].
+Ltac at_multiples_of_PI :=
+  integrals; rewrite ?sin_0, ?cos_0;
+  repeat match goal with
+  | |- context [sin ?a] =>
+      let E := fresh in assert (E : sin a = 0) by (multiple_of_PI a; apply sin_multiple); rewrite E; clear E
+  | |- context [cos ?a] =>
+      let E := fresh in assert (E : cos a = 1) by (multiple_of_PI a; rewrite cos_multiple; cbn [pow]; ring); rewrite E; clear E
+  | |- context [cos ?a] =>
+      let E := fresh in assert (E : cos a = -1) by (multiple_of_PI a; rewrite cos_multiple; cbn [pow]; ring); rewrite E; clear E
+  end.
+
 (* sin and cos of a whole multiple of an angle, by those of the angle. *)
 Fixpoint turned_by (n : nat) (c s : R) : R * R :=
   match n with O => (1, 0) | S m => let p := turned_by m c s in (fst p * c - snd p * s, snd p * c + fst p * s) end.
@@ -781,7 +807,8 @@ Ltac integral f g F t :=
   let W := fresh in
   assert (W : f = g)
     by (apply FunctionalExtensionality.functional_extensionality; let x := fresh in intro x; cbv beta; integrals;
-        first [ reflexivity | rational | let u := eval cbv beta in (t x) in waves u | same_values; rational | trigonometric ]);
+        first [ reflexivity | rational | let u := eval cbv beta in (t x) in waves u | at_multiples_of_PI; rational
+              | same_values; rational | trigonometric ]);
   let D := fresh in let C := fresh in
   assert (D : forall x : R, is_derive F x (g x))
     by (intro; auto_derive; [ solve [derivative_sides] | cbv beta; first [ rational | same_values; rational | trigonometric ] ]);
