@@ -7,7 +7,6 @@ from collections.abc import Iterator
 import sympy as sp
 
 from ptproof.proof.kernel.hints.goals import Goal
-from ptproof.proof.kernel.hints.substitutions import substituted
 
 
 def by_equations(goal: Goal) -> Iterator[str]:
@@ -20,12 +19,18 @@ def by_equations(goal: Goal) -> Iterator[str]:
     yield from _by_roots(goal)
 
 
-def _gap(goal: Goal) -> sp.Expr:
-    return sp.together(goal.relation.left - goal.relation.right)
-
-
 def _vanishes(expression: sp.Expr) -> bool:
     return sp.expand(sp.fraction(sp.together(expression))[0]) == 0
+
+
+def _roots(goal: Goal) -> tuple[dict[sp.Expr, sp.Dummy], dict[sp.Basic, sp.Expr]]:
+    """A symbol for each root, by what it is of, and the powers by them.
+
+    As expressions roots would come to be written in another way than they stand in the claim.
+    """
+    powers = [part for part in goal.atoms(sp.Pow) if part.exp.is_Rational and part.exp.q == 2]
+    stands = {base: sp.Dummy() for base in dict.fromkeys(part.base for part in powers)}
+    return stands, {part: stands[part.base] ** part.exp.p for part in powers}
 
 
 def _exponentials(goal: Goal) -> Iterator[str]:
@@ -43,38 +48,34 @@ def _exponentials(goal: Goal) -> Iterator[str]:
 
 def _by_one(goal: Goal) -> Iterator[str]:
     """By one of the equations that are known, solved for a symbol."""
-    gap = _gap(goal)
+    _, there = _roots(goal)
+    gap = (goal.relation.left - goal.relation.right).xreplace(there)
     for item in goal.known:
         for symbol, value in ((item.left, item.right), (item.right, item.left)):
             if item.sign == "=" and symbol.is_Symbol and gap.has(symbol) and not value.has(symbol):
-                if _vanishes(gap.xreplace({symbol: value})):
+                if _vanishes(gap.xreplace({symbol: value.xreplace(there)})):
                     yield f"replace_by {goal.text(symbol)} {goal.text(value)}; rational"
 
 
 def _by_roots(goal: Goal) -> Iterator[str]:
     """The difference as multiples of what squares of roots are less what they are of."""
-    lines, simpler = substituted(goal)
-    rest, parts = _gap(simpler), list[str]()
-    roots = sorted((part for part in rest.atoms(sp.Pow) if part.exp.is_Rational and part.exp.q == 2),
-                   key=sp.default_sort_key)  # fmt: skip
-    bases = list(dict.fromkeys(root.base for root in roots))
-    stands = {base: sp.Dummy() for base in bases}
-    rest = rest.replace(
-        lambda part: part.is_Pow and part.base in stands and part.exp.is_Rational and part.exp.q == 2,
-        lambda part: stands[part.base] ** part.exp.p,
-    )
-    top, bottom = sp.fraction(rest)
-    if not bases or bottom.has(*stands.values()):
+    stands, there = _roots(goal)
+    back = {symbol: sp.sqrt(base) for base, symbol in stands.items()}
+    gap, lines = (goal.relation.left - goal.relation.right).xreplace(there), list[str]()
+    for item in goal.known:
+        symbol, value = item.left, item.right
+        if item.sign == "=" and symbol.is_Symbol and gap.has(symbol) and not value.has(symbol):
+            lines.append(f"replace_by {goal.text(symbol)} {goal.text(value)}")
+            gap = gap.xreplace({symbol: value.xreplace(there)})
+    top, bottom = sp.fraction(sp.together(gap))
+    if not stands or bottom.has(*back):
         return
-    back = {stands[base]: sp.sqrt(base) for base in bases}
-    for base in bases:
-        symbol = stands[base]
+    parts, squared = list[str](), list[str]()
+    for base, symbol in stands.items():
         quotient, top = sp.div(sp.expand(top), symbol**2 - base, symbol)
         if quotient != 0:
-            factor = simpler.text(sp.cancel(quotient / bottom).xreplace(back))
-            text, below = simpler.text(sp.sqrt(base)), simpler.text(base)
+            factor, text, below = map(goal.text, (sp.cancel(quotient / bottom).xreplace(back), sp.sqrt(base), base))
             parts.append(f"{factor} * ({text} * {text} - {below})")
-    if not parts or not _vanishes(top):
-        return
-    squared = [f"squared_root {simpler.text(base)}" for base in bases]
-    yield "; ".join([*lines, f"zero_as ({' + '.join(parts)})", *(f"try ({line})" for line in squared), "is_zero"])
+            squared.append(f"squared_root {below}")
+    if parts and _vanishes(top):
+        yield "; ".join([*lines, f"zero_as ({' + '.join(parts)})", *squared, "is_zero"])
