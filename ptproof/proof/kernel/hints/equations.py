@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import sympy as sp
 
 from ptproof.proof.kernel.hints.goals import Goal
+from ptproof.proof.kernel.terms import term
 
 
 def by_equations(goal: Goal) -> Iterator[str]:
@@ -60,7 +61,7 @@ def _by_one(goal: Goal) -> Iterator[str]:
 def _by_roots(goal: Goal) -> Iterator[str]:
     """The difference as multiples of what squares of roots are less what they are of."""
     stands, there = _roots(goal)
-    back = {symbol: sp.sqrt(base) for base, symbol in stands.items()}
+    names = {**goal.names, **{symbol: goal.text(sp.sqrt(base)) for base, symbol in stands.items()}}
     gap, lines = (goal.relation.left - goal.relation.right).xreplace(there), list[str]()
     for item in goal.known:
         symbol, value = item.left, item.right
@@ -68,14 +69,14 @@ def _by_roots(goal: Goal) -> Iterator[str]:
             lines.append(f"replace_by {goal.text(symbol)} {goal.text(value)}")
             gap = gap.xreplace({symbol: value.xreplace(there)})
     top, bottom = sp.fraction(sp.together(gap))
-    if not stands or bottom.has(*back):
+    if not stands or bottom.has(*stands.values()):
         return
     parts, squared = list[str](), list[str]()
     for base, symbol in stands.items():
         quotient, top = sp.div(sp.expand(top), symbol**2 - base, symbol)
         if quotient != 0:
-            factor, text, below = map(goal.text, (sp.cancel(quotient / bottom).xreplace(back), sp.sqrt(base), base))
-            parts.append(f"{factor} * ({text} * {text} - {below})")
+            text, below = names[symbol], goal.text(base)
+            parts.append(f"{term(sp.cancel(quotient / bottom), names)} * ({text} * {text} - {below})")
             squared.append(f"squared_root {below}")
     if parts and _vanishes(top):
         yield "; ".join([*lines, f"zero_as ({' + '.join(parts)})", *squared, "is_zero"])

@@ -44,7 +44,7 @@ def _line(integral: sp.Integral, bound: set[sp.Symbol], names: Names) -> str:
         raise NoTranslation("no antiderivative")
     base = _base(sp.Tuple(carried, plain), variable)
     given, found, primitive, angle = (
-        f"(fun {names[variable]} => {term(item, names)})" for item in (function, plain, antiderivative, base)
+        f"(fun {names[variable]} : R => {term(item, names)})" for item in (function, plain, antiderivative, base)
     )
     tactic = f"integral {given} {found} {primitive} {angle}"
     outer = [names[symbol] for symbol in sorted(bound & function.free_symbols - {variable}, key=str)]
