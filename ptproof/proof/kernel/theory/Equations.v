@@ -35,13 +35,18 @@ Lemma exp_above : forall x, 1 + x <= exp x.
 Proof. intro x. destruct (Req_dec x 0) as [E | E]; [subst; rewrite exp_0; lra | left; apply exp_ineq1; exact E]. Qed.
 Lemma exp_halves : forall x, exp x = exp (x / 2) * exp (x / 2).
 Proof. intro x. rewrite <- exp_plus. f_equal. field. Qed.
+Lemma exp_above_twice : forall x, 0 <= x -> 2 * x <= exp x.
+Proof.
+  intros x P. pose proof (exp_above (x - 1)). pose proof (exp_above 1).
+  replace x with ((x - 1) + 1) at 2 by ring. rewrite exp_plus. nra.
+Qed.
 Ltac about_exp :=
   repeat match goal with
-  | |- context [exp ?x] =>
-      lazymatch goal with _ : 1 + x <= exp x |- _ => fail | _ =>
-        pose proof (exp_above x); pose proof (exp_pos x); pose proof (exp_above (x / 2)); pose proof (exp_halves x) end
+  | |- context [exp ?x] => note (1 + x <= exp x) ltac:(apply exp_above); pose proof (exp_pos x)
   end.
-Ltac by_exponentials := about_exp; cases; first [ lra | timeout 4 nra ].
+Ltac about_exp_here :=
+  repeat match goal with |- context [exp ?x] => note (2 * x <= exp x) ltac:(apply exp_above_twice; lra) end.
+Ltac by_exponentials := about_exp; cases; first [ lra | about_exp_here; lra | timeout 4 nra ].
 
 (* Both sides by their parts, each of which grows. *)
 Lemma exp_le_exp : forall x y, x <= y -> exp x <= exp y.
