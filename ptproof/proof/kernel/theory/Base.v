@@ -787,17 +787,20 @@ Lemma cos_of_multiple : forall n t a, a = INR n * t -> cos a = fst (turned_by n 
 Proof. intros n t a E. rewrite E, turned_by_angle. reflexivity. Qed.
 Lemma sin_of_multiple : forall n t a, a = INR n * t -> sin a = snd (turned_by n (cos t) (sin t)).
 Proof. intros n t a E. rewrite E, turned_by_angle. reflexivity. Qed.
-Ltac as_multiple_angle a t L n :=
-  let E := fresh in pose proof (L n t a ltac:(cbn [INR]; field; sides)) as E; cbn [turned_by fst snd] in E; rewrite E; clear E.
+Ltac as_multiple_angle a t L n way :=
+  let E := fresh in pose proof (L n t a ltac:(cbn [INR]; way)) as E; cbn [turned_by fst snd] in E; rewrite E; clear E.
 Ltac multiple_angle a t L :=
-  first [ as_multiple_angle a t L 0%nat | as_multiple_angle a t L 2%nat | as_multiple_angle a t L 3%nat
-        | as_multiple_angle a t L 4%nat | as_multiple_angle a t L 5%nat | as_multiple_angle a t L 6%nat ].
-(* Two polynomials in waves of multiples of t: sin^2 is 1 - cos^2, all else are numbers. *)
-Ltac waves t :=
-  as_reals;
+  let by_way way :=
+    first [ as_multiple_angle a t L 2%nat way | as_multiple_angle a t L 3%nat way | as_multiple_angle a t L 4%nat way
+          | as_multiple_angle a t L 5%nat way | as_multiple_angle a t L 6%nat way ] in
+  first [ by_way ltac:(ring) | by_way ltac:(field; sides) ].
+Ltac angle_of x a t := assert_fails (constr_eq a t); lazymatch a with context [x] => idtac end.
+(* Two polynomials in waves of multiples of t, which has the variable x: sin^2 is 1 - cos^2, all else are numbers. *)
+Ltac waves x t :=
+  as_reals; rewrite ?Rmult_0_r, ?sin_0, ?cos_0;
   repeat match goal with
-  | |- context [cos ?a] => assert_fails (constr_eq a t); multiple_angle a t cos_of_multiple
-  | |- context [sin ?a] => assert_fails (constr_eq a t); multiple_angle a t sin_of_multiple
+  | |- context [cos ?a] => angle_of x a t; multiple_angle a t cos_of_multiple
+  | |- context [sin ?a] => angle_of x a t; multiple_angle a t sin_of_multiple
   end;
   let P := fresh in
   assert (P : sin t ^ 2 = 1 - cos t ^ 2) by (pose proof (sin2_cos2 t) as P; unfold Rsqr in P; lra);
@@ -810,7 +813,7 @@ Ltac integral f g F t :=
   let W := fresh in
   assert (W : f = g)
     by (apply FunctionalExtensionality.functional_extensionality; let x := fresh in intro x; cbv beta; integrals;
-        first [ reflexivity | rational | let u := eval cbv beta in (t x) in waves u | at_multiples_of_PI; rational
+        first [ reflexivity | rational | let u := eval cbv beta in (t x) in waves x u | at_multiples_of_PI; rational
               | same_values; rational | trigonometric ]);
   let D := fresh in let C := fresh in
   assert (D : forall x : R, is_derive F x (g x))
