@@ -61,7 +61,10 @@ Ltac parts_grow :=
   | |- ?a ^ ?n <= ?b ^ ?n => first [ apply pow_incr; split; [ part_sign | parts_grow ] | leaf_of_parts ]
   | |- ?a - ?c <= ?b - ?c => apply Rplus_le_compat_r; parts_grow
   | |- ?a + ?b <= ?c + ?d => first [ apply Rplus_le_compat; parts_grow | leaf_of_parts ]
-  | |- ?a * ?b <= ?c * ?d => first [ apply Rmult_le_compat; [ part_sign | part_sign | parts_grow | parts_grow ] | leaf_of_parts ]
+  | |- ?a * ?b <= ?c * ?d =>
+      first [ apply Rmult_le_compat; [ part_sign | part_sign | parts_grow | parts_grow ]
+            | rewrite (Rmult_comm c d); apply Rmult_le_compat; [ part_sign | part_sign | parts_grow | parts_grow ]
+            | leaf_of_parts ]
   | |- _ <= _ => leaf_of_parts
   end.
 Ltac parts_grow_strictly :=
