@@ -64,6 +64,7 @@ TRUE += [
     stated("along", eq(ALONG, (2 * a - 2 - 2 / a) * x * y / FORM + (y**2 - x**2) / FORM)),
     stated("squares-of-both", le(c + sp.Abs(x), 2 * d), given=NORM),
     stated("exponential", ge(sp.exp(x) - x - 1, sp.Abs(x) - 1)),
+    stated("logarithm", eq(sp.Limit(sp.log(1 + a * w), w, sp.oo), sp.oo)),
     stated("parts", le(*SUM)),
     stated("parts-strictly", lt(*GROWN), given=[lt(c, d)]),
 ]
@@ -74,6 +75,7 @@ NOT_CONFIRMED += [
     stated("along-false", eq(ALONG, (2 * a - 2 / a) * x * y / FORM + (y**2 - x**2) / FORM)),
     stated("squares-of-both-false", le(c + sp.Abs(x), d), given=NORM),
     stated("exponential-false", ge(sp.exp(x) - 2 * x - 1, sp.Abs(x) - 1)),
+    stated("logarithm-false", eq(sp.Limit(sp.log(1 + a / w), w, sp.oo), sp.oo)),
     stated("parts-false", le(*reversed(SUM))),
     stated("parts-strictly-false", lt(*GROWN), given=[le(c, d)]),
 ]

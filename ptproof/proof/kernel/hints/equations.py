@@ -36,8 +36,10 @@ def _roots(goal: Goal) -> tuple[dict[sp.Expr, sp.Dummy], dict[sp.Basic, sp.Expr]
 
 def _exponentials(goal: Goal) -> Iterator[str]:
     """Every exponential as a whole power of one of them."""
-    found = sorted({part for part in goal.relation.left.atoms(sp.exp) | goal.relation.right.atoms(sp.exp)},
-                   key=lambda part: (part.args[0].could_extract_minus_sign(), sp.default_sort_key(part)))  # fmt: skip
+    found = sorted(
+        goal.relation.left.atoms(sp.exp) | goal.relation.right.atoms(sp.exp),
+        key=lambda part: (part.args[0].could_extract_minus_sign(), sp.default_sort_key(part)),
+    )
     for small in found:
         times = {large: sp.cancel(large.args[0] / small.args[0]) for large in found if large != small}
         if times and all(number.is_Integer for number in times.values()):
@@ -53,9 +55,9 @@ def _by_one(goal: Goal) -> Iterator[str]:
     gap = (goal.relation.left - goal.relation.right).xreplace(there)
     for item in goal.known:
         for symbol, value in ((item.left, item.right), (item.right, item.left)):
-            if item.sign == "=" and symbol.is_Symbol and gap.has(symbol) and not value.has(symbol):
-                if _vanishes(gap.xreplace({symbol: value.xreplace(there)})):
-                    yield f"replace_by {goal.text(symbol)} {goal.text(value)}; rational"
+            solved = item.sign == "=" and symbol.is_Symbol and gap.has(symbol) and not value.has(symbol)
+            if solved and _vanishes(gap.xreplace({symbol: value.xreplace(there)})):
+                yield f"replace_by {goal.text(symbol)} {goal.text(value)}; rational"
 
 
 def _by_roots(goal: Goal) -> Iterator[str]:

@@ -79,4 +79,6 @@ def _base(expression: sp.Basic, variable: sp.Symbol) -> sp.Basic:
     ratios = [sp.cancel(angle / angles[0]) for angle in angles]
     if not angles or not all(ratio.is_Rational for ratio in ratios):
         return variable
-    return angles[0] * sp.Rational(sp.igcd(0, *(ratio.p for ratio in ratios)), sp.ilcm(1, *(ratio.q for ratio in ratios)))
+    return angles[0] * sp.Rational(
+        sp.igcd(0, *(ratio.p for ratio in ratios)), sp.ilcm(1, *(ratio.q for ratio in ratios))
+    )

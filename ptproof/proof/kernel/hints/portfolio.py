@@ -71,6 +71,8 @@ def _near(part: Part, said: Proposition, thorough: bool) -> str:
     tries = ["near_by_sign"] if thorough else []
     with contextlib.suppress(NoTranslation, sp.PolynomialError):
         tries.append(near(part, list(said.conclusions), said.names))
+    if part.limit and part.limit.args[2] is sp.oo and (part.domain or part.limit.args[0].has(sp.log)):
+        tries.append("far_away")
     return _tried(*tries)
 
 

@@ -39,4 +39,6 @@ def _collected(expression: sp.Expr, variables: list[sp.Symbol]) -> list[sp.Expr]
     """The terms by the powers of the variables."""
     above, below = sp.fraction(sp.together(expression))
     form = sp.Poly(above, *variables)
-    return [sp.prod(v**n for v, n in zip(variables, powers, strict=True)) * value / below for powers, value in form.terms()]
+    return [
+        sp.prod(v**n for v, n in zip(variables, powers, strict=True)) * value / below for powers, value in form.terms()
+    ]

@@ -78,3 +78,25 @@ Ltac parts_grow_strictly :=
   | |- _ ^ 2 < _ ^ 2 => nra
   | |- _ < _ => lra
   end.
+
+(* What grows without bound with its variable. *)
+Lemma shifted_grows : forall (F : (R -> Prop) -> Prop) (f : R -> R) c, Filter F ->
+  filterlim f F (Rbar_locally p_infty) -> filterlim (fun s => f s + c) F (Rbar_locally p_infty).
+Proof.
+  intros F f c FF L. apply (filterlim_comp _ _ _ f (fun y => y + c) F (Rbar_locally p_infty)); [exact L|].
+  intros Q [M HM]. exists (M - c). intros y Y. apply HM. lra.
+Qed.
+Ltac without_bound :=
+  cbv beta;
+  lazymatch goal with
+  | |- filterlim (fun s => s) _ _ => apply filterlim_id
+  | |- filterlim (fun s => ln (@?f s)) _ _ => apply (filterlim_comp _ _ _ f ln _ (Rbar_locally p_infty)); [ without_bound | exact is_lim_ln_p ]
+  | |- filterlim (fun s => @?f s + ?c) _ _ => apply shifted_grows; [ typeclasses eauto | without_bound ]
+  | |- filterlim (Rmult ?c) _ _ => apply (multiple_grows _ (fun s => s)); [ typeclasses eauto | sign | apply filterlim_id ]
+  | |- filterlim (fun s => ?c * @?f s) _ _ => apply multiple_grows; [ typeclasses eauto | sign | without_bound ]
+  end.
+Ltac far_away :=
+  lazymatch goal with
+  | |- Rbar_locally p_infty _ => exists 0; intros ? ?; cbv beta; sign
+  | |- filterlim _ (Rbar_locally p_infty) (Rbar_locally p_infty) => without_bound
+  end.
