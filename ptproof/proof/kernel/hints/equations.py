@@ -12,7 +12,7 @@ from ptproof.proof.kernel.terms import term
 
 def by_equations(goal: Goal) -> Iterator[str]:
     """Tactics for an equation, each for the whole goal."""
-    if goal.relation.has(sp.pi) and goal.relation.has(sp.sin, sp.cos):
+    if goal.relation.has(sp.pi) and goal.relation.has(sp.sin, sp.cos) and _vanishes(_without_periods(goal)):
         yield "whole_periods; rational"
     if lines := list(_exponentials(goal)):
         yield "; ".join([*lines, "rational"])
@@ -22,6 +22,12 @@ def by_equations(goal: Goal) -> Iterator[str]:
 
 def _vanishes(expression: sp.Expr) -> bool:
     return sp.expand(sp.fraction(sp.together(expression))[0]) == 0
+
+
+def _without_periods(goal: Goal) -> sp.Expr:
+    """The difference of the sides, whose waves SymPy takes whole periods from once their arguments are sums."""
+    gap = goal.relation.left - goal.relation.right
+    return gap.replace(lambda part: isinstance(part, sp.sin | sp.cos), lambda part: part.func(sp.expand(part.args[0])))
 
 
 def _roots(goal: Goal) -> tuple[dict[sp.Expr, sp.Dummy], dict[sp.Basic, sp.Expr]]:
@@ -42,11 +48,15 @@ def _exponentials(goal: Goal) -> Iterator[str]:
     )
     for small in found:
         times = {large: sp.cancel(large.args[0] / small.args[0]) for large in found if large != small}
-        if times and all(number.is_Integer for number in times.values()):
+        if not times or not all(number.is_Integer for number in times.values()):
+            continue
+        base = sp.Dummy(positive=True)
+        gap = goal.relation.left - goal.relation.right
+        if _vanishes(gap.xreplace({small: base, **{large: base**number for large, number in times.items()}})):
             for large, number in times.items():
                 power = f"({goal.text(small)} ^ {abs(number)})"
                 yield f"power_as {goal.text(large)} {power if number > 0 else f'(/ {power})'}"
-            return
+        return
 
 
 def _by_one(goal: Goal) -> Iterator[str]:

@@ -107,17 +107,18 @@ def _leaf(part: Part, known: list[Relation], more: list[Derived], said: Proposit
 
 
 def _by_growth_of_parts(relation: Relation, known: list[Relation]) -> Iterator[str]:
-    """By the squares of both sides, by what exponentials are above, and by parts that grow."""
-    if relation.sign == "!=" or not relation.has(sp.exp, sp.Abs):
+    """By the squares of both sides, by what exponentials are above, and by parts that grow; of polynomials in these."""
+    powers = sp.Tuple(relation.left, relation.right).atoms(sp.Pow)
+    others = [part for part in sp.Tuple(relation.left, relation.right).atoms(sp.Function)
+              if not isinstance(part, sp.exp | sp.Abs)]  # fmt: skip
+    if relation.sign == "!=" or others or any(not power.exp.is_Integer or power.exp < 0 for power in powers):
         return
-    if relation.sign in ("<=", ">="):
-        if relation.has(sp.exp):
-            yield "by_exponentials"
-            yield "parts_grow"
-        else:
-            yield "by_squares"
+    if relation.has(sp.exp) and relation.sign in ("<=", ">="):
+        yield from ("by_exponentials", "parts_grow")
     elif relation.has(sp.exp):
         yield "; ".join([*("subst" for item in known[:1] if item.sign == "="), "parts_grow_strictly"])
+    elif relation.has(sp.Abs) and relation.sign in ("<=", ">="):
+        yield "by_squares"
 
 
 def _witnessed(part: Part, known: list[Relation], said: Proposition) -> str:
