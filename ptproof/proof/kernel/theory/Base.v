@@ -794,11 +794,15 @@ Ltac multiple_angle a t L :=
     first [ as_multiple_angle a t L 1%nat way | as_multiple_angle a t L 2%nat way | as_multiple_angle a t L 3%nat way
           | as_multiple_angle a t L 4%nat way | as_multiple_angle a t L 5%nat way | as_multiple_angle a t L 6%nat way ] in
   first [ by_way ltac:(ring) | by_way ltac:(field; sides) ].
+Ltac no_angle a :=
+  lazymatch a with context [0] => let E := fresh in assert (E : a = 0) by (unfold Rdiv; ring); rewrite E; clear E end.
 Ltac angle_of x a t := assert_fails (constr_eq a t); lazymatch a with context [x] => idtac end.
 (* Two polynomials in waves of multiples of t, which has the variable x: sin^2 is 1 - cos^2, all else are numbers. *)
 Ltac waves x t :=
-  as_reals; rewrite ?Rmult_0_r, ?Rmult_0_l, ?sin_0, ?cos_0;
+  as_reals;
   repeat match goal with
+  | |- context [cos ?a] => no_angle a; rewrite cos_0
+  | |- context [sin ?a] => no_angle a; rewrite sin_0
   | |- context [cos ?a] => angle_of x a t; multiple_angle a t cos_of_multiple
   | |- context [sin ?a] => angle_of x a t; multiple_angle a t sin_of_multiple
   end;
