@@ -17,12 +17,14 @@ from ptproof.proof.kernel.declared import of_symbol
 from ptproof.proof.kernel.hints.atoms import Atoms
 from ptproof.proof.kernel.hints.certificates import certificate
 from ptproof.proof.kernel.hints.derived import Derived, derived
+from ptproof.proof.kernel.hints.equations import by_equations
 from ptproof.proof.kernel.hints.goals import Goal, upright
 from ptproof.proof.kernel.hints.integrals import integrals
 from ptproof.proof.kernel.hints.limits import near
 from ptproof.proof.kernel.hints.norms import norms
 from ptproof.proof.kernel.hints.products import products
 from ptproof.proof.kernel.hints.search import by_steps
+from ptproof.proof.kernel.hints.squares import sum_of_squares
 from ptproof.proof.kernel.hints.witnesses import witnesses
 from ptproof.proof.kernel.names import fresh
 from ptproof.proof.kernel.obligations import Part
@@ -46,10 +48,15 @@ def script(said: Proposition, *, thorough: bool = False) -> str:
              for part, leaf in zip(said.conclusions, leaves, strict=True) if part.relation is not None]  # fmt: skip
     leaves = [smoothness(part, shown) or leaf for part, leaf in zip(said.conclusions, leaves, strict=True)]
     # Coq would rename a variable that is called like a constant of its own.
+    # What the others need: a sum that is not 0.
+    early = [line for part, line in zip((p for p in said.conclusions if p.relation is not None), shown, strict=True)
+             if part.limit is None and part.relation and part.relation.sign == "!=" and part.relation.left.is_Add
+             and not part.relation.left.is_positive]  # fmt: skip
     steps = [
         *([f"intros {' '.join(said.binders)}"] if said.binders else []),
         "intros",
         "facts",
+        *early,
         *integrals([part.relation for part in said.conclusions if part.relation], said.names),
     ]
     return f"{'; '.join(steps)}; pieces; [> {' | '.join(leaves)} ]"
@@ -64,6 +71,8 @@ def _near(part: Part, said: Proposition, thorough: bool) -> str:
     tries = ["near_by_sign"] if thorough else []
     with contextlib.suppress(NoTranslation, sp.PolynomialError):
         tries.append(near(part, list(said.conclusions), said.names))
+    if part.limit and part.limit.args[2] is sp.oo and (part.domain or part.limit.args[0].has(sp.log)):
+        tries.append("far_away")
     return _tried(*tries)
 
 
@@ -93,7 +102,23 @@ def _leaf(part: Part, known: list[Relation], more: list[Derived], said: Proposit
     powers = sp.Tuple(part.relation.left, part.relation.right).atoms(sp.Pow)
     if part.relation.sign != "!=" and any(not power.exp.is_number for power in powers):
         tries.append("by_growth")
+    tries += _by_growth_of_parts(part.relation, known)
     return f"quickly; {_tried(*tries)}"
+
+
+def _by_growth_of_parts(relation: Relation, known: list[Relation]) -> Iterator[str]:
+    """By the squares of both sides, by what exponentials are above, and by parts that grow; of polynomials in these."""
+    powers = sp.Tuple(relation.left, relation.right).atoms(sp.Pow)
+    others = [part for part in sp.Tuple(relation.left, relation.right).atoms(sp.Function)
+              if not isinstance(part, sp.exp | sp.Abs)]  # fmt: skip
+    if relation.sign == "!=" or others or any(not power.exp.is_Integer or power.exp < 0 for power in powers):
+        return
+    if relation.has(sp.exp) and relation.sign in ("<=", ">="):
+        yield from ("by_exponentials", "parts_grow")
+    elif relation.has(sp.exp):
+        yield "; ".join([*("subst" for item in known[:1] if item.sign == "="), "parts_grow_strictly"])
+    elif relation.has(sp.Abs) and relation.sign in ("<=", ">="):
+        yield "by_squares"
 
 
 def _witnessed(part: Part, known: list[Relation], said: Proposition) -> str:
@@ -123,8 +148,6 @@ def _by_steps(goal: Goal, said: Proposition) -> Iterator[str]:
 def _equal(goal: Goal, said: Proposition, thorough: bool) -> str:
     """Powers of one base by each other, and angles at the ends of integrals, before anything else is tried."""
     relation = goal.relation
-    if relation.has(sp.Integral) and relation.has(sp.sin, sp.cos):
-        return _tried("at_multiples_of_PI; rational")
     atoms = Atoms.over(said.names)
     atoms.choose((relation.left, relation.right))
     try:
@@ -132,7 +155,11 @@ def _equal(goal: Goal, said: Proposition, thorough: bool) -> str:
     except NoTranslation:
         return _tried()
     powers = [line for line in atoms.lines if "power_as" in line]
+    if relation.has(sp.Integral) and relation.has(sp.sin, sp.cos):
+        return _tried("; ".join([*powers, "at_multiples_of_PI", "rational"]))
     quick = ["; ".join([*powers, "rational"])] if powers else []
+    with contextlib.suppress(NoTranslation, sp.PolynomialError):
+        quick += by_equations(goal)
     return _tried(*quick, *(_by_steps(goal, said) if thorough else ()))
 
 
@@ -151,9 +178,9 @@ def _directly(goal: Goal) -> Iterator[str]:
     moved, lines = slack(facts, atoms)
     gap = sp.factor(sp.together((wanted.right - wanted.left).xreplace(moved)))
     if relation.sign == "!=":
-        last = f"nonzero_as {term(-gap, atoms.names)}"
+        last = f"nonzero_as {term(sum_of_squares(-gap) or -gap, atoms.names)}"
     else:
-        last = f"difference_as {term(upright(gap), atoms.names)}"
+        last = f"difference_as {term(sum_of_squares(gap) or upright(gap), atoms.names)}"
     yield "; ".join([*atoms.lines, *lines, last])
     if relation.sign == "!=" or gap.is_positive or (gap.is_nonnegative and relation.sign in ("<=", ">=")):
         return

@@ -457,7 +457,14 @@ Ltac leaf :=
   cbv beta;
   lazymatch goal with
   | |- True => exact I
-  | |- ex_RInt _ _ _ => match goal with H : forall a b, ex_RInt _ a b |- _ => apply H end
+  | |- ex_RInt _ _ _ =>
+      eexists;
+      match goal with
+      | I : forall a b, is_RInt _ a b _ |- _ => apply I
+      | I : forall _ a b, is_RInt _ a b _ |- _ => apply I
+      | I : forall _ _ a b, is_RInt _ a b _ |- _ => apply I
+      | I : forall _ _ _ a b, is_RInt _ a b _ |- _ => apply I
+      end
   | |- ex_derive _ _ => first [ solve [derivative_sides] | differentiable ]
   | |- locally _ _ => near
   | |- _ \/ (_ = 0 /\ _) => first [ left; solve [sign] | apply rpow_defined; sign ]
@@ -468,8 +475,17 @@ Ltac leaf :=
   | |- _ => first [ inequality | solve [derivatives; inequality] ]
   end.
 
-Ltac integrals := repeat match goal with E : forall a b, RInt ?f a b = _ |- context [RInt ?f _ _] => rewrite E end.
-Ltac leaf_or_say := integrals; first [ leaf | lazymatch goal with |- ?g => fail 1 "at" g end ].
+(* Integrals that are known, also for all values of outer variables. *)
+Ltac integrals := repeat match goal with
+  | I : forall a b, is_RInt _ a b _ |- context [RInt _ _ _] => rewrite (is_RInt_unique _ _ _ _ (I _ _))
+  | I : forall _ a b, is_RInt _ a b _ |- context [RInt _ _ _] => rewrite (is_RInt_unique _ _ _ _ (I _ _ _))
+  | I : forall _ _ a b, is_RInt _ a b _ |- context [RInt _ _ _] => rewrite (is_RInt_unique _ _ _ _ (I _ _ _ _))
+  | I : forall _ _ _ a b, is_RInt _ a b _ |- context [RInt _ _ _] => rewrite (is_RInt_unique _ _ _ _ (I _ _ _ _ _))
+  end.
+(* That an integral exists is known as it stands; what it is, is not put in there. *)
+Ltac leaf_or_say :=
+  lazymatch goal with |- context [ex_RInt] => idtac | |- _ => integrals end;
+  first [ leaf | lazymatch goal with |- ?g => fail 1 "at" g end ].
 
 (* A variable replaced: by what it is equal to, or by a bound and what is above the bound. *)
 Ltac from_bound :=
@@ -732,21 +748,82 @@ Ltac right_limit :=
   | eapply right_opp; [ right_limit | reflexivity ] ].
 Ltac tends := unfold Rminus, Rdiv in *; eapply right_value; [ right_limit | first [ rational | rewrite ?Rmult_0_r, ?Rmult_0_l; rational ] ].
 
-(* Integrals by an antiderivative F of f, which is differentiated here. *)
-Ltac integral f F :=
+(* sin and cos at whole multiples of pi. *)
+Lemma sin_multiple : forall n, sin (INR n * PI) = 0.
+Proof.
+  induction n as [|n IH]; [rewrite Rmult_0_l; exact sin_0|].
+  rewrite S_INR, Rmult_plus_distr_r, Rmult_1_l, neg_sin, IH. ring.
+Qed.
+Lemma cos_multiple : forall n, cos (INR n * PI) = (-1) ^ n.
+Proof.
+  induction n as [|n IH]; [rewrite Rmult_0_l; exact cos_0|].
+  rewrite S_INR, Rmult_plus_distr_r, Rmult_1_l, neg_cos, IH. simpl. ring.
+Qed.
+Ltac times_PI a n := replace a with (INR n * PI) by (cbn [INR]; field; sides).
+Ltac multiple_of_PI a :=
+  first [ times_PI a 0%nat | times_PI a 1%nat | times_PI a 2%nat | times_PI a 3%nat | times_PI a 4%nat | times_PI a 5%nat
+        | times_PI a 6%nat | times_PI a 8%nat | times_PI a 10%nat | times_PI a 12%nat ].
+Ltac at_multiples_of_PI :=
+  integrals; rewrite ?sin_0, ?cos_0;
+  repeat match goal with
+  | |- context [sin ?a] =>
+      let E := fresh in assert (E : sin a = 0) by (multiple_of_PI a; apply sin_multiple); rewrite E; clear E
+  | |- context [cos ?a] =>
+      let E := fresh in assert (E : cos a = 1) by (multiple_of_PI a; rewrite cos_multiple; cbn [pow]; ring); rewrite E; clear E
+  | |- context [cos ?a] =>
+      let E := fresh in assert (E : cos a = -1) by (multiple_of_PI a; rewrite cos_multiple; cbn [pow]; ring); rewrite E; clear E
+  end.
+
+(* sin and cos of a whole multiple of an angle, by those of the angle. *)
+Fixpoint turned_by (n : nat) (c s : R) : R * R :=
+  match n with O => (1, 0) | S m => let p := turned_by m c s in (fst p * c - snd p * s, snd p * c + fst p * s) end.
+Lemma turned_by_angle : forall n t, turned_by n (cos t) (sin t) = (cos (INR n * t), sin (INR n * t)).
+Proof.
+  induction n as [|n IH]; intro t.
+  - cbn [turned_by INR]. rewrite Rmult_0_l, cos_0, sin_0. reflexivity.
+  - cbn [turned_by]. rewrite IH, S_INR, Rmult_plus_distr_r, Rmult_1_l, cos_plus, sin_plus. reflexivity.
+Qed.
+Lemma cos_of_multiple : forall n t a, a = INR n * t -> cos a = fst (turned_by n (cos t) (sin t)).
+Proof. intros n t a E. rewrite E, turned_by_angle. reflexivity. Qed.
+Lemma sin_of_multiple : forall n t a, a = INR n * t -> sin a = snd (turned_by n (cos t) (sin t)).
+Proof. intros n t a E. rewrite E, turned_by_angle. reflexivity. Qed.
+Ltac as_multiple_angle a t L n way :=
+  let E := fresh in pose proof (L n t a ltac:(cbn [INR]; way)) as E; cbn [turned_by fst snd] in E; rewrite E; clear E.
+Ltac multiple_angle a t L :=
+  let by_way way :=
+    first [ as_multiple_angle a t L 1%nat way | as_multiple_angle a t L 2%nat way | as_multiple_angle a t L 3%nat way
+          | as_multiple_angle a t L 4%nat way | as_multiple_angle a t L 5%nat way | as_multiple_angle a t L 6%nat way ] in
+  first [ by_way ltac:(ring) | by_way ltac:(field; sides) ].
+Ltac no_angle a :=
+  lazymatch a with context [0] => let E := fresh in assert (E : a = 0) by (unfold Rdiv; ring); rewrite E; clear E end.
+Ltac angle_of x a t := assert_fails (constr_eq a t); lazymatch a with context [x] => idtac end.
+(* Two polynomials in waves of multiples of t, which has the variable x: sin^2 is 1 - cos^2, all else are numbers. *)
+Ltac waves x t :=
+  as_reals;
+  repeat match goal with
+  | |- context [cos ?a] => no_angle a; rewrite cos_0
+  | |- context [sin ?a] => no_angle a; rewrite sin_0
+  | |- context [cos ?a] => angle_of x a t; multiple_angle a t cos_of_multiple
+  | |- context [sin ?a] => angle_of x a t; multiple_angle a t sin_of_multiple
+  end;
+  let P := fresh in
+  assert (P : sin t ^ 2 = 1 - cos t ^ 2) by (pose proof (sin2_cos2 t) as P; unfold Rsqr in P; lra);
+  revert P; generalize (sin t) (cos t); intros ? ? P;
+  first [ ring [P] | field [P]; sides ].
+
+(* Integrals by an antiderivative F of what the function f is equal to, which is differentiated here. The function's
+   waves are those of multiples of the angle t. *)
+Ltac integral f g F t :=
+  let W := fresh in
+  assert (W : f = g)
+    by (apply FunctionalExtensionality.functional_extensionality; let x := fresh in intro x; cbv beta; integrals;
+        first [ reflexivity | rational | let u := eval cbv beta in (t x) in waves x u | at_multiples_of_PI; rational
+              | same_values; rational | trigonometric ]);
   let D := fresh in let C := fresh in
-  assert (D : forall x : R, is_derive F x (f x))
+  assert (D : forall x : R, is_derive F x (g x))
     by (intro; auto_derive; [ solve [derivative_sides] | cbv beta; first [ rational | same_values; rational | trigonometric ] ]);
-  assert (C : forall x : R, continuous f x) by (intro; apply (ex_derive_continuous f); differentiable);
-  let E := fresh in let X := fresh in
-  assert (E : forall a b, RInt f a b = F b - F a)
-    by (intros; apply is_RInt_unique; apply (is_RInt_derive F f); intros; [ apply D | apply C ]);
-  assert (X : forall a b, ex_RInt f a b)
-    by (intros a b; exists (F b - F a); apply (is_RInt_derive F f); intros; [ apply D | apply C ]);
-  cbv beta in E; clear D C.
-Ltac integrand f g :=
-  let E := fresh in
-  assert (E : f = g)
-    by (apply FunctionalExtensionality.functional_extensionality; intro; cbv beta; integrals;
-        first [ reflexivity | rational | same_values; rational | trigonometric ]);
-  rewrite E; clear E.
+  assert (C : forall x : R, continuous g x) by (intro; apply (ex_derive_continuous g); differentiable);
+  let I := fresh in
+  assert (I : forall a b, is_RInt f a b (F b - F a))
+    by (try rewrite W; intros; apply (is_RInt_derive F g); intros; [ apply D | apply C ]);
+  cbv beta in I; clear D C W.

@@ -333,33 +333,7 @@ Ltac near_smoothly :=
 
 (* Whether two derivatives are the same is asked of what is derived, not of the definition by filters: a hypothesis that
    does not fit is then passed over at once. *)
-#[global] Opaque ex_derive is_derive Derive RInt exp sin cos ln sqrt PI.
-
-(* sin and cos at whole multiples of pi. *)
-Lemma sin_multiple : forall n, sin (INR n * PI) = 0.
-Proof.
-  induction n as [|n IH]; [rewrite Rmult_0_l; exact sin_0|].
-  rewrite S_INR, Rmult_plus_distr_r, Rmult_1_l, neg_sin, IH. ring.
-Qed.
-Lemma cos_multiple : forall n, cos (INR n * PI) = (-1) ^ n.
-Proof.
-  induction n as [|n IH]; [rewrite Rmult_0_l; exact cos_0|].
-  rewrite S_INR, Rmult_plus_distr_r, Rmult_1_l, neg_cos, IH. simpl. ring.
-Qed.
-Ltac times_PI a n := replace a with (INR n * PI) by (cbn [INR]; field; sides).
-Ltac multiple_of_PI a :=
-  first [ times_PI a 0%nat | times_PI a 1%nat | times_PI a 2%nat | times_PI a 3%nat | times_PI a 4%nat | times_PI a 5%nat
-        | times_PI a 6%nat | times_PI a 8%nat ].
-Ltac at_multiples_of_PI :=
-  integrals; rewrite ?sin_0, ?cos_0;
-  repeat match goal with
-  | |- context [sin ?a] =>
-      let E := fresh in assert (E : sin a = 0) by (multiple_of_PI a; apply sin_multiple); rewrite E; clear E
-  | |- context [cos ?a] =>
-      let E := fresh in assert (E : cos a = 1) by (multiple_of_PI a; rewrite cos_multiple; cbn [pow]; ring); rewrite E; clear E
-  | |- context [cos ?a] =>
-      let E := fresh in assert (E : cos a = -1) by (multiple_of_PI a; rewrite cos_multiple; cbn [pow]; ring); rewrite E; clear E
-  end.
+#[global] Opaque ex_derive is_derive Derive RInt is_RInt ex_RInt exp sin cos ln sqrt PI.
 
 (* Norms: equal calls of an unknown function are made the same, and squares of roots are gone. *)
 Ltac same_call old new :=

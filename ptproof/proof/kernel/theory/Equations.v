@@ -1,0 +1,102 @@
+(* Equations up to whole periods, and up to squares of roots. Everything here is proved. *)
+
+Ltac one_period f a b L n :=
+  let E := fresh in
+  assert (E : f a = f b) by (replace a with (b + 2 * INR n * PI) by (cbn [INR]; field; sides); apply L);
+  rewrite E; clear E.
+Ltac some_periods f a b L :=
+  first [ one_period f a b L 1%nat | one_period f a b L 2%nat | one_period f a b L 3%nat | one_period f a b L 4%nat ].
+Ltac whole_periods :=
+  repeat match goal with
+  | |- context [sin ?a] =>
+      match goal with |- context [sin ?b] => assert_fails (constr_eq a b); some_periods sin a b sin_period end
+  | |- context [cos ?a] =>
+      match goal with |- context [cos ?b] => assert_fails (constr_eq a b); some_periods cos a b cos_period end
+  end.
+
+(* The difference of the two sides is e, in which every square of a root less what it is of is 0. *)
+Ltac zero_as e :=
+  as_reals; apply Rminus_diag_uniq;
+  lazymatch goal with |- ?d = 0 => replace d with e by rational end.
+Ltac squared_root x := rewrite (sqrt_sqrt x) by from_fact.
+Ltac is_zero := unfold Rdiv; ring.
+
+(* a <= b by the squares, where b is not negative. *)
+Lemma below_by_squares : forall a b, 0 <= b -> a ^ 2 <= b ^ 2 -> a <= b.
+Proof. intros a b P L. destruct (Rle_dec a b); [assumption|]. exfalso. nra. Qed.
+Ltac by_squares :=
+  match goal with
+  | |- _ <= _ => apply below_by_squares; [ sign | ]
+  | |- _ >= _ => apply Rle_ge; apply below_by_squares; [ sign | ]
+  end; cases; timeout 4 nra.
+
+(* What an exponential is above, and how it compares to others. *)
+Lemma exp_above : forall x, 1 + x <= exp x.
+Proof. intro x. destruct (Req_dec x 0) as [E | E]; [subst; rewrite exp_0; lra | left; apply exp_ineq1; exact E]. Qed.
+Lemma exp_halves : forall x, exp x = exp (x / 2) * exp (x / 2).
+Proof. intro x. rewrite <- exp_plus. f_equal. field. Qed.
+Lemma exp_above_twice : forall x, 0 <= x -> 2 * x <= exp x.
+Proof.
+  intros x P. pose proof (exp_above (x - 1)). pose proof (exp_above 1).
+  replace x with ((x - 1) + 1) at 2 by ring. rewrite exp_plus. nra.
+Qed.
+Ltac about_exp :=
+  repeat match goal with
+  | |- context [exp ?x] => note (1 + x <= exp x) ltac:(apply exp_above); pose proof (exp_pos x)
+  end.
+Ltac about_exp_here :=
+  repeat match goal with |- context [exp ?x] => note (2 * x <= exp x) ltac:(apply exp_above_twice; lra) end.
+Ltac by_exponentials := about_exp; cases; first [ lra | about_exp_here; lra | timeout 4 nra ].
+
+(* Both sides by their parts, each of which grows. *)
+Lemma exp_le_exp : forall x y, x <= y -> exp x <= exp y.
+Proof. intros x y [L | E]; [left; apply exp_increasing; exact L | right; rewrite E; reflexivity]. Qed.
+Ltac leaf_of_parts := first [ assumption | lra | solve [ unfold Rabs; destruct (Rcase_abs _); lra ] | solve [ by_squares ] | solve [ cases; timeout 2 nra ] ].
+Ltac part_sign := first [ sign | apply Rplus_le_le_0_compat; part_sign | apply Rmult_le_pos; part_sign ].
+Ltac parts_grow :=
+  lazymatch goal with
+  | |- ?a >= ?b => apply Rle_ge; parts_grow
+  | |- ?a <= ?a => apply Rle_refl
+  | |- exp _ <= exp _ => apply exp_le_exp; parts_grow
+  | |- ?a ^ ?n <= ?b ^ ?n => first [ apply pow_incr; split; [ part_sign | parts_grow ] | leaf_of_parts ]
+  | |- ?a - ?c <= ?b - ?c => apply Rplus_le_compat_r; parts_grow
+  | |- ?a + ?b <= ?c + ?d => first [ apply Rplus_le_compat; parts_grow | leaf_of_parts ]
+  | |- ?a * ?b <= ?c * ?d =>
+      first [ apply Rmult_le_compat; [ part_sign | part_sign | parts_grow | parts_grow ]
+            | rewrite (Rmult_comm c d); apply Rmult_le_compat; [ part_sign | part_sign | parts_grow | parts_grow ]
+            | leaf_of_parts ]
+  | |- _ <= _ => leaf_of_parts
+  end.
+Ltac parts_grow_strictly :=
+  lazymatch goal with
+  | |- ?a > ?b => change (b < a); parts_grow_strictly
+  | |- exp _ < exp _ => apply exp_increasing; parts_grow_strictly
+  | |- ?c + ?a < ?c + ?b => apply Rplus_lt_compat_l; parts_grow_strictly
+  | |- ?c * ?a < ?c * ?b => apply Rmult_lt_compat_l; [ sign | parts_grow_strictly ]
+  | |- ?c * ?a < ?d * ?b =>
+      apply Rmult_le_0_lt_compat; [ part_sign | part_sign | parts_grow_strictly | parts_grow_strictly ]
+  | |- _ ^ 2 < _ ^ 2 => nra
+  | |- _ < _ => lra
+  end.
+
+(* What grows without bound with its variable. *)
+Lemma shifted_grows : forall (F : (R -> Prop) -> Prop) (f : R -> R) c, Filter F ->
+  filterlim f F (Rbar_locally p_infty) -> filterlim (fun s => f s + c) F (Rbar_locally p_infty).
+Proof.
+  intros F f c FF L. apply (filterlim_comp _ _ _ f (fun y => y + c) F (Rbar_locally p_infty)); [exact L|].
+  intros Q [M HM]. exists (M - c). intros y Y. apply HM. lra.
+Qed.
+Ltac without_bound :=
+  cbv beta;
+  lazymatch goal with
+  | |- filterlim (fun s => s) _ _ => apply filterlim_id
+  | |- filterlim (fun s => ln (@?f s)) _ _ => apply (filterlim_comp _ _ _ f ln _ (Rbar_locally p_infty)); [ without_bound | exact is_lim_ln_p ]
+  | |- filterlim (fun s => @?f s + ?c) _ _ => apply shifted_grows; [ typeclasses eauto | without_bound ]
+  | |- filterlim (Rmult ?c) _ _ => apply (multiple_grows _ (fun s => s)); [ typeclasses eauto | sign | apply filterlim_id ]
+  | |- filterlim (fun s => ?c * @?f s) _ _ => apply multiple_grows; [ typeclasses eauto | sign | without_bound ]
+  end.
+Ltac far_away :=
+  lazymatch goal with
+  | |- Rbar_locally p_infty _ => exists 0; intros ? ?; cbv beta; sign
+  | |- filterlim _ (Rbar_locally p_infty) (Rbar_locally p_infty) => without_bound
+  end.
