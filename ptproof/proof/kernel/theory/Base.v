@@ -795,7 +795,7 @@ Ltac multiple_angle a t L :=
           | as_multiple_angle a t L 4%nat way | as_multiple_angle a t L 5%nat way | as_multiple_angle a t L 6%nat way ] in
   first [ by_way ltac:(ring) | by_way ltac:(field; sides) ].
 Ltac no_angle a :=
-  lazymatch a with context [0] => let E := fresh in assert (E : a = 0) by (unfold Rdiv; ring); rewrite E; clear E end.
+  lazymatch a with context [0] => let E := fresh in assert (E : a = 0) by (unfold Rdiv; ring); try rewrite E; clear E end.
 Ltac angle_of x a t := assert_fails (constr_eq a t); lazymatch a with context [x] => idtac end.
 (* Two polynomials in waves of multiples of t, which has the variable x: sin^2 is 1 - cos^2, all else are numbers. *)
 Ltac waves x t :=
