@@ -20,9 +20,8 @@ from ptproof.reading import system
 from ptproof.reading.outcomes import Unanswered, Why, end_in_words, too_much
 from ptproof.reading.worker import ALIVE, CLOSED, HEAD, keep, whole
 
-_YOUNG = (
-    20_000  # objects, after which circles are looked for among the new ones: expressions make few, and many objects
-)
+# Objects, after which circles are looked for among the new ones: expressions are many objects, and few circles.
+_YOUNG = 20_000
 _GLANCE = 0.2  # between two looks at the memory [s]
 _CLOSED = "the work closed the channel of its answer"
 _PATIENCE = 1.0  # for a keeper to say how its worker ended [s]
