@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
+from ptproof.commands import guard
+
 if TYPE_CHECKING:
+    from ptproof.proof.claim import Claim
+    from ptproof.proof.kernel import Confirmation
+    from ptproof.proof.memory import Memory
     from ptproof.proof.result import Verification
 
 kernel = click.option(
@@ -39,19 +45,44 @@ def available(kernel: bool, keep: Path | None) -> None:
             raise InputError(f"--kernel: {lacking}")
 
 
-def confirmed(verification: Verification, jobs: int | None, keep: Path | None) -> Verification:
-    """The same with the evidence of Coq's kernel; what it did not confirm is said on standard error."""
+def confirmed(
+    verification: Verification, jobs: int | None, keep: Path | None, memory: Memory
+) -> tuple[Verification, int | None]:
+    """The same with the evidence of Coq's kernel, and the exit status if the run was ended from outside.
+
+    What it did not confirm, and why, is said on standard error; so is what it has confirmed by the end from outside.
+    """
     from ptproof.commands.terminal import progress
-    from ptproof.proof.kernel.check import second_opinion
+    from ptproof.proof.kernel import check
+    from ptproof.proof.kernel.check import with_opinion
     from ptproof.proof.verdict import Verdict
 
-    proved = sum(result.verdict is Verdict.PROVED for result in verification.results)
-    with progress("asking Coq", proved) as advance:
-        results, said = second_opinion(
-            verification.results, workers=jobs, keep=keep, progress=lambda claim, answer: advance(1)
-        )
-    left = {name: answer.reason for name, answer in said.items() if not answer.confirmed}
-    click.echo(f"ptproof: Coq's kernel confirmed {len(said) - len(left)} of {len(said)} proved claims", err=True)
+    proved = [result.claim for result in verification.results if result.verdict is Verdict.PROVED]
+    said: dict[str, Confirmation] = {}
+    status = None
+    with progress("asking Coq", len(proved)) as advance:
+
+        def heard(claim: Claim, answer: Confirmation) -> None:
+            said[claim.id] = answer
+            advance(1)
+
+        try:
+            check(proved, workers=jobs, keep=keep, progress=heard, memory=memory)
+        except KeyboardInterrupt:
+            status = guard.interrupt_status()
+    known = {claim.id: said[claim.id] for claim in proved if claim.id in said}  # those that come in later are too late
+    _say(known, len(proved), interrupted=status is not None)
+    return replace(verification, results=with_opinion(verification.results, known)), status
+
+
+def _say(known: Mapping[str, Confirmation], proved: int, interrupted: bool) -> None:
+    left = {name: answer.reason for name, answer in known.items() if not answer.confirmed}
+    again = sum(answer.remembered for answer in known.values())
+    words = f"Coq's kernel confirmed {len(known) - len(left)} of {proved} proved claims"
+    if again:
+        words += f", {again} answers are remembered"
+    if interrupted:
+        words = f"interrupted; {words}, and has not answered about {proved - len(known)}"
+    click.echo(f"ptproof: {words}", err=True)
     for name, reason in left.items():
         click.echo(f"  not {name}: {reason}", err=True)
-    return replace(verification, results=results)

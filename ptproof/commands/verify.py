@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ptproof.commands import guard, opinion, options
+from ptproof.commands import opinion, options
 from ptproof.commands.papers import Opened, opened
 from ptproof.commands.shown import Shown, together
 
@@ -69,11 +69,8 @@ def _paper(
         return shown, status
     paper.memory.keep_run(select, shown.data, paper.memory.lasts(verification))
     if kernel:
-        try:
-            shown = Shown.of(opinion.confirmed(verification, how["jobs"], keep))
-        except KeyboardInterrupt:
-            click.echo("ptproof: interrupted before Coq had answered", err=True)
-            status = guard.interrupt_status()
+        verification, ended = opinion.confirmed(verification, how["jobs"], keep, paper.memory)
+        shown, status = Shown.of(verification), status if ended is None else ended
     return shown, status
 
 

@@ -136,6 +136,14 @@ class Memory:
         else:
             self._whole = False
 
+    def recall_said(self, *about: str) -> Any:
+        """What was kept of this by the same version of everything, as plain data; whatever became of the files."""
+        return None if self._fresh else self._cache.read(hashes.of_texts(["said", self._environment, *about]))
+
+    def keep_said(self, data: Any, *about: str) -> None:
+        """Keep what depends on nothing but this and the version of everything."""
+        self._cache.write(hashes.of_texts(["said", self._environment, *about]), data)
+
     def value(self, name: str, make: Callable[[], Any]) -> Any:
         """What ``make`` says of this state of every file, as plain data: from an earlier run where that is known."""
         known = self.known(name)

@@ -5,7 +5,8 @@ declarations; what has to be defined is part of it, since 1/0 is 0 for Coq. Tact
 what they found, and the axioms that it rests on are read from what the kernel prints.
 """
 
-from ptproof.proof.kernel.check import Confirmation, check
+from ptproof.proof.kernel.check import check
 from ptproof.proof.kernel.coq import missing
+from ptproof.proof.kernel.remembered import Confirmation
 
 __all__ = ["Confirmation", "check", "missing"]

@@ -9,6 +9,8 @@ import shutil
 import signal
 import subprocess
 import tempfile
+import threading
+import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
@@ -32,6 +34,7 @@ AXIOMS: Mapping[str, str] = {
 _MACHINE = re.compile(r"(PrimInt63|Uint63|Uint63Axioms|PrimFloat|FloatAxioms|FloatOps|Sint63)\.\w+|(int|float)")
 _OPTIONS = ("-q", "-w", "none", "-Q", ".", "Ptproof")
 _KEPT = "kept"  # what has been proved so far
+_A_LOOK = 0.2  # between two looks at whether Coq is to be stopped [s]
 _PACKAGES = "coq, libcoq-coquelicot and libcoq-interval (on Debian and Ubuntu: apt install them)"
 
 
@@ -49,6 +52,14 @@ class Theorem:
 
 
 @dataclass(frozen=True)
+class Refusal:
+    """Why Coq did not accept a theorem; ``late`` if for want of time: another run may come to something else."""
+
+    reason: str
+    late: bool = False
+
+
+@dataclass(frozen=True)
 class Printed:
     """What a run of Coq has printed, and whether it was ended at its time limit."""
 
@@ -56,7 +67,7 @@ class Printed:
     error: str
     late: bool
 
-    def stopped(self, theorem: Theorem) -> str | None:
+    def stopped(self, theorem: Theorem) -> Refusal | None:
         """Why Coq did not accept the theorem; None if it was ended before it came to it."""
         prompts = re.split(r"^(\w+) < ", self.error, flags=re.MULTILINE)
         inside = [text for name, text in zip(prompts[1::2], prompts[2::2], strict=False) if name == theorem.proof]
@@ -64,15 +75,15 @@ class Printed:
             # Its proposition was not taken, so that Coq does not know it when the theorem states it.
             before, missed, _ = self.error.partition(f"> Theorem {theorem.proof} ")
             said = before.rpartition("Toplevel input")[0].rpartition("Error:")[2]
-            return f"Coq does not take it: {_shortened(said)}" if missed else None
+            return Refusal(f"Coq does not take it: {_shortened(said)}") if missed else None
         error = "".join(inside).partition("Error:")[2].partition("\n\nToplevel input")[0]
         if "Timeout!" in error or (not error and self.late):
-            return "time limit"
+            return Refusal("time limit", late=True)
         if found := re.search(r"Tactic failure: +at (.*)", error, re.DOTALL):
-            return f"no tactic proved {_shortened(found[1]).removesuffix('.')}"
+            return Refusal(f"no tactic proved {_shortened(found[1]).removesuffix('.')}")
         if error and "actic" not in error and "incomplete proof" not in error:
-            return f"Coq does not take it: {_shortened(error)}"
-        return "no tactic proved it"
+            return Refusal(f"Coq does not take it: {_shortened(error)}")
+        return Refusal("no tactic proved it")
 
 
 def _shortened(text: str) -> str:
@@ -118,13 +129,25 @@ def _compiled() -> tempfile.TemporaryDirectory[str]:
     return made
 
 
-def ask(folder: Path, file: str, seconds: float) -> Printed:
-    """Have Coq read the file as if it were typed, in the folder of the library: a failure costs one theorem."""
-    return _run(["coqtop", *_OPTIONS], folder, file, seconds)
+@cache
+def version() -> str:
+    """What Coq says that it is."""
+    return subprocess.run(["coqc", "--version"], capture_output=True, text=True, check=True).stdout
 
 
-def _run(command: list[str], folder: Path, typed: str | None, seconds: float) -> Printed:
+def ask(folder: Path, file: str, seconds: float, stop: threading.Event | None = None) -> Printed:
+    """Have Coq read the file as if it were typed, in the folder of the library: a failure costs one theorem.
+
+    It is ended at its time limit, or once ``stop`` is set.
+    """
+    return _run(["coqtop", *_OPTIONS], folder, file, seconds, stop)
+
+
+def _run(
+    command: list[str], folder: Path, typed: str | None, seconds: float, stop: threading.Event | None = None
+) -> Printed:
     """The output of a process of Coq, which ends with every process of it at the time limit."""
+    until = time.monotonic() + seconds
     with (
         open(folder / typed if typed else os.devnull, "rb") as source,
         subprocess.Popen(
@@ -132,16 +155,18 @@ def _run(command: list[str], folder: Path, typed: str | None, seconds: float) ->
             encoding="utf-8", errors="replace", start_new_session=True,
         ) as process,
     ):  # fmt: skip
+        late = True
         try:
-            output, error = process.communicate(timeout=seconds)
-            late = False
-        except BaseException as stop:
-            with contextlib.suppress(ProcessLookupError):
-                os.killpg(process.pid, signal.SIGKILL)
-            output, error = process.communicate()
-            late = True
-            if not isinstance(stop, subprocess.TimeoutExpired):
-                raise
+            while time.monotonic() < until and not (stop and stop.is_set()):
+                with contextlib.suppress(subprocess.TimeoutExpired):
+                    output, error = process.communicate(timeout=_A_LOOK)
+                    late = False
+                    break
+        finally:
+            if process.poll() is None:
+                with contextlib.suppress(ProcessLookupError):
+                    os.killpg(process.pid, signal.SIGKILL)
+                output, error = process.communicate()
     return Printed(output, error if typed or process.returncode or late else "", late)
 
 

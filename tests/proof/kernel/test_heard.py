@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from ptproof.proof.kernel.coq import Printed, Theorem, heard, proved
+from ptproof.proof.kernel.coq import Printed, Refusal, Theorem, heard, proved
 
 ASKED = [Theorem("claim_one", "True", "exact I"), Theorem("claim_two", "True", "exact I")]
 REALS = "Axioms:\nClassicalDedekindReals.sig_forall_dec\n  : forall P : nat -> Prop, True\n"
@@ -105,7 +105,8 @@ def typed(inside: str) -> str:
 def test_why_coq_stopped(inside: str, late: bool, reason: str) -> None:
     found = Printed("", typed(inside), late).stopped(ASKED[1])
     assert found is not None
-    assert found.startswith(reason)
+    assert found.reason.startswith(reason)
+    assert found.late is (reason == "time limit")
 
 
 def test_a_proposition_that_coq_does_not_take() -> None:
@@ -113,7 +114,8 @@ def test_a_proposition_that_coq_does_not_take() -> None:
         "Coq < Toplevel input, characters 1-2:\n> Definition claim_two : Prop := g.\nError: The reference g was not "
         "found.\n\nCoq < Toplevel input, characters 3-4:\n> Theorem proof_of_claim_two : claim_two.\n"
     )
-    assert Printed("", error, False).stopped(ASKED[1]) == "Coq does not take it: The reference g was not found."
+    found = Printed("", error, False).stopped(ASKED[1])
+    assert found == Refusal("Coq does not take it: The reference g was not found.")
 
 
 def test_a_theorem_that_coq_did_not_come_to() -> None:

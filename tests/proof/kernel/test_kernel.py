@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 import json
+import os
+import signal
+import threading
+import time
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -10,10 +14,15 @@ from typing import Any
 import pytest
 import sympy as sp
 
+from ptproof.commands import opinion
 from ptproof.commands.cli import main
 from ptproof.proof import claim, eq, exact, ge, le, lt
 from ptproof.proof.claim import Claim
 from ptproof.proof.kernel import Confirmation, check, coq, missing
+from ptproof.proof.kernel.theorem import proposition
+from ptproof.proof.memory import Memory
+from ptproof.proof.result import Result, Verification
+from ptproof.proof.verdict import Verdict
 
 needs_coq = pytest.mark.skipif(bool(missing()), reason=missing() or "coq is there")
 x, y = sp.symbols("x y", real=True)
@@ -100,6 +109,113 @@ def test_a_file_has_many_claims_and_every_process_one(
     assert {item.reason for item in told.values()} == {"Coq gave no answer"}
     assert len(told) == count
     assert len(list(tmp_path.glob("claims_*.v"))) == files
+
+
+@pytest.fixture
+def pretended(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """Coq confirms whatever it is asked; the files that it was asked about."""
+    asked: list[str] = []
+
+    def ask(folder: Path, file: str, *_: object) -> coq.Printed:
+        asked.append(file)
+        return coq.Printed("", "", False)
+
+    for name, value in {
+        "missing": lambda: "", "prepare": lambda folder: None, "version": lambda: "8.16", "ask": ask,
+        "heard": lambda output, theorems: {theorem.name: "" for theorem in theorems},
+    }.items():  # fmt: skip
+        monkeypatch.setattr(coq, name, value)
+    return asked
+
+
+def test_what_coq_has_confirmed_is_remembered(
+    pretended: list[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setenv("PTPROOF_CACHE", str(tmp_path))
+    first = check(TRUE, memory=Memory(["nowhere"]))
+    assert pretended
+    assert not any(item.remembered for item in first.values())
+    pretended.clear()
+    again = check([replace(TRUE[0], id="by another name"), *TRUE[1:]], memory=Memory(["elsewhere"]))
+    assert not pretended
+    assert all(item.confirmed and item.remembered for item in again.values())
+    assert [item.proposition for item in again.values()] == [item.proposition for item in first.values()]
+
+
+@pytest.mark.parametrize(
+    ("change", "why"),
+    [
+        (lambda patch: patch.setattr(coq, "version", lambda: "8.17"), "another Coq"),
+        (lambda patch: patch.setattr(Memory, "recall_said", lambda *_: {"confirmed": "yes"}), "not what was kept"),
+    ],
+)
+def test_what_is_not_the_same_is_asked_again(
+    change: Any, why: str, pretended: list[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setenv("PTPROOF_CACHE", str(tmp_path))
+    check(TRUE[:1], memory=Memory([tmp_path]))
+    pretended.clear()
+    change(monkeypatch)
+    assert not check(TRUE[:1], memory=Memory([tmp_path]))["identity"].remembered, why
+    assert pretended
+
+
+@pytest.mark.usefixtures("pretended")
+def test_with_another_statement_fresh_or_files_to_leave_it_is_asked_again(
+    pretended: list[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setenv("PTPROOF_CACHE", str(tmp_path / "cache"))
+    check(TRUE[:1], memory=Memory([tmp_path]))
+    pretended.clear()
+    check([replace(TRUE[0], statement=eq(x, x))], memory=Memory([tmp_path]))
+    check(TRUE[:1], memory=Memory([tmp_path], fresh=True))
+    check(TRUE[:1], memory=Memory([tmp_path]), keep=tmp_path / "kept")
+    assert len(pretended) == 3
+
+
+def test_what_came_too_late_is_not_remembered(
+    pretended: list[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setenv("PTPROOF_CACHE", str(tmp_path))
+    monkeypatch.setattr(coq, "heard", lambda *_: {})
+    assert check(TRUE[:1], memory=Memory([tmp_path]), efforts=["quick"])["identity"].late
+    pretended.clear()
+    check(TRUE[:1], memory=Memory([tmp_path]), efforts=["quick"])
+    assert pretended
+
+
+def test_an_interrupt_ends_coq_and_keeps_what_is_known(
+    pretended: list[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    monkeypatch.setenv("PTPROOF_CACHE", str(tmp_path))
+    confirming = coq.ask
+
+    def ask(folder: Path, file: str, seconds: float, stop: threading.Event) -> coq.Printed:
+        if "claims_000" not in file:
+            os.kill(os.getpid(), signal.SIGINT)
+            assert stop.wait(30)
+        return confirming(folder, file, seconds)
+
+    monkeypatch.setattr(coq, "ask", ask)
+    results = tuple(Result(replace(TRUE[0], id=f"n{n}"), Verdict.PROVED, (), True) for n in range(30))
+    memory = Memory([tmp_path])
+    after, status = opinion.confirmed(Verification(results, 0.0), 1, None, memory)
+    assert status == 128 + signal.SIGINT
+    assert [len(item.evidence) for item in after.results] == [1] * 24 + [0] * 6
+    assert "interrupted; Coq's kernel confirmed 24 of 30" in capsys.readouterr().err
+    assert memory.recall_said("Coq's kernel", "8.16", "quick", "thorough", proposition(TRUE[0]).text)
+
+
+@needs_coq
+@pytest.mark.usefixtures("library")
+def test_coq_is_ended_when_it_is_told_to_stop(tmp_path: Path) -> None:
+    coq.prepare(tmp_path)
+    (tmp_path / "endless.v").write_text("Goal True. repeat (assert True by exact I; idtac). Qed.", "utf-8")
+    stop = threading.Event()
+    threading.Timer(0.5, stop.set).start()
+    start = time.monotonic()
+    assert coq.ask(tmp_path, "endless.v", 60, stop).late
+    assert time.monotonic() - start < 10
 
 
 def test_without_coq_every_claim_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
