@@ -10,7 +10,7 @@ import sympy as sp
 
 from ptproof.proof.kernel.names import Names
 from ptproof.proof.kernel.terms import NoTranslation, positive_base, term
-from ptproof.proof.statement import Exists, Relation, RelationSign
+from ptproof.proof.statement import Exists, ForAll, Relation, RelationSign
 
 
 @dataclass(frozen=True)
@@ -19,7 +19,8 @@ class Part:
 
     With a ``limit`` the relation holds near its place: ``domain`` says whether it is what has to be defined there, or
     what the function tends to. A ``base`` is that of a power which is defined where the base is positive, or where it
-    is 0 and the exponent is positive. Where something is said to exist, ``exists`` says so, and ``body`` are its parts.
+    is 0 and the ``exponent`` is positive. Where something is said to exist, ``exists`` says so, and ``body`` are its
+    parts; where something is assumed ``for_all`` values, ``body`` are the premises.
     """
 
     text: str
@@ -27,7 +28,9 @@ class Part:
     limit: sp.Limit | None = field(default=None, compare=False)
     domain: bool = field(default=False, compare=False)
     base: sp.Basic | None = field(default=None, compare=False)
+    exponent: sp.Basic | None = field(default=None, compare=False)
     exists: Exists | None = field(default=None, compare=False)
+    for_all: ForAll | None = field(default=None, compare=False)
     body: tuple[Part, ...] = field(default=(), compare=False)
 
 
@@ -76,7 +79,10 @@ def _parts(expression: sp.Basic, names: Names) -> list[Part]:
 
 def _at(part: Part, subs: sp.Subs, names: Names) -> Part:
     variables = " ".join(term(variable, names) for variable in subs.variables)
-    return Part(f"((fun {variables} => {part.text}) {' '.join(term(point, names) for point in subs.point)})")
+    text = f"((fun {variables} => {part.text}) {' '.join(term(point, names) for point in subs.point)})"
+    there = part.relation and part.relation.map(lambda side: sp.Subs(side, subs.variables, subs.point))
+    return Part(text, there, base=part.base and sp.Subs(part.base, subs.variables, subs.point),
+                exponent=part.exponent and sp.Subs(part.exponent, subs.variables, subs.point))  # fmt: skip
 
 
 def _power(power: sp.Pow, names: Names) -> list[Part]:
@@ -90,7 +96,7 @@ def _power(power: sp.Pow, names: Names) -> list[Part]:
     if positive_base(power):
         return [_signed(base, ">", names)]
     text = term(base, names)
-    return [Part(f"(0 < {text} \\/ ({text} = 0 /\\ 0 < {term(exponent, names)}))", base=base)]
+    return [Part(f"(0 < {text} \\/ ({text} = 0 /\\ 0 < {term(exponent, names)}))", base=base, exponent=exponent)]
 
 
 def _branches(expression: sp.Piecewise, names: Names) -> list[Part]:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from typing import Any
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from ptproof.proof.declarations import declared
 from ptproof.proof.kernel.declared import bare, for_all
-from ptproof.proof.kernel.names import Names
+from ptproof.proof.kernel.names import Names, fresh
 from ptproof.proof.kernel.obligations import Part, obligations
 from ptproof.proof.kernel.terms import NoTranslation, term
 from ptproof.proof.statement import Smooth
@@ -33,7 +34,7 @@ def conclusions(statement: Smooth, names: Names) -> list[Part]:
     Raises
     ------
     NoTranslation
-        As :func:`ptproof.proof.kernel.terms.term`, and for a symbol that is called like the point.
+        As :func:`ptproof.proof.kernel.terms.term`, and for variables of which two are called alike.
     """
     parts = list(dict.fromkeys(part for item in statement.expressions for part in obligations(item, names)))
     variables = [names[variable] for variable in statement.variables]
@@ -52,6 +53,26 @@ def premises(statement: Smooth, functions: Iterable[sp.Basic], names: Names) -> 
         if not bare(call) or any(_kinds(symbol) - _OPEN for symbol in call.args):
             raise NoTranslation(f"no translation for the smoothness of {call}")
         found.append(Part(_assumed(call, order, names)))
+    return found
+
+
+def of_derivatives(derivatives: Iterable[sp.Derivative], names: Names) -> list[Part]:
+    """That functions below these derivatives which are applied to more than plain symbols are smooth: chain rules.
+
+    A claim that says nothing of smoothness is about smooth functions of real arguments; a function that can be
+    differentiated by each argument alone is not one.
+    """
+    orders: dict[tuple[Any, int], int] = {}
+    for derivative in derivatives:
+        for call in derivative.expr.atoms(AppliedUndef):
+            if not bare(call):
+                key = call.func, len(call.args)
+                orders[key] = max(orders.get(key, 0), len(derivative.variables))
+    found = []
+    for (function, count), order in sorted(orders.items(), key=lambda item: names[item[0][0]]):
+        variables = [fresh(f"q{number}", names) for number in range(1, count + 1)]
+        text = f"({names[function]} {' '.join(variables)})"
+        found.append(Part(f"(forall {' '.join(variables)} : R, {_smooth(text, variables, order, names)})"))
     return found
 
 
@@ -82,10 +103,11 @@ def _tuple(variables: Sequence[str]) -> str:
 
 def _function(text: str, variables: Sequence[str], names: Names) -> str:
     """The text as a function of a point whose coordinates the variables are."""
-    if _POINT in names.values() or len(set(variables)) != len(variables):
+    if len(set(variables)) != len(variables):
         raise NoTranslation("no translation for smoothness in these variables")
+    point = fresh(_POINT, names)
     kind = " * ".join("R" for _ in variables)
-    coordinates = [_POINT]
+    coordinates = [point]
     for _ in variables[1:]:
         coordinates = [f"(fst {coordinates[0]})", f"(snd {coordinates[0]})", *coordinates[1:]]
-    return f"(fun {_POINT} : {kind} => (fun {' '.join(variables)} : R => {text}) {' '.join(coordinates)})"
+    return f"(fun {point} : {kind} => (fun {' '.join(variables)} : R => {text}) {' '.join(coordinates)})"

@@ -66,7 +66,9 @@ def proposition(claim: Claim) -> Proposition:
     premises += map(Part, declared.of_functions(applied, free, names))
     derivatives = {part for expression in expressions_of(statements) for part in expression.atoms(sp.Derivative)}
     premises += map(Part, declared.of_derivatives(derivatives, names))
-    if isinstance(claim.statement, Smooth):
+    if not isinstance(claim.statement, Smooth):
+        premises += smooth.of_derivatives(derivatives, names)
+    else:
         premises += smooth.premises(claim.statement, functions, names)
     for item in claim.assumptions:
         premises += _given(item, names)
@@ -141,9 +143,10 @@ def _given(item: Assumption, names: Names) -> list[Part]:
     """The assumption, and that its sides are defined: it allows only such values."""
     if isinstance(item, Relation):
         return [part for relation in item.components() for part in _relation(relation, names)]
-    premises = [part.text for given in plain(item.domain) for part in _relation(given, names)]
+    premises = tuple(part for given in plain(item.domain) for part in _relation(given, names))
     said = _conjunction(part for component in item.relation.components() for part in _relation(component, names))
-    return [Part(declared.for_all(item.variables, f"({said})", names, premises))]
+    text = declared.for_all(item.variables, f"({said})", names, (part.text for part in premises))
+    return [Part(text, for_all=item, body=premises)]
 
 
 def _conjunction(parts: Iterable[Part]) -> str:

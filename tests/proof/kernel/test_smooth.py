@@ -35,6 +35,8 @@ TRUE = [
     stated("composed", F(x / a, sp.sin(x * y)), x, y, assumed=((F(x, y), 2),)),
     stated("of-three", F(x + y, x * y, y), x, y, assumed=((F(x, y, z), 3),)),
     stated("of-one", F(x + y), x, y, assumed=((F(x), 2),)),
+    stated("derivative", a * F(x, y).diff(x) + z, x, y, z, order=1, assumed=((F(x, y), 2),)),
+    stated("second-derivative", F(x, y).diff(x, y), x, y, order=0, assumed=((F(x, y), 2),)),
     stated("on-a-half-line", 1 / (a + x), x, given=[ge(x, 0)]),
 ]
 NOT_CONFIRMED = [
@@ -42,6 +44,7 @@ NOT_CONFIRMED = [
     stated("quotient-by-zero", x / y, x, y),
     stated("root-of-zero", sp.sqrt(x**2 + y**2), x, y),
     stated("order", F(x), x, assumed=((F(x), 1),)),
+    stated("derivative-order", F(x, y).diff(x), x, y, order=2, assumed=((F(x, y), 2),)),
     stated("nothing-assumed", F(x), x),
     stated("boundary", sp.log(x), x, given=[ge(x, 0)]),
     stated("other-kind", F(x), x, assumed=((F(a), 2),)),

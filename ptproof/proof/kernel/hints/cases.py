@@ -54,7 +54,10 @@ def factored(goal: Goal) -> tuple[list[str], Goal]:
         if relation.sign != "=" or relation.right.has(*_KINDS) or relation.left.has(*_KINDS):
             continue
         top, bottom = sp.fraction(sp.together(relation.right - relation.left))
-        _, factors = sp.factor_list(top)
+        try:
+            _, factors = sp.factor_list(top)
+        except sp.PolynomialError:
+            continue
         shown = {part for part, _ in factors if is_shown(part, strictly=True) or is_shown(-part, strictly=True)}
         left = [part for part, _ in factors if part not in nonzero | shown]
         if len(left) != 1 or (len(factors) == 1 and bottom == 1 and factors[0][1] == 1):

@@ -35,6 +35,9 @@ def certificate(
         if relation.left == wanted.left and relation.right == wanted.right:
             yield f"solve [ {line}; lra ]"
             return
+        if relation.left == wanted.left and _same(relation.right, wanted.right):
+            yield f"solve [ {line}; found_as ]"
+            return
     known = [item for item in known if not item.has(*_BOUND)]
     seen, facts = view(known), list(directed([*known, *(relation for relation, _ in more)]))
     derived = {seen.relation(relation): line for relation, line in more}
@@ -46,6 +49,11 @@ def certificate(
         return
     writer = _Writer(seen, inside, derived, _names(seen, [*facts, goal], names))
     yield f"solve [ {'; '.join(writer.lines(chain, said))} ]"
+
+
+def _same(first: sp.Expr, second: sp.Expr) -> bool:
+    """Whether the two are the same as rational functions."""
+    return bool(sp.expand(sp.fraction(sp.together(first - second))[0]) == 0)
 
 
 def _names(seen: View, relations: Sequence[Relation], names: Names) -> Names:

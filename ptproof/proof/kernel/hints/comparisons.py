@@ -18,7 +18,7 @@ from ptproof.proof.kernel.hints.certificates import certificate
 from ptproof.proof.kernel.hints.views import view
 from ptproof.proof.kernel.names import Names
 from ptproof.proof.kernel.terms import NoTranslation, term
-from ptproof.proof.statement import ForAll, Relation, expressions_of, plain
+from ptproof.proof.statement import ForAll, Relation, RelationSign, expressions_of, plain
 
 Compared = tuple[Relation, str]
 
@@ -61,6 +61,24 @@ class Rate:
 
 def compared(claim: Claim, known: Sequence[Relation], names: Names) -> Iterator[Compared]:
     """The bounds, each with the line by which Coq finds it."""
+    for rate, _ in _rates(claim, known, names):
+        for start, end in _times(rate):
+            for way in (_integral, _decay, _bernoulli):
+                with contextlib.suppress(NoTranslation, sp.PolynomialError):
+                    yield from way(rate, start, end)
+
+
+def solved(claim: Claim, known: Sequence[Relation], names: Names) -> Iterator[Compared]:
+    """What solutions of linear differential equations are, each with the line by which Coq finds it."""
+    for rate, sign in _rates(claim, known, names):
+        if sign == "=":
+            for start, end in _times(rate):
+                with contextlib.suppress(NoTranslation, sp.PolynomialError):
+                    yield from _solution(rate, start, end)
+
+
+def _rates(claim: Claim, known: Sequence[Relation], names: Names) -> Iterator[tuple[Rate, RelationSign]]:
+    """The differential equations and inequalities that the claim assumes."""
     statements = [claim.statement, *claim.assumptions]
     said = tuple(expressions_of(statements))
     for item in claim.assumptions:
@@ -72,10 +90,7 @@ def compared(claim: Claim, known: Sequence[Relation], names: Names) -> Iterator[
         if not isinstance(relation.left.expr, AppliedUndef) or relation.right.has(sp.Derivative, sp.Integral):
             continue
         rate = Rate(relation.left.expr, time, relation.right, plain(item.domain), tuple(known), said, names)
-        for start, end in _times(rate):
-            for way in (_integral, _decay, _bernoulli):
-                with contextlib.suppress(NoTranslation, sp.PolynomialError):
-                    yield from way(rate, start, end)
+        yield rate, relation.sign
 
 
 def _times(rate: Rate) -> Iterator[tuple[sp.Expr, sp.Expr]]:
@@ -136,21 +151,39 @@ def _asserted(rate: Rate, end: sp.Expr, bound: sp.Expr, lemma: str, steps: Seque
 
 def _integral(rate: Rate, start: sp.Expr, end: sp.Expr) -> Iterator[Compared]:
     """U(p) and the integral of a rate without U; or U(p) by e to the integral of a, where the rate is a U."""
+    if (found := _integrated(rate, start, end)) is not None:
+        bound, exact, word, arguments, closing = found
+        lemma = f"({'integral' if word == '+' else 'exponential'}_bound {arguments})"
+        name = rate.names[rate.time]
+        steps = ["bound", f"cbv beta; rate_is {rate.names[rate.function.func]} {name} ltac:(same)", closing]
+        yield _asserted(rate, end, bound, lemma, steps, exact)
+
+
+def _solution(rate: Rate, start: sp.Expr, end: sp.Expr) -> Iterator[Compared]:
+    """The same for an equation."""
+    if (found := _integrated(rate, start, end)) is not None:
+        bound, exact, word, arguments, closing = found
+        lemma = f"({'is_integral' if word == '+' else 'is_exponential'} {arguments})"
+        left = rate.at(end)
+        steps = f"bound | cbv beta; rate_equals {rate.names[rate.function.func]} {rate.names[rate.time]} | {closing}"
+        line = (f"assert ({rate.write(left)} = {rate.write(bound)}) by (apply eq_trans with {exact}; "
+                f"[ apply {lemma}; [ {steps} ] | first [ rational | same_values; rational ] ])")  # fmt: skip
+        yield Relation(left, "=", bound), line
+
+
+def _integrated(rate: Rate, start: sp.Expr, end: sp.Expr) -> tuple[sp.Expr, str, str, str, str] | None:
+    """The value at the end, how the lemmas write it, what they join it by, their arguments, and the last step."""
     alone = not rate.rate.has(rate.function)
     slope, rest = (rate.rate, sp.S.Zero) if alone else _linear(rate)
     if rest != 0:
-        return
+        return None
     primitive, name, first = _primitive(rate, slope), rate.names[rate.time], rate.at(start)
     F, f = (f"(fun {name} : R => {rate.write(item)})" for item in (primitive, slope))
     p, q, U = rate.write(start), rate.write(end), rate.names[rate.function.func]
     grown = primitive.subs(rate.time, end) - primitive.subs(rate.time, start)
-    steps = ["bound", f"cbv beta; rate_is {U} {name} ltac:(same)", f"cbv beta; antiderivative {name}"]
-    if alone:
-        bound, word, sign = first + grown, "integral_bound", "+"
-    else:
-        bound, word, sign = rate.as_said(first * sp.exp(grown)), "exponential_bound", "* exp"
-    exact = f"({rate.write(first)} {sign} ({F} {q} - {F} {p}))"
-    yield _asserted(rate, end, bound, f"({word} {U} {F} {f} {p} {q})", steps, exact)
+    bound, word = (first + grown, "+") if alone else (rate.as_said(first * sp.exp(grown)), "* exp")
+    exact = f"({rate.write(first)} {word} ({F} {q} - {F} {p}))"
+    return bound, exact, word, f"{U} {F} {f} {p} {q}", f"cbv beta; antiderivative {name}"
 
 
 def _decay(rate: Rate, start: sp.Expr, end: sp.Expr) -> Iterator[Compared]:

@@ -11,6 +11,7 @@ import sympy as sp
 
 from ptproof.proof.kernel.hints.atoms import Atoms
 from ptproof.proof.kernel.hints.goals import Goal, is_shown, upright
+from ptproof.proof.kernel.hints.squares import sum_of_squares
 from ptproof.proof.kernel.names import fresh
 from ptproof.proof.kernel.terms import term
 from ptproof.proof.statement import Relation
@@ -122,6 +123,8 @@ def _search(top: sp.Expr, facts: Sequence[_Fact], depth: int, strictly: bool, tr
             positive = fact.strict and is_shown(weight, strictly=True)
             if is_shown(rest, strictly and not positive):
                 return _Sum(factor, ((weight, fact),), rest)
+            if (not strictly or positive) and (squares := sum_of_squares(rest)) is not None:
+                return _Sum(factor, ((weight, fact),), squares)
             if depth > 1 and sp.count_ops(rest) < _MOST_OPERATIONS // 2:
                 others = [other for other in facts if other is not fact]
                 inner = _search(sp.expand(rest), others, depth - 1, strictly and not positive, tries)

@@ -8,7 +8,10 @@ from collections.abc import Iterator, Sequence
 
 import sympy as sp
 
+from ptproof.proof.kernel.hints.bases import by_zero, lettered
 from ptproof.proof.kernel.hints.cases import factored, split
+from ptproof.proof.kernel.hints.cauchy import with_products
+from ptproof.proof.kernel.hints.certificates import certificate
 from ptproof.proof.kernel.hints.circular import by_circular_bounds
 from ptproof.proof.kernel.hints.forms import by_form
 from ptproof.proof.kernel.hints.goals import Goal, Way, one_of
@@ -37,16 +40,20 @@ def by_steps(goal: Goal, others: Sequence[Way] = ()) -> Iterator[str]:
     """
     lines: list[str] = []
     simpler = goal
-    for step in (powers_back, factored, substituted):
-        more, simpler = step(simpler)
-        lines += more
     try:
+        for step in (powers_back, factored, substituted, lettered):
+            more, simpler = step(simpler)
+            lines += more
         yield "; ".join([*lines, _cases(simpler, others, _MOST_CASES, time.monotonic() + _MOST_SECONDS)])
     except (NoTranslation, sp.PolynomialError):
         return
 
 
 def _cases(goal: Goal, others: Sequence[Way], left: int, until: float) -> str:
+    if left and (sides := by_zero(goal)) is not None:
+        line, *both = sides
+        tactics = [_cases(each, others, left - 1, until) for each in both]
+        return f"{line}; [> zero_powers; {tactics[0]} | positive_powers; {tactics[1]} ]"
     found = split(goal) if left else None
     if found is None:
         return _without_cases(goal, others, until)
@@ -61,7 +68,7 @@ def _without_cases(goal: Goal, others: Sequence[Way], until: float) -> str:
         parts = " | ".join(_without_cases(each, others, until) for each in both)
         return f"first [ solve [ quickly; equality ] | solve [ known_values ] | between; [> {parts} ] ]"
     hints: list[str] = []
-    for step in (squared_symbols, roots_of_facts):
+    for step in (squared_symbols, roots_of_facts, with_products):
         lines, simpler = step(goal)
         if lines:
             hints.append("; ".join([*lines, one_of(_closed(simpler, others, until))]))
@@ -70,8 +77,14 @@ def _without_cases(goal: Goal, others: Sequence[Way], until: float) -> str:
     return one_of(hints)
 
 
+def _by_chain(goal: Goal) -> Iterator[str]:
+    """A chain of inequalities, where powers have unknown exponents."""
+    if any(not power.exp.is_Rational for power in goal.atoms(sp.Pow)):
+        yield from certificate(goal.relation, goal.known, goal.names)
+
+
 def _closed(goal: Goal, others: Sequence[Way], until: float) -> Iterator[str]:
-    for way in (*_CLOSING, *others):
+    for way in (*_CLOSING, _by_chain, *others):
         if time.monotonic() > until:
             return
         with contextlib.suppress(NoTranslation, sp.PolynomialError):

@@ -18,13 +18,21 @@ def substituted(goal: Goal) -> tuple[list[str], Goal]:
         symbol, value = found
         lines.append(f"replace_by {goal.names[symbol]} {goal.text(value)}")
         roots = {part.base for part in goal.atoms(sp.Pow) if part.base == symbol and not part.exp.is_Integer}
+        absolute = goal.relation.has(sp.Abs(symbol))
         goal = goal.replaced(symbol, value)
+        if absolute:
+            lines.append(
+                f"absolute_values; try (shown_as {goal.text(goal.relation.left)} {goal.text(goal.relation.right)})"
+            )
         if roots and not isinstance(sp.sqrt(value), sp.Pow) and not value.is_Symbol:
             lines.append(f"try (root_is {goal.text(value)} {goal.text(sp.sqrt(value))})")
     return lines, goal
 
 
 def _solved(relation: Relation) -> tuple[sp.Symbol, sp.Expr] | None:
+    symbol, value = relation.left, relation.right
+    if symbol.is_Symbol and value.has(sp.exp) and not value.has(symbol) and not symbol.is_nonnegative:
+        return symbol, value  # multiplied out its exponentials would not be those of the goal
     gap = sp.expand(relation.right - relation.left)
     for symbol in sorted(gap.free_symbols, key=lambda s: s.name):
         factor = gap.coeff(symbol)

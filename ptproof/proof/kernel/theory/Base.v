@@ -32,6 +32,9 @@ Qed.
 Lemma rpow_defined : forall x y, 0 <= x -> 0 < y -> 0 < x \/ (x = 0 /\ 0 < y).
 Proof. intros x y [H | H] K; [left | right]; auto. Qed.
 
+Lemma rpow_defined_as : forall x y, x >= 0 -> y > 0 -> 0 < x \/ (x = 0 /\ 0 < y).
+Proof. intros x y H K. apply rpow_defined; lra. Qed.
+
 Lemma Rpower_positive : forall x y, 0 < Rpower x y.
 Proof. intros. apply exp_pos. Qed.
 

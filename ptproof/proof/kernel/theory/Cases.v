@@ -311,3 +311,8 @@ Ltac near_by_sign :=
       first [ sign | let E := fresh in intro E; field_simplify_eq in E; [ lra | sides ] ]
   | |- filterlim _ (at_right 0) (Rbar_locally p_infty) => grows_by_parts
   end.
+(* Absolute values of products, of which one factor has a plain sign. *)
+Ltac absolute_values :=
+  rewrite ?Rabs_mult, ?Rabs_Ropp;
+  repeat match goal with |- context [Rabs ?x] =>
+    let E := fresh in assert (E : Rabs x = x) by (apply Rabs_pos_eq; sign); rewrite E; clear E end.

@@ -122,6 +122,29 @@ Proof.
   - intros s S. destruct (A s S). assert (0 < exp (- F s)) by apply exp_pos. nra.
 Qed.
 
+(* U' = f, and U' = a U. *)
+Lemma is_integral : forall (U F f : R -> R) p q, p <= q ->
+  (forall s, p <= s <= q -> ex_derive U s /\ Derive U s = f s) -> (forall s, p <= s <= q -> is_derive F s (f s)) ->
+  U q = U p + (F q - F p).
+Proof.
+  intros U F f p q L A B. apply Rle_antisym.
+  - apply (integral_bound U F f p q L); [|exact B]. intros s S. destruct (A s S). split; [assumption | lra].
+  - enough (F q <= F p + (U q - U p)) by lra. apply (integral_bound F U f p q L).
+    + intros s S. split; [exists (f s); apply B, S | right; apply is_derive_unique, B, S].
+    + intros s S. destruct (A s S) as [X E]. rewrite <- E. apply Derive_correct, X.
+Qed.
+Lemma is_exponential : forall (U F a : R -> R) p q, p <= q ->
+  (forall s, p <= s <= q -> ex_derive U s /\ Derive U s = a s * U s) -> (forall s, p <= s <= q -> is_derive F s (a s)) ->
+  U q = U p * exp (F q - F p).
+Proof.
+  intros U F a p q L A B. apply Rle_antisym.
+  - apply (exponential_bound U F a p q L); [|exact B]. intros s S. destruct (A s S). split; [assumption | lra].
+  - enough (- U q <= - U p * exp (F q - F p)) by lra. apply (exponential_bound (fun s => - U s) F a p q L); [|exact B].
+    intros s S. destruct (A s S) as [X E]. split.
+    + exists (- Derive U s). apply (is_derive_opp U), Derive_correct, X.
+    + right. rewrite Derive_opp, E. ring.
+Qed.
+
 (* U' <= b - c U, with c > 0 and b >= 0. *)
 Lemma decay_bound : forall (U : R -> R) p q b c w, p <= q -> 0 < c -> 0 <= b -> U p <= w ->
   (forall s, p <= s <= q -> ex_derive U s /\ Derive U s <= b - c * U s) ->
@@ -277,13 +300,24 @@ Ltac premises_of H :=
   repeat match type of H with ?A -> _ =>
     let P := fresh in assert (P : A) by (first [ assumption | lra | sign ]); specialize (H P); clear P
   end.
+Ltac premise H tac :=
+  lazymatch type of H with ?A -> _ =>
+    let P := fresh in assert (P : A) by (first [ assumption | lra | sign | tac ]); specialize (H P); clear P
+  end.
 Ltac rate U s :=
   match goal with H : ?T |- _ =>
     lazymatch T with context [Derive (fun x => U x) _] => let K := fresh in pose proof (H s) as K; premises_of K; facts end
   end.
 Ltac rate_is U s tac :=
   intros s ?; facts; rate U s; split;
-  [ assumption | lazymatch goal with K : Derive _ _ <= ?e |- _ => apply Rle_trans with e; [ exact K | tac ] end ].
+  [ assumption
+  | lazymatch goal with
+    | K : Derive _ _ <= ?e |- _ => apply Rle_trans with e; [ exact K | tac ]
+    | K : Derive _ _ = ?e |- _ => apply Rle_trans with e; [ right; exact K | tac ]
+    end ].
+Ltac rate_equals U s :=
+  intros s ?; facts; rate U s; split;
+  [ assumption | lazymatch goal with K : Derive _ _ = ?e |- _ => apply eq_trans with e; [ exact K | first [ rational | same_values; rational ] ] end ].
 Ltac same := right; first [ rational | same_values; rational ].
 Ltac antiderivative s := intros s ?; facts; auto_derive; [ repeat split; sign | first [ rational | same_values; rational ] ].
 

@@ -100,3 +100,59 @@ Ltac far_away :=
   | |- Rbar_locally p_infty _ => exists 0; intros ? ?; cbv beta; sign
   | |- filterlim _ (Rbar_locally p_infty) (Rbar_locally p_infty) => without_bound
   end.
+
+(* Products of vectors whose squared lengths are bounded. *)
+Lemma product_of_vectors : forall p q x y m, 0 <= m -> (p ^ 2 + q ^ 2) * (x ^ 2 + y ^ 2) <= m ^ 2 ->
+  p * x + q * y <= m /\ - (p * x + q * y) <= m.
+Proof.
+  intros p q x y m M L. assert (S : (p * x + q * y) ^ 2 <= m ^ 2) by (pose proof (pow2_ge_0 (p * y - q * x)); lra).
+  destruct (root_of_squares _ _ M S). lra.
+Qed.
+Lemma dot_by_multiple : forall p q x y c, 0 <= c -> p ^ 2 + q ^ 2 <= c ^ 2 * (x ^ 2 + y ^ 2) ->
+  p * x + q * y <= c * (x ^ 2 + y ^ 2) /\ - (p * x + q * y) <= c * (x ^ 2 + y ^ 2).
+Proof.
+  intros p q x y c C L. assert (P : 0 <= x ^ 2 + y ^ 2) by (pose proof (pow2_ge_0 x); pose proof (pow2_ge_0 y); lra).
+  apply product_of_vectors; [apply Rmult_le_pos; assumption|].
+  apply Rle_trans with (c ^ 2 * (x ^ 2 + y ^ 2) * (x ^ 2 + y ^ 2)); [apply Rmult_le_compat_r; assumption | right; ring].
+Qed.
+Lemma dot_by_lengths : forall c d p q x y, 0 <= c -> 0 <= d -> p ^ 2 + q ^ 2 <= c ^ 2 -> x ^ 2 + y ^ 2 <= d ^ 2 ->
+  p * x + q * y <= c * d /\ - (p * x + q * y) <= c * d.
+Proof.
+  intros c d p q x y C D L M. apply product_of_vectors; [apply Rmult_le_pos; assumption|].
+  rewrite Rpow_mult_distr. apply Rmult_le_compat; try assumption;
+    [ pose proof (pow2_ge_0 p); pose proof (pow2_ge_0 q) | pose proof (pow2_ge_0 x); pose proof (pow2_ge_0 y) ]; lra.
+Qed.
+Lemma squares_below : forall a b s r, 0 <= a -> a <= b -> a ^ 2 = s -> b ^ 2 = r -> s <= r.
+Proof. intros a b s r A L E F. subst s r. apply pow_incr. split; assumption. Qed.
+Ltac squares_of a b s r :=
+  let S := fresh in assert (S : s <= r) by (apply (squares_below a b s r); [ sign | lra | squared | squared ]).
+Ltac dots p q x y c := let D := fresh in
+  assert (D : p * x + q * y <= c * (x ^ 2 + y ^ 2) /\ - (p * x + q * y) <= c * (x ^ 2 + y ^ 2))
+    by (apply (dot_by_multiple p q x y c); [ sign | lra ]); destruct D.
+Ltac dots_by_lengths c d p q x y := let D := fresh in
+  assert (D : p * x + q * y <= c * d /\ - (p * x + q * y) <= c * d)
+    by (apply (dot_by_lengths c d p q x y); [ sign | sign | lra | lra ]); destruct D.
+
+(* Powers of a base that may be 0. *)
+Ltac letter_for name b :=
+  let P := fresh in
+  assert (P : 0 <= b) by (first [ sign | nra | match goal with H : ?a <= ?c |- 0 <= ?c => apply Rle_trans with (2 := H); sign
+    | H : ?a <= ?c |- 0 <= ?d => apply Rle_trans with a; [ sign | replace d with c by rational; exact H ] end ]);
+  set (name := b) in *; clearbody name.
+Lemma nonneg_cases : forall x, 0 <= x -> x = 0 \/ 0 < x.
+Proof. intros x [P | P]; [right; exact P | left; symmetry; exact P]. Qed.
+Ltac zero_or_positive b :=
+  let P := fresh in assert (P : 0 <= b) by sign;
+  let E := fresh in destruct (nonneg_cases b P) as [E | E]; [ rewrite ?E in *; clear E P; try clear b | ].
+Ltac exponent_sign := first [ sign | lra | match goal with |- 0 < ?e => field_simplify e; [ sign | sides ] end
+  | match goal with |- 0 < ?a / ?b => apply Rdiv_lt_0_compat; lra end ].
+Ltac zero_powers :=
+  repeat match goal with
+  | |- context [rpow 0 ?e] => rewrite (rpow_zero 0 e eq_refl) by exponent_sign
+  | H : context [rpow 0 ?e] |- _ => rewrite (rpow_zero 0 e eq_refl) in H by exponent_sign
+  end.
+Ltac positive_powers ::=
+  repeat match goal with
+  | |- context [rpow ?x ?e] => rewrite (rpow_Rpower x e) by sign
+  | H : context [rpow ?x ?e] |- _ => rewrite (rpow_Rpower x e) in H by sign
+  end.

@@ -292,6 +292,8 @@ Ltac point := cbn [fst snd]; sign.
 Ltac known_smooth :=
   cbn [fst snd];
   match goal with H : forall _, _ |- smooth_at _ _ _ => eapply (smooth_lower); [ | apply H; sign ]; lia end.
+(* Said below, where partial derivatives are known to be smooth. *)
+Ltac partials_smoothly := fail.
 Ltac smoothly :=
   cbv beta;
   lazymatch goal with
@@ -313,6 +315,7 @@ Ltac smoothly :=
   | |- smooth_at ?n (fun p => sqrt (@?f p)) _ => apply (smooth_of n sqrt f); [ apply smooth_sqrt; point | smoothly ]
   | |- smooth_at ?n (fun p => Rpower (@?f p) (@?g p)) ?x =>
       change (smooth_at n (fun p => exp (g p * ln (f p))) x); smoothly
+  | |- smooth_at _ (fun p => Derive _ _) _ => partials_smoothly
   | |- smooth_at ?n (fun p => ?h (@?a p) (@?b p) (@?c p)) ?x =>
       is_var h; apply (smooth_of3 n (fun q : R * R * R => h (fst (fst q)) (snd (fst q)) (snd q)) a b c x);
       [ known_smooth | smoothly | smoothly | smoothly ]
@@ -325,6 +328,252 @@ Ltac near_smoothly :=
   cbv beta;
   first
   [ apply filter_forall; intros; cbn [fst snd]; sign
+  | lazymatch goal with
+    | |- locally _ (fun p => @?f p <> 0) => apply (smooth_nonzero f); [ smoothly | point ]
+    | |- locally _ (fun p => 0 < @?f p) => apply (smooth_positive f); [ smoothly | point ]
+    | |- locally _ (fun p => 0 <= @?f p) => apply (smooth_nonneg f); [ smoothly | point ]
+    end ].
+
+(* The chain rule for functions of several variables that are smooth. *)
+Lemma along : forall (F : R -> R -> R) (a b : R -> R) (t da db : R) (l : R * R -> R),
+  filterdiff (fun p : R * R => F (fst p) (snd p)) (locally (a t, b t)) l -> is_derive a t da -> is_derive b t db ->
+  is_derive (fun t => F (a t) (b t)) t (l (da, db)).
+Proof.
+  intros F a b t da db l H A B. pose proof (proj1 H) as L.
+  apply (filterdiff_ext_lin _ (fun v : R => l (scal v da : R, scal v db : R))).
+  - apply (filterdiff_comp' (fun t => (a t, b t)) (fun p : R * R => F (fst p) (snd p)) t
+      (fun v : R => (scal v da : R, scal v db : R)) l); [apply filterdiff_pair; [exact A | exact B] | exact H].
+  - intro v. rewrite <- (linear_scal _ L). reflexivity.
+Qed.
+Lemma chain2 : forall (F : R -> R -> R) (a b : R -> R) (t da db : R),
+  smooth_at 1 (fun p : R * R => F (fst p) (snd p)) (a t, b t) -> is_derive a t da -> is_derive b t db ->
+  is_derive (fun t => F (a t) (b t)) t
+    (Derive (fun x => F x (b t)) (a t) * da + Derive (fun y => F (a t) y) (b t) * db).
+Proof.
+  intros F a b t da db [D [_ [P [l [H _]]]]] A B. specialize (H _ P). pose proof (proj1 H) as L.
+  assert (E : Derive (fun x => F x (b t)) (a t) = l (a t, b t) (1, 0)).
+  { apply is_derive_unique. apply (along F (fun x => x) (fun _ => b t) (a t) 1 0); [exact H | apply (is_derive_id (a t)) | apply (is_derive_const (b t))]. }
+  assert (G : Derive (fun y => F (a t) y) (b t) = l (a t, b t) (0, 1)).
+  { apply is_derive_unique. apply (along F (fun _ => a t) (fun y => y) (b t) 0 1); [exact H | apply (is_derive_const (a t)) | apply (is_derive_id (b t))]. }
+  rewrite E, G. pose proof (along F a b t da db _ H A B) as K.
+  replace (l (a t, b t) (1, 0) * da + l (a t, b t) (0, 1) * db) with (l (a t, b t) (da, db)); [exact K|].
+  replace ((da, db) : R * R) with (plus (scal da ((1, 0) : R * R)) (scal db ((0, 1) : R * R)) : R * R).
+  - rewrite (linear_plus _ L), !(linear_scal _ L). unfold plus, scal; simpl; unfold mult; simpl. as_reals. ring.
+  - unfold plus, scal; simpl; unfold prod_plus, prod_scal, plus, scal; simpl; unfold mult; simpl. f_equal; ring.
+Qed.
+Lemma partial1 : forall (F : R -> R -> R) x y, smooth_at 1 (fun p : R * R => F (fst p) (snd p)) (x, y) -> ex_derive (fun x => F x y) x.
+Proof.
+  intros F x y [D [_ [P [l [H _]]]]]. eexists. apply (along F (fun x => x) (fun _ => y) x 1 0 _ (H _ P)); [apply (is_derive_id x) | apply (is_derive_const y)].
+Qed.
+Lemma partial2 : forall (F : R -> R -> R) x y, smooth_at 1 (fun p : R * R => F (fst p) (snd p)) (x, y) -> ex_derive (fun y => F x y) y.
+Proof.
+  intros F x y [D [_ [P [l [H _]]]]]. eexists. apply (along F (fun _ => x) (fun y => y) y 0 1 _ (H _ P)); [apply (is_derive_const x) | apply (is_derive_id y)].
+Qed.
+Lemma on_ext_open : forall n (V : NormedModule R_AbsRing) (D : V -> Prop) (f g : V -> R), open D ->
+  (forall p, D p -> f p = g p) -> smooth_on n D f -> smooth_on n D g.
+Proof.
+  intros [|n] V D f g O E; simpl.
+  - intros H p P. apply (continuous_ext_loc g f p); [exact (filter_imp D _ E (O p P)) | exact (H p P)].
+  - intros [l [A B]]. exists l. split; [|exact B]. intros p P.
+    apply (filterdiff_ext_locally f g); [exact (filter_imp D _ E (O p P)) | exact (A p P)].
+Qed.
+Lemma smooth_partial1 : forall n (F : R -> R -> R),
+  (forall a b, smooth_at (S n) (fun q : R * R => F (fst q) (snd q)) (a, b)) ->
+  forall a b, smooth_at n (fun q : R * R => Derive (fun x => F x (snd q)) (fst q)) (a, b).
+Proof.
+  intros n F S a b. destruct (S a b) as [D [O [P [l [H L]]]]]. exists D. repeat split; [exact O | exact P |].
+  apply (on_ext_open n _ D (fun q => l q (1, 0))); [exact O | | apply L].
+  intros [x y] Q. symmetry. apply is_derive_unique. simpl.
+  apply (along F (fun x => x) (fun _ => y) x 1 0 _ (H _ Q)); [apply (is_derive_id x) | apply (is_derive_const y)].
+Qed.
+Lemma smooth_partial2 : forall n (F : R -> R -> R),
+  (forall a b, smooth_at (S n) (fun q : R * R => F (fst q) (snd q)) (a, b)) ->
+  forall a b, smooth_at n (fun q : R * R => Derive (fun y => F (fst q) y) (snd q)) (a, b).
+Proof.
+  intros n F S a b. destruct (S a b) as [D [O [P [l [H L]]]]]. exists D. repeat split; [exact O | exact P |].
+  apply (on_ext_open n _ D (fun q => l q (0, 1))); [exact O | | apply L].
+  intros [x y] Q. symmetry. apply is_derive_unique. simpl.
+  apply (along F (fun _ => x) (fun y => y) y 0 1 _ (H _ Q)); [apply (is_derive_const x) | apply (is_derive_id y)].
+Qed.
+Lemma chain1 : forall (g a : R -> R) t da, ex_derive g (a t) -> is_derive a t da -> is_derive (fun t => g (a t)) t (Derive g (a t) * da).
+Proof.
+  intros g a t da G A. rewrite Rmult_comm. apply (is_derive_comp g a t); [apply Derive_correct, G | exact A].
+Qed.
+Lemma smooth_derivable : forall (g : R -> R) x, smooth_at 1 (fun p : R => g p) x -> ex_derive g x.
+Proof.
+  intros g x [D [_ [P [l [H _]]]]]. exists (l x 1). specialize (H _ P). pose proof (proj1 H) as L.
+  apply (filterdiff_ext_lin _ (l x)); [exact H|]. intro v. rewrite <- (linear_scal _ L). f_equal. symmetry. exact (Rmult_1_r v).
+Qed.
+
+(* Derivatives by structure, of functions that are unknown too. *)
+Lemma rate_of_plus : forall (f g : R -> R) t a b, is_derive f t a -> is_derive g t b -> is_derive (fun t => f t + g t) t (a + b).
+Proof. intros. apply (is_derive_plus f g); assumption. Qed.
+Lemma rate_of_minus : forall (f g : R -> R) t a b, is_derive f t a -> is_derive g t b -> is_derive (fun t => f t - g t) t (a - b).
+Proof. intros. apply (is_derive_minus f g); assumption. Qed.
+Lemma rate_of_opp : forall (f : R -> R) t a, is_derive f t a -> is_derive (fun t => - f t) t (- a).
+Proof. intros. apply (is_derive_opp f); assumption. Qed.
+Lemma rate_of_mult : forall (f g : R -> R) t a b, is_derive f t a -> is_derive g t b ->
+  is_derive (fun t => f t * g t) t (a * g t + f t * b).
+Proof. intros. apply (is_derive_mult f g); [assumption | assumption | intros; apply Rmult_comm]. Qed.
+Lemma rate_of_inv : forall (f : R -> R) t a, f t <> 0 -> is_derive f t a -> is_derive (fun t => / f t) t (- a / f t ^ 2).
+Proof. intros. apply is_derive_inv; assumption. Qed.
+Lemma rate_of_pow : forall (f : R -> R) n t a, is_derive f t a -> is_derive (fun t => f t ^ n) t (INR n * a * f t ^ pred n).
+Proof. intros. apply is_derive_pow; assumption. Qed.
+Lemma rate_of_const : forall (c t : R), is_derive (fun _ => c) t 0.
+Proof. intros. apply (is_derive_const c). Qed.
+Lemma rate_of_id : forall t : R, is_derive (fun t => t) t 1.
+Proof. intros. apply (is_derive_id t). Qed.
+Lemma rate_of_exp : forall (f : R -> R) t a, is_derive f t a -> is_derive (fun t => exp (f t)) t (a * exp (f t)).
+Proof. intros. apply (is_derive_comp exp f); [apply is_derive_exp | assumption]. Qed.
+Lemma rate_of_ln : forall (f : R -> R) t a, 0 < f t -> is_derive f t a -> is_derive (fun t => ln (f t)) t (a * / f t).
+Proof. intros. apply (is_derive_comp ln f); [apply is_derive_ln; assumption | assumption]. Qed.
+Lemma rate_of_sqrt : forall (f : R -> R) t a, 0 < f t -> is_derive f t a -> is_derive (fun t => sqrt (f t)) t (a * / (2 * sqrt (f t))).
+Proof.
+  intros f t a P A. apply (is_derive_comp sqrt f t); [|assumption]. auto_derive; [exact P | field].
+  pose proof (sqrt_lt_R0 _ P). lra.
+Qed.
+Lemma rate_of_Rpower : forall (f : R -> R) e t a, 0 < f t -> is_derive f t a ->
+  is_derive (fun t => Rpower (f t) e) t (a * (e / f t * Rpower (f t) e)).
+Proof.
+  intros f e t a P A. apply (is_derive_comp (fun x => Rpower x e) f t); [|assumption].
+  unfold Rpower. auto_derive; [exact P | field; lra].
+Qed.
+Lemma rate_of_rpow : forall (f : R -> R) e t a, 0 < f t -> is_derive f t a ->
+  is_derive (fun t => rpow (f t) e) t (a * (e / f t * rpow (f t) e)).
+Proof.
+  intros f e t a P A. rewrite rpow_Rpower by exact P.
+  apply (is_derive_ext_loc (fun t => Rpower (f t) e)); [|apply rate_of_Rpower; assumption].
+  assert (N : locally t (fun y => 0 < f y)) by (apply (near_positive f); [eexists; exact A | exact P]).
+  revert N. apply filter_imp. intros y Y. rewrite rpow_Rpower by exact Y. reflexivity.
+Qed.
+Lemma rate_of_sin : forall (f : R -> R) t a, is_derive f t a -> is_derive (fun t => sin (f t)) t (a * cos (f t)).
+Proof. intros. apply (is_derive_comp sin f); [apply is_derive_sin | assumption]. Qed.
+Lemma rate_of_cos : forall (f : R -> R) t a, is_derive f t a -> is_derive (fun t => cos (f t)) t (a * - sin (f t)).
+Proof. intros. apply (is_derive_comp cos f); [apply is_derive_cos | assumption]. Qed.
+Lemma rate_value : forall (f : R -> R) (t l e : R), is_derive f t l -> l = e -> is_derive f t e.
+Proof. intros f t l e D E. rewrite <- E. exact D. Qed.
+Lemma rate_of_unknown : forall (h : R -> R) (t : R), ex_derive h t -> is_derive h t (Derive (fun x : R => h x) t).
+Proof. intros h t D. apply (Derive_correct h), D. Qed.
+Ltac smooth_enough := cbv beta; match goal with H : forall _, _ |- smooth_at _ _ _ => eapply smooth_lower; [ | apply H ]; lia end.
+Ltac rated :=
+  cbv beta;
+  lazymatch goal with
+  | |- is_derive (fun _ => ?c) _ _ => apply rate_of_const
+  | |- is_derive (fun t => t) _ _ => apply rate_of_id
+  | |- is_derive (fun t => @?f t + @?g t) _ _ => eapply (rate_of_plus f g); rated
+  | |- is_derive (fun t => @?f t - @?g t) _ _ => eapply (rate_of_minus f g); rated
+  | |- is_derive (fun t => - @?f t) _ _ => eapply (rate_of_opp f); rated
+  | |- is_derive (fun t => @?f t * @?g t) _ _ => eapply (rate_of_mult f g); rated
+  | |- is_derive (fun t => @?f t / @?g t) _ _ => eapply (rate_of_mult f (fun t => / g t)); rated
+  | |- is_derive (fun t => / @?f t) _ _ => eapply (rate_of_inv f); [ cbv beta; sign | rated ]
+  | |- is_derive (fun t => (@?f t) ^ ?n) _ _ => eapply (rate_of_pow f n); rated
+  | |- is_derive (fun t => exp (@?f t)) _ _ => eapply (rate_of_exp f); rated
+  | |- is_derive (fun t => sin (@?f t)) _ _ => eapply (rate_of_sin f); rated
+  | |- is_derive (fun t => cos (@?f t)) _ _ => eapply (rate_of_cos f); rated
+  | |- is_derive (fun t => ln (@?f t)) _ _ => eapply (rate_of_ln f); [ cbv beta; sign | rated ]
+  | |- is_derive (fun t => sqrt (@?f t)) _ _ => eapply (rate_of_sqrt f); [ cbv beta; sign | rated ]
+  | |- is_derive (fun t => Rpower (@?f t) ?e) _ _ => eapply (rate_of_Rpower f e); [ cbv beta; sign | rated ]
+  | |- is_derive (fun t => rpow (@?f t) ?e) _ _ => eapply (rate_of_rpow f e); [ cbv beta; sign | rated ]
+  | |- is_derive (fun t => ?h (@?a t) (@?b t)) _ _ => is_var h; eapply (chain2 h a b); [ smooth_enough | rated | rated ]
+  | |- is_derive (fun t => ?h t) ?t _ => is_var h; apply (rate_of_unknown h); derivable
+  | |- is_derive (fun t => ?h (@?a t)) _ _ => is_var h; eapply (chain1 (fun x : R => h x) a); [ derivable | rated ]
+  | |- is_derive ?h ?t _ => is_var h; apply (rate_of_unknown h); derivable
+  end
+with derivable := cbv beta; first
+  [ assumption
+  | match goal with H : forall _, _ |- ex_derive ?f ?x => solve [ apply (smooth_derivable f); smooth_enough | apply H; first [ assumption | lra ] ] end
+  | lazymatch goal with
+    | |- ex_derive (fun x => ?h x ?y) ?z => is_var h; apply (partial1 h z y); smooth_enough
+    | |- ex_derive (fun y => ?h ?x y) ?z => is_var h; apply (partial2 h x z); smooth_enough
+    end
+  | eexists; rated ].
+Ltac derivative_as d e :=
+  let E := fresh in
+  assert (E : d = e) by (apply is_derive_unique; eapply rate_value; [ rated | cbn [INR pred]; rational ]); rewrite ?E in *; clear E.
+
+(* Values of unknown functions, and their derivatives, as numbers. *)
+Ltac named a e := set (a := e) in *; clearbody a.
+(* Equal up to the order in which sums and products are written, also inside functions. *)
+Ltac of_library f := first [ is_var f | constr_eq f exp | constr_eq f ln | constr_eq f sqrt | constr_eq f Rabs | constr_eq f sin
+  | constr_eq f cos ].
+Ltac alike := as_reals; first [ reflexivity | ring | field; sides | solve [ same_heads; first [ reflexivity | ring | field; sides ] ] ]
+with same_heads :=
+  repeat match goal with
+  | |- context [?f ?a] =>
+      of_library f;
+      match goal with |- context [f ?b] => assert_fails (constr_eq a b);
+        let E := fresh in assert (E : f a = f b) by (f_equal; alike); rewrite E; clear E end
+  | |- context [?f ?a ?c] =>
+      first [ is_var f | constr_eq f rpow | constr_eq f Rpower | constr_eq f Rmax | constr_eq f Rmin ];
+      match goal with |- context [f ?b ?d] => assert_fails (constr_eq (f a c) (f b d));
+        let E := fresh in assert (E : f a c = f b d) by (f_equal; alike); rewrite E; clear E end
+  | |- context [?f ?a ?c ?e] =>
+      is_var f;
+      match goal with |- context [f ?b ?d ?g] => assert_fails (constr_eq (f a c e) (f b d g));
+        let E := fresh in assert (E : f a c e = f b d g) by (f_equal; alike); rewrite E; clear E end
+  end.
+Lemma le_as : forall a b c d : R, a <= b -> c = a -> d = b -> c <= d.
+Proof. intros; lra. Qed.
+Lemma lt_as : forall a b c d : R, a < b -> c = a -> d = b -> c < d.
+Proof. intros; lra. Qed.
+Lemma ge_as : forall a b c d : R, a >= b -> c = a -> d = b -> c >= d.
+Proof. intros; lra. Qed.
+Lemma gt_as : forall a b c d : R, a > b -> c = a -> d = b -> c > d.
+Proof. intros; lra. Qed.
+Lemma eq_as : forall a b c d : R, a = b -> c = a -> d = b -> c = d.
+Proof. intros; lra. Qed.
+Lemma ne_as : forall a b c d : R, a <> b -> c = a -> d = b -> c <> d.
+Proof. intros; lra. Qed.
+Ltac last_of H := lazymatch type of H with _ /\ _ => let P := fresh in destruct H as [P H]; last_of H | _ => idtac end.
+Ltac as_said H :=
+  lazymatch type of H with
+  | _ <= _ => apply (le_as _ _ _ _ H); alike
+  | _ < _ => apply (lt_as _ _ _ _ H); alike
+  | _ >= _ => apply (ge_as _ _ _ _ H); alike
+  | _ > _ => apply (gt_as _ _ _ _ H); alike
+  | _ = _ => apply (eq_as _ _ _ _ H); alike
+  | _ <> _ => apply (ne_as _ _ _ _ H); alike
+  end.
+Ltac shown_as c d :=
+  lazymatch goal with
+  | |- ?a <= ?b => apply (le_as c d a b); [ | alike | alike ]
+  | |- ?a < ?b => apply (lt_as c d a b); [ | alike | alike ]
+  | |- ?a >= ?b => apply (ge_as c d a b); [ | alike | alike ]
+  | |- ?a > ?b => apply (gt_as c d a b); [ | alike | alike ]
+  | |- ?a = ?b => apply (eq_as c d a b); [ | alike | alike ]
+  | |- ?a <> ?b => apply (ne_as c d a b); [ | alike | alike ]
+  end.
+Ltac found_as := first [ assumption | match goal with H : _ |- _ => as_said H end ].
+
+(* Partial derivatives of a function of two arguments that is smooth everywhere. *)
+Ltac partial_smooth h :=
+  let known := (intros; cbv beta; cbn [fst snd]; known_smooth) in
+  first [ known | apply (smooth_partial1 _ h); known | apply (smooth_partial2 _ h); known
+  | apply (smooth_partial1 _ (fun x y => Derive (fun x => h x y) x)); intros; apply (smooth_partial1 _ h); known
+  | apply (smooth_partial2 _ (fun x y => Derive (fun x => h x y) x)); intros; apply (smooth_partial1 _ h); known
+  | apply (smooth_partial1 _ (fun x y => Derive (fun y => h x y) y)); intros; apply (smooth_partial2 _ h); known
+  | apply (smooth_partial2 _ (fun x y => Derive (fun y => h x y) y)); intros; apply (smooth_partial2 _ h); known ].
+Ltac partials_smoothly ::=
+  cbv beta;
+  lazymatch goal with
+  | |- smooth_at ?n (fun p => Derive (fun x => Derive (fun z => ?h z (@?b p)) x) (@?a p)) ?w =>
+      apply (smooth_of2 n (fun q : R * R => Derive (fun x => Derive (fun z => h z (snd q)) x) (fst q)) a b w); [ partial_smooth h | smoothly | smoothly ]
+  | |- smooth_at ?n (fun p => Derive (fun y => Derive (fun z => ?h z y) (@?a p)) (@?b p)) ?w =>
+      apply (smooth_of2 n (fun q : R * R => Derive (fun y => Derive (fun z => h z y) (fst q)) (snd q)) a b w); [ partial_smooth h | smoothly | smoothly ]
+  | |- smooth_at ?n (fun p => Derive (fun x => Derive (fun z => ?h x z) (@?b p)) (@?a p)) ?w =>
+      apply (smooth_of2 n (fun q : R * R => Derive (fun x => Derive (fun z => h x z) (snd q)) (fst q)) a b w); [ partial_smooth h | smoothly | smoothly ]
+  | |- smooth_at ?n (fun p => Derive (fun y => Derive (fun z => ?h (@?a p) z) y) (@?b p)) ?w =>
+      apply (smooth_of2 n (fun q : R * R => Derive (fun y => Derive (fun z => h (fst q) z) y) (snd q)) a b w); [ partial_smooth h | smoothly | smoothly ]
+  | |- smooth_at ?n (fun p => Derive (fun x => ?h x (@?b p)) (@?a p)) ?w =>
+      apply (smooth_of2 n (fun q : R * R => Derive (fun x => h x (snd q)) (fst q)) a b w); [ partial_smooth h | smoothly | smoothly ]
+  | |- smooth_at ?n (fun p => Derive (fun y => ?h (@?a p) y) (@?b p)) ?w =>
+      apply (smooth_of2 n (fun q : R * R => Derive (fun y => h (fst q) y) (snd q)) a b w); [ partial_smooth h | smoothly | smoothly ]
+  end.
+Ltac derivable_near := cbv beta; cbn [fst snd]; first [ derivable | apply filter_forall; intros; derivable_near ].
+Ltac near_smoothly ::=
+  cbv beta;
+  first
+  [ apply filter_forall; intros; cbn [fst snd]; first [ sign | derivable_near ]
   | lazymatch goal with
     | |- locally _ (fun p => @?f p <> 0) => apply (smooth_nonzero f); [ smoothly | point ]
     | |- locally _ (fun p => 0 < @?f p) => apply (smooth_positive f); [ smoothly | point ]
