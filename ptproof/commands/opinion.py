@@ -55,6 +55,7 @@ def confirmed(
     from ptproof.commands.terminal import progress
     from ptproof.proof.kernel import check
     from ptproof.proof.kernel.check import with_opinion
+    from ptproof.proof.kernel.lemmas import settled
     from ptproof.proof.verdict import Verdict
 
     proved = [result.claim for result in verification.results if result.verdict is Verdict.PROVED]
@@ -70,15 +71,19 @@ def confirmed(
             check(proved, workers=jobs, keep=keep, progress=heard, memory=memory)
         except KeyboardInterrupt:
             status = guard.interrupt_status()
-    known = {claim.id: said[claim.id] for claim in proved if claim.id in said}  # those that come in later are too late
+    # Those that come in later are too late.
+    known = settled({claim.id: said[claim.id] for claim in proved if claim.id in said})
     _say(known, len(proved), interrupted=status is not None)
     return replace(verification, results=with_opinion(verification.results, known)), status
 
 
 def _say(known: Mapping[str, Confirmation], proved: int, interrupted: bool) -> None:
     left = {name: answer.reason for name, answer in known.items() if not answer.confirmed}
+    used = sum(answer.confirmed and bool(answer.given) for answer in known.values())
     again = sum(answer.remembered for answer in known.values())
     words = f"Coq's kernel confirmed {len(known) - len(left)} of {proved} proved claims"
+    if used:
+        words += f", {used} of them by claims that they use"
     if again:
         words += f", {again} answers are remembered"
     if interrupted:

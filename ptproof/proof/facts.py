@@ -14,6 +14,7 @@ from functools import wraps
 from typing import Any, ParamSpec, Protocol
 
 from ptproof.errors import InputError
+from ptproof.proof import steps
 from ptproof.proof.definedness import domain_of
 from ptproof.proof.statement import Assumption, Implication, Relation
 
@@ -72,7 +73,9 @@ def lemma(statement: Callable[P, Implication]) -> Callable[P, Fact]:
 
     @wraps(statement)
     def made(*arguments: P.args, **options: P.kwargs) -> Fact:
-        return Fact(statement(*arguments, **options), seal=_SEAL)
+        says = statement(*arguments, **options)
+        steps.note(steps.Lemma(says))
+        return Fact(says, seal=_SEAL)
 
     return made
 

@@ -16,6 +16,7 @@ from typing import Any, TypeAlias
 import sympy as sp
 
 from ptproof.errors import InputError
+from ptproof.proof import steps
 from ptproof.proof.claim import Claim, Goal
 from ptproof.proof.declarations import SAYS, like
 from ptproof.proof.engines.reals import Answer, are_met, follows
@@ -68,6 +69,8 @@ def instances(goal: Goal, *points: Point) -> list[Fact]:
     A point of an assumption on several variables is a tuple.
     """
     known = goal.relations
+    for point in points:
+        steps.note(steps.At(tuple(point) if isinstance(point, tuple | sp.Tuple) else (point,)))
     found = (at_point(item, sp.sympify(point), known) for item in goal.assumptions if isinstance(item, ForAll)
              for point in points)  # fmt: skip
     return [resting_on(goal, Implication((), relation)) for relation in found if relation is not None]
@@ -81,6 +84,7 @@ def entailed(needed: ForAll, goal: Goal, facts: Sequence[Fact] = (), along: Alon
     variables.
     """
     if needed in goal.assumptions:
+        steps.note(steps.Anywhere())
         return Answer(True, "it is assumed")
     # Fresh symbols: nothing that is assumed about a free symbol of the same name may be used.
     said_here = [part for fact in facts for part in (*fact.says.hypotheses, fact.says.conclusion)]
@@ -89,7 +93,9 @@ def entailed(needed: ForAll, goal: Goal, facts: Sequence[Fact] = (), along: Alon
     point = sp.Tuple(*values.values()) if len(values) > 1 else next(iter(values.values()))
     there = Substitution(values)
     inside = replace(goal, assumptions=(*goal.assumptions, *map(there.relation, needed.domain)))
-    said = usable(inside, [*facts, *(along(inside, point) if along else ())])
+    with steps.noting() as noted:
+        said = usable(inside, [*facts, *(along(inside, point) if along else ())])
+    steps.note(steps.Anywhere(tuple(values.values()), tuple(noted)))
     known = list(inside.relations)
     for item in goal.assumptions:
         if isinstance(item, ForAll):
@@ -137,10 +143,12 @@ def specialise(
         quantified = [there.quantified(item) for item in used.assumptions if isinstance(item, ForAll)]
     except InputError as error:
         raise InputError(f"{goal.id}: {used.id} is specialised, but {error}") from error
-    for item in quantified:
-        answer = entailed(item, goal, facts, along)
-        if not answer.shown:
-            raise InputError(f"{goal.id}: what {used.id} assumes does not follow: {item} ({answer.how})")
+    with steps.noting() as assumed:
+        for item in quantified:
+            answer = entailed(item, goal, facts, along)
+            if not answer.shown:
+                raise InputError(f"{goal.id}: what {used.id} assumes does not follow: {item} ({answer.how})")
+    steps.put(used.content, there.values, assumed)
     hypotheses = [there.relation(part) for part in plain(used.assumptions)]
     for need in there.domain:
         if need.given or need.relation is None:

@@ -5,16 +5,16 @@ from __future__ import annotations
 import os
 import tempfile
 import threading
-import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from typing import TYPE_CHECKING
 
 from ptproof.proof.claim import Claim
 from ptproof.proof.kernel import coq, remembered
-from ptproof.proof.kernel.hints.portfolio import script
+from ptproof.proof.kernel.asking import EFFORTS, Asking, Effort
+from ptproof.proof.kernel.lemmas import Noted, settled
 from ptproof.proof.kernel.remembered import Confirmation
 from ptproof.proof.kernel.terms import NoTranslation
 from ptproof.proof.kernel.theorem import Proposition, proposition
@@ -27,15 +27,10 @@ if TYPE_CHECKING:
 SECONDS_PER_CLAIM = 40.0
 # Most of a file's time goes into reading the libraries and finding the axioms, at 2 to 7 s however many claims it has;
 # fewer than these are left to one process, and not more, so that what comes in is seen.
-_IN_A_FILE = (6, 24)
-_TO_START = 30.0
+_IN_A_FILE = (6, 12)
 
 
 Progress = Callable[[Claim, Confirmation], None]
-Effort: TypeAlias = Literal["quick", "thorough"]
-EFFORTS: tuple[Effort, ...] = ("quick", "thorough")
-Asked: TypeAlias = tuple[Claim, Proposition]
-Stated: TypeAlias = tuple[Claim, Proposition, coq.Theorem]
 
 
 def check(
@@ -54,12 +49,13 @@ def check(
     timeout
         The time limit of one claim. [s]
     progress
-        Called with each claim and what became of it, as it comes in.
+        Called with each claim and what became of it, as it comes in: what follows from lemmas is not confirmed yet, and
+        is so by :func:`ptproof.proof.kernel.lemmas.settled` of all that is known.
     keep
         A folder in which the files for Coq are left.
     efforts
-        What is tried one after the other while Coq finds no proof: "quick" hints, and "thorough" ones, which take
-        longer to find.
+        What is tried one after the other while Coq finds no proof: "quick" hints, the claims that this one uses as
+        "lemmas", and "thorough" hints, which take longer to find.
     memory
         Where answers are kept as they come in, but for those that were late. Nothing is recalled where files are to
         be left in ``keep``.
@@ -84,109 +80,70 @@ def check(
             if progress is not None:
                 progress(claim, confirmation)
 
-    lacking, asked = coq.missing(), list[Asked]()
-    for claim in wanted:
-        try:
-            said = None if lacking else proposition(claim)
-        except NoTranslation as error:
-            answer(claim, Confirmation(False, str(error)))
-            continue
-        if said is None:
-            answer(claim, Confirmation(False, lacking))
-        elif memory and keep is None and (known := remembered.recall(memory, said.text, efforts)):
-            answer(claim, known)
-        else:
-            asked.append((claim, said))
-
     def learn(claim: Claim, confirmation: Confirmation) -> None:
         if memory is not None:
             remembered.keep(memory, confirmation, efforts)
         answer(claim, confirmation)
 
+    asked: list[tuple[Claim, Proposition]] = []
+    for claim, known in _known(wanted, None if keep else memory, efforts):
+        if isinstance(known, Confirmation):
+            answer(claim, known)
+        else:
+            asked.append((claim, known))
     if asked:
         _ask(asked, workers or os.cpu_count() or 1, timeout, efforts, keep, learn)
+    answers = settled(answers)
     return {claim.id: answers[claim.id] for claim in wanted}
 
 
+def _known(
+    claims: Iterable[Claim], memory: Memory | None, efforts: Sequence[Effort]
+) -> Iterator[tuple[Claim, Confirmation | Proposition]]:
+    """What is known of each claim before Coq is asked, or what Coq is to be asked."""
+    lacking = coq.missing()
+    for claim in claims:
+        try:
+            said = None if lacking else proposition(claim)
+        except NoTranslation as error:
+            yield claim, Confirmation(False, str(error))
+            continue
+        if said is None:
+            yield claim, Confirmation(False, lacking)
+        else:
+            yield claim, (memory and remembered.recall(memory, said.text, efforts)) or said
+
+
 def _ask(
-    asked: Sequence[Asked], processes: int, timeout: float, efforts: Sequence[Effort], keep: Path | None,
-    answer: Progress,
+    asked: Sequence[tuple[Claim, Proposition]], processes: int, timeout: float, efforts: Sequence[Effort],
+    keep: Path | None, answer: Progress,
 ) -> None:  # fmt: skip
-    """What Coq says of each, in files of several."""
+    """What Coq says of each, in files of several; meanwhile the steps of their proofs are noted."""
     least, most = _IN_A_FILE
     size = min(max(least, -(-len(asked) // processes)), most)
     stop = threading.Event()
+    noted = Noted([claim for claim, _ in asked if claim.uses and "lemmas" in efforts], processes, timeout)
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as temporary:
         folder = Path(temporary) if keep is None else keep
         folder.mkdir(parents=True, exist_ok=True)
         coq.prepare(folder)
+        asking = Asking(folder, timeout, tuple(efforts), stop, noted.of)
 
         def work(number: int) -> None:
-            part = asked[number * size : (number + 1) * size]
-            for claim, confirmation in _answers(folder, number, part, timeout, efforts, stop):
+            for claim, confirmation in asking.answers(number, asked[number * size : (number + 1) * size]):
                 answer(claim, confirmation)
 
         pool = ThreadPoolExecutor(processes)
         try:
-            for _ in pool.map(work, range(-(-len(asked) // size))):
-                pass
+            working = [pool.submit(work, number) for number in range(-(-len(asked) // size))]
+            noted.take()
+            for part in working:
+                part.result()
         finally:
             # A search for hints cannot be stopped, and is not waited for if this ends before its time.
             stop.set()
+            noted.stop()
             pool.shutdown(wait=False, cancel_futures=True)
-
-
-def _answers(
-    folder: Path, number: int, asked: Sequence[Asked], timeout: float, efforts: Sequence[Effort], stop: threading.Event
-) -> Iterator[tuple[Claim, Confirmation]]:
-    """What Coq says of these claims; those at which it stops are asked again, with more hints."""
-    left = [(claim, said, _theorem(said, f"{said.name}_{number}", efforts[0])) for claim, said in asked]
-    run = 0
-    tries = dict.fromkeys((claim.id for claim, *_ in left), 1)
-    while left and not stop.is_set():
-        theorems = [theorem for *_, theorem in left]
-        file = folder / f"claims_{number:03d}{f'_{run}' if run else ''}.v"
-        file.write_text(coq.source(theorems, timeout), encoding="utf-8")
-        start = time.perf_counter()
-        printed = coq.ask(folder, file.name, _TO_START + 2 * timeout * len(left), stop)
-        if stop.is_set():
-            return
-        heard = coq.heard(printed.output, theorems)
-        # What was proved before Coq was ended, and has not been looked at to the end, is asked again.
-        there = coq.proved(printed.output, theorems)
-        reasons: dict[str, coq.Refusal | None] = {
-            theorem.name: None if theorem.name in there else printed.stopped(theorem)
-            for theorem in theorems
-            if theorem.name not in heard
-        }
-        moved = bool(heard) or any(reason is not None for reason in reasons.values())
-        seconds = (time.perf_counter() - start) / len(left)
-        again: list[Stated] = []
-        for claim, said, theorem in left:
-            if (against := heard.get(theorem.name)) is not None:
-                yield claim, Confirmation(not against, against, said.text, seconds)
-                continue
-            reason = reasons[theorem.name]
-            if reason is None and moved:  # Coq was ended before it came to this one
-                again.append((claim, said, theorem))
-            elif reason is not None and tries[claim.id] < len(efforts):
-                again.append((claim, said, _theorem(said, theorem.name, efforts[tries[claim.id]])))
-                tries[claim.id] += 1
-            else:
-                why = reason or coq.Refusal("Coq gave no answer", late=True)
-                yield claim, Confirmation(False, why.reason, said.text, seconds, late=why.late)
-        left = again
-        run += 1
-
-
-def _theorem(said: Proposition, name: str, effort: Effort) -> coq.Theorem:
-    """The proposition with its tactics; where the search for hints fails, Coq is told so in their place."""
-    try:
-        tactics = script(said, thorough=effort == "thorough")
-    except Exception as error:  # SymPy's, of whatever kind: the claim is without hints, the others are not
-        reason = f"{type(error).__name__} in the search for hints: {error}".replace('"', "'")
-        tactics = f'fail 0 "at" "{" ".join(reason.split())}"'
-    return coq.Theorem(name, said.text, tactics)
 
 
 def with_opinion(results: Sequence[Result], said: Mapping[str, Confirmation]) -> tuple[Result, ...]:
@@ -198,4 +155,6 @@ def _with(result: Result, said: Confirmation | None) -> Result:
     if said is None or not said.confirmed or result.verdict is not Verdict.PROVED:
         return result
     detail = "restated for Coq with what has to be defined, and its proof checked by Coq's kernel"
+    if said.given:
+        detail += f", with {len(said.given)} of the claims that it uses as lemmas, which Coq has confirmed"
     return replace(result, evidence=(*result.evidence, Evidence("coq", Verdict.PROVED, detail, said.seconds)))

@@ -18,7 +18,7 @@ from pathlib import Path
 
 # The parts of the library, each after those that it builds upon. They are compiled as one file: most of the time that
 # Coq takes for a short one goes into reading what it requires.
-LIBRARY = ("Base", "Cases", "Comparison", "Smooth", "Powers", "Equations")
+LIBRARY = ("Base", "Cases", "Comparison", "Smooth", "Powers", "Equations", "Lemmas")
 _THEORY = "Theory"
 # What a theorem may rest on, and what needs it. Nothing else may be assumed.
 AXIOMS: Mapping[str, str] = {

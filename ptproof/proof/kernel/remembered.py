@@ -18,6 +18,7 @@ class Confirmation:
 
     ``proposition`` is the claim in Coq's words, where it has a translation. ``seconds`` is how long the file took that
     the claim stood in, shared among its claims. [s] ``late``: for want of time; ``remembered``: from an earlier run.
+    ``given`` are the propositions of the claims from which Coq has shown that it follows; it is confirmed if they are.
     """
 
     confirmed: bool
@@ -26,13 +27,14 @@ class Confirmation:
     seconds: float = 0.0
     late: bool = False
     remembered: bool = False
+    given: tuple[str, ...] = ()
 
 
 def recall(memory: Memory, proposition: str, efforts: Sequence[str]) -> Confirmation | None:
     """What an earlier run was answered about this very text, with these efforts and this version of Coq."""
     match memory.recall_said(*_key(proposition, efforts)):
-        case {"confirmed": bool(confirmed), "reason": str(reason), "seconds": int() | float() as seconds}:
-            return Confirmation(confirmed, reason, proposition, seconds, remembered=True)
+        case {"confirmed": bool(sure), "reason": str(why), "seconds": int() | float() as seconds, "given": list(given)}:
+            return Confirmation(sure, why, proposition, seconds, remembered=True, given=tuple(map(str, given)))
     return None
 
 

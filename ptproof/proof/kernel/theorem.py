@@ -67,11 +67,11 @@ def proposition(claim: Claim) -> Proposition:
     derivatives = {part for expression in expressions_of(statements) for part in expression.atoms(sp.Derivative)}
     premises += map(Part, declared.of_derivatives(derivatives, names))
     if not isinstance(claim.statement, Smooth):
-        premises += smooth.of_derivatives(derivatives, names)
+        premises += smooth.of_derivatives(derivatives, applied, names)
     else:
         premises += smooth.premises(claim.statement, functions, names)
     for item in claim.assumptions:
-        premises += _given(item, names)
+        premises += given(item, names)
     conclusions, domain = _said(claim.statement, names)
     if claim.where_defined:
         premises += domain
@@ -139,14 +139,20 @@ def _type(function: sp.Basic, applied: set[AppliedUndef]) -> str:
     return " -> ".join(["R"] * (lengths.pop() + 1))
 
 
-def _given(item: Assumption, names: Names) -> list[Part]:
-    """The assumption, and that its sides are defined: it allows only such values."""
+def given(item: Assumption, names: Names) -> list[Part]:
+    """An assumption, and that its sides are defined: it allows only such values."""
     if isinstance(item, Relation):
         return [part for relation in item.components() for part in _relation(relation, names)]
     premises = tuple(part for given in plain(item.domain) for part in _relation(given, names))
-    said = _conjunction(part for component in item.relation.components() for part in _relation(component, names))
+    said = _conjunction(everywhere(item, names))
     text = declared.for_all(item.variables, f"({said})", names, (part.text for part in premises))
     return [Part(text, for_all=item, body=premises)]
+
+
+def everywhere(item: ForAll, names: Names) -> list[Part]:
+    """What an assumption for all values says of each, one after the other."""
+    parts = (part for component in item.relation.components() for part in _relation(component, names))
+    return list({part.text: part for part in parts}.values())
 
 
 def _conjunction(parts: Iterable[Part]) -> str:

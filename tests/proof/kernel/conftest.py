@@ -14,8 +14,10 @@ from typing import Any
 
 import pytest
 
+from ptproof.proof.claim import Claim
 from ptproof.proof.kernel import Confirmation, check, coq
-from ptproof.proof.kernel.check import Effort
+from ptproof.proof.kernel.asking import Effort
+from ptproof.proof.steps import Step, noting
 
 _PATIENCE = 240  # seconds: for a worker that died while it made what others wait for
 
@@ -80,6 +82,23 @@ def _own(module: Any) -> str:
     return str(module.__name__).rpartition(".")[2]
 
 
+class _NotedHere:
+    """The steps of proofs, noted in this process: the claims of a test stand in no file of a derivation."""
+
+    def __init__(self, *_: object) -> None:
+        pass
+
+    def take(self) -> None:
+        pass
+
+    stop = take
+
+    def of(self, claim: Claim) -> tuple[Step, ...]:
+        with noting() as steps:
+            claim.prove(claim.goal())
+        return tuple(steps)
+
+
 def _asked(modules: Sequence[Any], effort: Effort, folder: Path) -> dict[str, Confirmation]:
     """One file for all: Coq reads the library and finds axioms once, and neither misses any nor is asked again."""
     claims = [
@@ -88,6 +107,7 @@ def _asked(modules: Sequence[Any], effort: Effort, folder: Path) -> dict[str, Co
     ]  # fmt: skip
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(import_module("ptproof.proof.kernel.check"), "_IN_A_FILE", (len(claims), len(claims)))
+        patch.setattr(import_module("ptproof.proof.kernel.check"), "Noted", _NotedHere)
         told = check(claims, timeout=20.0, efforts=[effort], keep=folder)
     assert len(list(folder.glob("claims_*.v"))) == 1
     return told

@@ -7,7 +7,7 @@ is not negative. None of them is believed.
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import sympy as sp
@@ -26,30 +26,41 @@ from ptproof.proof.kernel.hints.instances import lines as instance_lines
 from ptproof.proof.kernel.hints.integrals import integrals
 from ptproof.proof.kernel.hints.limits import near
 from ptproof.proof.kernel.hints.reduced import reduced_relation
+from ptproof.proof.kernel.hints.replay import Replay, Told, relevant
 from ptproof.proof.kernel.hints.search import by_steps
 from ptproof.proof.kernel.hints.values import by_values
 from ptproof.proof.kernel.hints.witnesses import witnesses
-from ptproof.proof.kernel.names import fresh
+from ptproof.proof.kernel.names import Names, fresh
 from ptproof.proof.kernel.obligations import Part
 from ptproof.proof.kernel.smooth import script as smoothness
 from ptproof.proof.kernel.terms import NoTranslation, term
 from ptproof.proof.kernel.theorem import Proposition
 from ptproof.proof.statement import Relation
+from ptproof.proof.steps import Step
 
 
-def script(said: Proposition, *, thorough: bool = False) -> str:
-    """The tactics for the whole proposition, as one sentence for Coq; the thorough ones take longer to find and try."""
+def script(
+    said: Proposition,
+    *,
+    thorough: bool = False,
+    lemmas: Mapping[str, Proposition] | None = None,
+    steps: Sequence[Step] = (),
+) -> str:
+    """The tactics for the whole proposition, as one sentence for Coq; the thorough ones take longer to find and try.
+
+    With ``lemmas``, by the contents of their claims, they are for what follows from these by the ``steps`` of a proof.
+    """
     said = _without_substitutions(said)
     assumed = (part.relation for part in said.premises if part.limit is None)
     told = (item for item in assumed if item is not None and item.sign != "!=" and not _trivial(item))
     known = list(dict.fromkeys(told))
-    found = instances(said, known)
-    solutions = list(solved(said.claim, known, said.names))
-    instantiated = (item for instance in found for item in instance.plain())
-    known = list(dict.fromkeys([*known, *instantiated, *(item for item, _ in solutions)]))
-    plain = tuple(item for item in known if not item.has(AppliedUndef))
-    sought = _Sought(said, tuple(known), tuple(derived(known, said)), tuple(found), thorough)
-    leaves = [_near(part, said, thorough) if part.limit is not None else _leaf(part, sought)
+    given = [fresh(f"given_{number}", said.names) for number in range(len(said.premises))]
+    if lemmas:
+        sought, before = _replayed(said, known, given, lemmas, steps, thorough)
+    else:
+        sought, before = _instantiated(said, known, given, thorough)
+    said = sought.said
+    leaves = [_near(part, said, thorough) if part.limit is not None else _leaf(part, sought.narrowed(part))
               for part in said.conclusions]  # fmt: skip
     shown = [f"try (assert ({part.text}) by (solve [ {leaf} ]))"
              for part, leaf in zip(said.conclusions, leaves, strict=True) if part.relation is not None]  # fmt: skip
@@ -59,6 +70,31 @@ def script(said: Proposition, *, thorough: bool = False) -> str:
     early = [line for part, line in zip((p for p in said.conclusions if p.relation is not None), shown, strict=True)
              if part.limit is None and part.relation and part.relation.sign == "!=" and part.relation.left.is_Add
              and not part.relation.left.is_positive]  # fmt: skip
+    lines = [
+        *before,
+        *early,
+        *(["cbv beta in *"] if "((fun " in said.text else []),
+        *integrals([part.relation for part in said.conclusions if part.relation], said.names),
+    ]
+    return f"{'; '.join(lines)}; pieces; [> {' | '.join(leaves)} ]"
+
+
+def _begun(said: Proposition, given: Sequence[str], lemmas: Iterable[str] = ()) -> list[str]:
+    """All that is given has a name, and stands there as the hints write it."""
+    names = [*lemmas, *said.binders, *given]
+    return [*([f"intros {' '.join(names)}"] if names else []), "intros", "facts",
+            *(["cbv beta in *"] if "((fun " in said.text else [])]  # fmt: skip
+
+
+def _instantiated(
+    said: Proposition, known: list[Relation], given: Sequence[str], thorough: bool
+) -> tuple[_Sought, list[str]]:
+    """What the leaves are shown from, with instances of what is assumed for all values; and the lines for these."""
+    found = instances(said, known)
+    solutions = list(solved(said.claim, known, said.names))
+    instantiated = (item for instance in found for item in instance.plain())
+    known = list(dict.fromkeys([*known, *instantiated, *(item for item, _ in solutions)]))
+    plain = tuple(item for item in known if not item.has(AppliedUndef))
 
     def shown_by(item: Relation) -> Iterator[str]:
         goal = Goal(item, plain, said.names)
@@ -66,21 +102,39 @@ def script(said: Proposition, *, thorough: bool = False) -> str:
         if thorough:
             yield from _by_steps(goal, said)
 
-    given = [fresh(f"given_{number}", said.names) for number in range(len(said.premises))]
     hypotheses = {part.text: name for part, name in zip(said.premises, given, strict=True)}
-    steps = [
-        *([f"intros {' '.join([*said.binders, *given])}"] if said.binders or given else []),
-        "intros",
-        "facts",
-        *(["cbv beta in *"] if "((fun " in said.text else []),
+    lines = [
+        *_begun(said, given),
         *instance_lines(found, said, hypotheses, shown_by),
         *(f"try ({line})" for _, line in solutions),
         *(["facts"] if found else []),
-        *early,
-        *(["cbv beta in *"] if "((fun " in said.text else []),
-        *integrals([part.relation for part in said.conclusions if part.relation], said.names),
     ]
-    return f"{'; '.join(steps)}; pieces; [> {' | '.join(leaves)} ]"
+    return _Sought(said, tuple(known), tuple(derived(known, said)), tuple(found), thorough), lines
+
+
+def _replayed(
+    said: Proposition, known: list[Relation], given: Sequence[str], lemmas: Mapping[str, Proposition],
+    steps: Sequence[Step], thorough: bool,
+) -> tuple[_Sought, list[str]]:  # fmt: skip
+    """The same after the steps of a proof, which put the lemmas to use."""
+    told = Told(dict(said.names), known, [])
+    named = {content: (told.new(f"used_{number}"), lemma) for number, (content, lemma) in enumerate(lemmas.items())}
+    told.lines += _begun(said, given, (name for name, _ in named.values()))
+    sought = _Sought(said, (), (), (), False, chains=True)
+    # What has to be defined is shown while little is known: Coq looks at all of it for each step of arithmetic.
+    alone = replace(sought, known=tuple(known))
+    told.lines += [
+        f"try (assert ({part.text}) by (timeout 3 (solve [ {_leaf(part, alone)} ])))"
+        for part in said.conclusions
+        if part.relation is not None and part.relation.right == 0 and not part.relation.has(AppliedUndef)
+    ]
+
+    def leaf(part: Part, known: Sequence[Relation], names: Names) -> str:
+        return _leaf(part, replace(sought, said=replace(said, names=names), known=tuple(known)))
+
+    Replay(said, named, tuple(given), leaf).take(steps, told)
+    now = replace(said, names=told.names)
+    return replace(sought, said=now, known=tuple(dict.fromkeys(told.known)), thorough=thorough), told.lines
 
 
 def _without_substitutions(said: Proposition) -> Proposition:
@@ -120,6 +174,13 @@ class _Sought:
     more: tuple[Derived, ...]
     found: tuple[Instance, ...]
     thorough: bool
+    chains: bool = False
+
+    def narrowed(self, part: Part) -> _Sought:
+        """With less to look at, where much is known by lemmas."""
+        if part.relation is None or not self.chains:
+            return self
+        return replace(self, known=tuple(relevant(part.relation, self.known)))
 
     def goal(self, relation: Relation) -> Goal:
         return Goal(relation, self.known, self.said.names)
@@ -138,7 +199,7 @@ def _leaf(part: Part, sought: _Sought) -> str:
     if part.relation.sign == "=":
         return _equal(goal, sought)
     tries: list[str] = []
-    if sought.more or sought.thorough:
+    if sought.more or sought.thorough or sought.chains:
         with contextlib.suppress(NoTranslation, sp.PolynomialError):
             tries += certificate(part.relation, sought.known, sought.said.names, sought.more)
     ways = () if tries else (by_norms, directly, by_logarithms)

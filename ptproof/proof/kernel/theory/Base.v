@@ -119,7 +119,7 @@ with sign_pos :=
     | |- 0 < _ + _ => first [ apply Rplus_lt_0_compat; sign_pos | apply Rplus_le_lt_0_compat; [sign_nonneg | sign_pos]
                             | apply Rplus_lt_le_0_compat; [sign_pos | sign_nonneg] ]
     end
-  | match goal with H : forall _, _ |- _ => solve [apply H; first [assumption | lra]] end
+  | match goal with H : forall _, _ |- _ => solve [simple apply H; first [assumption | lra]] end
   | lra ]
 with sign_nonneg :=
   first
@@ -137,7 +137,7 @@ with sign_nonneg :=
     | |- 0 <= Rpower _ _ => left; apply exp_pos
     | |- 0 <= _ + _ => apply Rplus_le_le_0_compat; sign_nonneg
     end
-  | match goal with H : forall _, _ |- _ => solve [apply H; first [assumption | lra]] end
+  | match goal with H : forall _, _ |- _ => solve [simple apply H; first [assumption | lra]] end
   | lra | left; sign_pos ]
 with sign_nonzero :=
   first
@@ -581,8 +581,8 @@ Ltac atom a e :=
   | PI => pose proof PI_RGT_0
   | Rabs _ => assert (P : 0 <= e) by apply Rabs_pos
   | _ => first
-      [ assert (P : 0 < e) by (match goal with H : forall _, _ |- _ => solve [apply H; first [assumption | lra]] end)
-      | assert (P : 0 <= e) by (match goal with H : forall _, _ |- _ => solve [apply H; first [assumption | lra]] end)
+      [ assert (P : 0 < e) by (match goal with H : forall _, _ |- _ => solve [simple apply H; first [assumption | lra]] end)
+      | assert (P : 0 <= e) by (match goal with H : forall _, _ |- _ => solve [simple apply H; first [assumption | lra]] end)
       | idtac ]
   end;
   set (a := e) in *; clearbody a.

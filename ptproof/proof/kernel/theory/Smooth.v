@@ -454,7 +454,7 @@ Lemma rate_value : forall (f : R -> R) (t l e : R), is_derive f t l -> l = e -> 
 Proof. intros f t l e D E. rewrite <- E. exact D. Qed.
 Lemma rate_of_unknown : forall (h : R -> R) (t : R), ex_derive h t -> is_derive h t (Derive (fun x : R => h x) t).
 Proof. intros h t D. apply (Derive_correct h), D. Qed.
-Ltac smooth_enough := cbv beta; match goal with H : forall _, _ |- smooth_at _ _ _ => eapply smooth_lower; [ | apply H ]; lia end.
+Ltac smooth_enough := cbv beta; match goal with H : context [smooth_at] |- smooth_at _ _ _ => eapply smooth_lower; [ | simple eapply H ]; lia end.
 Ltac rated :=
   cbv beta;
   lazymatch goal with

@@ -1,0 +1,284 @@
+"""The steps of a claim's proof, taken again by Coq: the claims that it puts to use are lemmas there.
+
+What is taken from the proof is only which claim is used at which values. Coq shows for itself whatever the lemma
+assumes there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from ptproof.errors import InputError
+from ptproof.proof.kernel import declared
+from ptproof.proof.kernel.names import Names, fresh
+from ptproof.proof.kernel.obligations import Part
+from ptproof.proof.kernel.terms import NoTranslation, term
+from ptproof.proof.kernel.theorem import Proposition, everywhere, given
+from ptproof.proof.statement import ForAll, Implication, Relation, RelationSign, plain, undefined_functions
+from ptproof.proof.steps import Anywhere, At, Lemma, Put, Step
+from ptproof.proof.substitution import Substitution
+
+# Tactics for one part, from what is known and the names.
+Leaf = Callable[[Part, list[Relation], Names], str]
+
+
+@dataclass
+class Told:
+    """Lines for Coq, and what is known after them. ``names`` are those of the claim and of what the lines introduce."""
+
+    names: dict[Any, str]
+    known: list[Relation]
+    lines: list[str]
+
+    def inside(self) -> Told:
+        """The same for a goal inside this one."""
+        return Told(dict(self.names), list(self.known), [])
+
+    def new(self, name: str) -> str:
+        """A name that nothing else has."""
+        found = fresh(name, self.names)
+        self.names[found] = found
+        return found
+
+
+@dataclass(frozen=True)
+class Replay:
+    """The steps of a claim's proof for Coq.
+
+    Parameters
+    ----------
+    said
+        The claim.
+    lemmas
+        The claims that it uses, by their contents, with the names under which Coq knows them.
+    assumed
+        The names of the claim's premises in Coq, in their order.
+    leaf
+        Finds the tactics for one part.
+    """
+
+    said: Proposition
+    lemmas: Mapping[str, tuple[str, Proposition]]
+    assumed: tuple[str, ...]
+    leaf: Leaf
+
+    def take(self, steps: Iterable[Step], told: Told) -> None:
+        """Take the steps one after the other; one that Coq cannot take is left out there."""
+        for step in steps:
+            here = Told(told.names, list(told.known), [])
+            try:
+                match step:
+                    case Put():
+                        self._put(step, here)
+                    case At(point):
+                        self._at(point, here)
+                    case Lemma(says):
+                        self._lemma(says, here)
+            except (NoTranslation, InputError):
+                continue
+            if here.lines:
+                told.known[:] = here.known
+                told.lines.append(f"try ({'; '.join(here.lines)})")
+
+    def _put(self, step: Put, told: Told) -> None:
+        if step.content not in self.lemmas:
+            return
+        name, used = self.lemmas[step.content]
+        if not step.values and not all(self._in_scope(item, told) for item in _items(used)):
+            return
+        values = Substitution(dict(step.values), has_sign=lambda value, sign: True)
+        key = told.new("K")
+        told.lines.append(
+            f"pose proof ({name} {' '.join(self._arguments(used, values, told))}) as {key}; cbv beta in {key}"
+        )
+        anywhere = iter(step.assumed)
+        for tactic in self._premises(used, values, anywhere, told):
+            told.lines.append(f"assumed {key} ltac:({tactic})")
+        self._learn(key, used.conclusions, values, told)
+
+    def _arguments(self, used: Proposition, values: Substitution, told: Told) -> Iterator[str]:
+        written = {key.func: (key, value) for key, value in values.values.items() if isinstance(key, AppliedUndef)}
+        for item in _items(used):
+            if item in written:
+                key, value = written[item]
+                names = dict(told.names)
+                for symbol in key.args:
+                    names[symbol] = fresh(
+                        f"{used.names.get(symbol, 'u')}", {k: v for k, v in names.items() if k != symbol}
+                    )
+                yield f"(fun {' '.join(names[symbol] for symbol in key.args)} => {term(value, names)})"
+            elif item in values.values:
+                yield term(values.values[item], told.names)
+            elif self._in_scope(item, told):
+                yield told.names[item]
+            elif isinstance(item, sp.Symbol):
+                yield "(-1)" if item.is_negative else "1"
+            else:
+                arity = next(len(call.args) for call in _calls(used) if call.func == item)
+                yield f"(fun {' '.join('_' * arity)} => 1)"
+
+    def _in_scope(self, item: Any, told: Told) -> bool:
+        """Whether the claim speaks of this letter for all its values, so that it stands in Coq's context."""
+        return told.names.get(item) in self.said.binders
+
+    def _premises(
+        self, used: Proposition, values: Substitution, anywhere: Iterator[Anywhere], told: Told
+    ) -> Iterator[str]:
+        """A tactic for each premise of the lemma, in their order."""
+        symbols = [item for item in _items(used) if isinstance(item, sp.Symbol)]
+        count = 0
+        for symbol in symbols:
+            for text in declared.of_symbol(symbol, "x"):
+                count += 1
+                yield self._kind(text, values.into(symbol), told)
+        own = [given(item, used.names) for item in used.claim.assumptions]
+        behind = sum(map(len, own))
+        rest = len(used.premises) - behind
+        if used.claim.where_defined:
+            raise NoTranslation("only where it is defined")
+        for _ in used.premises[count:rest]:
+            yield "function_premise"
+        for item, parts in zip(used.claim.assumptions, own, strict=True):
+            if isinstance(item, ForAll):
+                yield self._quantified(item, used.names, values, next(anywhere, Anywhere()), told)
+                continue
+            for part in parts:
+                yield self._shown(replace(part, relation=part.relation and values.relation(part.relation)), told)
+
+    def _kind(self, text: str, value: sp.Expr, told: Told) -> str:
+        if text.startswith("is_integer"):
+            return "whole"
+        signs: dict[str, RelationSign] = {
+            "0 < x": ">",
+            "x < 0": "<",
+            "0 <= x": ">=",
+            "x <= 0": "<=",
+            "x <> 0": "!=",
+            "x = 0": "=",
+        }
+        relation = Relation(value, signs[text], sp.S.Zero)
+        if value.is_number:
+            return "lra"
+        return f"first [ sign | {self._shown(Part('', relation.standard() if '<' in text else relation), told)} ]"
+
+    def _shown(self, part: Part, told: Told) -> str:
+        """A premise, first as the claim itself would say it."""
+        if part.relation is None:
+            return f"simple_powers; {self.leaf(part, told.known, told.names)}"
+        return f"as_claimed ({_text(part.relation, told.names)}) ltac:({self._leaf(part.relation, told)})"
+
+    def _leaf(self, relation: Relation, told: Told) -> str:
+        wanted = relation.standard()
+        if wanted in map(Relation.standard, told.known):
+            return "quickly"
+        return self.leaf(Part("", relation), relevant(wanted, told.known), told.names)
+
+    def _quantified(
+        self, item: ForAll, names: Names, values: Substitution, anywhere: Anywhere, told: Told
+    ) -> str:  # fmt: skip
+        """An assumption of the lemma, for all values: assumed, or shown at an arbitrary one."""
+        inside = told.inside()
+        points = anywhere.point or item.variables
+        for variable, point in zip(item.variables, points, strict=True):
+            inside.names[point] = fresh(f"{variable.name if variable.name.isidentifier() else 'u'}_", inside.names)
+        there = Substitution(dict(zip(item.variables, points, strict=True)), has_sign=lambda value, sign: True)
+        inside.known += [there.relation(part) for part in plain(values.quantified(item).domain)]
+        intro = f"intros {' '.join(inside.names[point] for point in points)}; intros; facts"
+        self._at(tuple(points), inside)
+        lines = [f"try ({line})" for line in inside.lines]
+        inside.lines = []
+        self.take(anywhere.steps, inside)
+        lines += inside.lines
+        parts = [
+            replace(
+                part,
+                relation=part.relation
+                and there.relation(values.quantified(replace(item, relation=part.relation)).relation),
+            )
+            for part in everywhere(item, names)
+        ]
+        leaves = " | ".join(self._shown(part, inside) for part in parts)
+        return f"assumption || ({'; '.join([intro, *lines, 'pieces'])}; [> {leaves} ])"
+
+    def _at(self, point: tuple[Any, ...], told: Told) -> None:
+        """The claim's own quantified assumptions at a point."""
+        position = len(self.said.premises) - sum(
+            len(given(item, self.said.names)) for item in self.said.claim.assumptions
+        )
+        for item in self.said.claim.assumptions:
+            parts = given(item, self.said.names)
+            if isinstance(item, ForAll) and len(item.variables) == len(point):
+                there = Substitution(dict(zip(item.variables, point, strict=True)), has_sign=lambda value, sign: True)
+                key = told.new("I")
+                values = " ".join(term(value, told.names) for value in point)
+                lines = [f"pose proof ({self.assumed[position]} {values}) as {key}; cbv beta in {key}"]
+                for variable in item.variables:
+                    for text in declared.of_symbol(variable, "x"):
+                        lines.append(f"assumed {key} ltac:({self._kind(text, there.into(variable), told)})")
+                for part in plain(item.domain):
+                    for piece in given(there.relation(part), told.names):
+                        lines.append(f"assumed {key} ltac:({self._shown(piece, told)})")
+                here = Told(told.names, told.known, lines)
+                self._learn(key, everywhere(item, self.said.names), there, here)
+                told.lines.append(f"try ({'; '.join(here.lines)})")
+            position += len(parts)
+
+    def _lemma(self, says: Implication, told: Told) -> None:
+        names, known = told.names, told.known
+        if not says.conclusion.free_symbols:
+            return
+        for part in says.hypotheses:
+            told.lines.append(f"assert ({_text(part, names)}) by (first [ assumption | {self._leaf(part, told)} ])")
+        told.lines.append(f"assert ({_text(says.conclusion, names)}) by library_lemma")
+        known.append(says.conclusion)
+
+    def _learn(self, key: str, parts: Sequence[Part], values: Substitution, told: Told) -> None:
+        """What was said, in the claim's own words."""
+        names = [told.new("T") for _ in parts]
+        pattern = names[-1]
+        for name in reversed(names[:-1]):
+            pattern = f"[{name} {pattern}]"
+        told.lines.append(f"destruct {key} as {pattern}" if len(names) > 1 else f"rename {key} into {pattern}")
+        for name, part in zip(names, parts, strict=True):
+            if part.relation is None or part.limit is not None:
+                continue
+            said = values.relation(part.relation)
+            told.known.append(said)
+            told.lines.append(f"as_known ({_text(said, told.names)}) {name}")
+
+
+def relevant(wanted: Relation, known: Iterable[Relation]) -> list[Relation]:
+    """What is known that speaks of the same values of functions, or of nothing but the same symbols."""
+    known = list(dict.fromkeys(known))
+    calls, symbols = _calls_in(wanted), wanted.free_symbols
+    for _ in range(2):
+        found = [
+            item for item in known if _calls_in(item) & calls or (not _calls_in(item) and item.free_symbols <= symbols)
+        ]
+        calls = calls.union(*map(_calls_in, found))
+        symbols = symbols.union(*(item.free_symbols for item in found))
+    return found
+
+
+def _calls_in(relation: Relation) -> set[sp.Basic]:
+    return relation.left.atoms(AppliedUndef, sp.Derivative) | relation.right.atoms(AppliedUndef, sp.Derivative)
+
+
+def _text(relation: Relation, names: Names) -> str:
+    sign = {"=": "=", "!=": "<>"}.get(relation.sign, relation.sign)
+    return f"{term(relation.left, names)} {sign} {term(relation.right, names)}"
+
+
+def _items(said: Proposition) -> list[Any]:
+    """The functions and symbols that a proposition is about, in the order of its binders."""
+    items = {name: item for item, name in said.names.items()}
+    return [items[name] for name in said.binders]
+
+
+def _calls(used: Proposition) -> set[AppliedUndef]:
+    return undefined_functions([used.claim.statement, *used.claim.assumptions])

@@ -1,0 +1,98 @@
+(* Claims that are used as lemmas. Everything here is proved. *)
+Lemma integer_plus : forall x y, is_integer x -> is_integer y -> is_integer (x + y).
+Proof. intros x y [m M] [n N]. exists (m + n)%Z. rewrite plus_IZR. lra. Qed.
+Lemma integer_minus : forall x y, is_integer x -> is_integer y -> is_integer (x - y).
+Proof. intros x y [m M] [n N]. exists (m - n)%Z. rewrite minus_IZR. lra. Qed.
+Lemma integer_mult : forall x y, is_integer x -> is_integer y -> is_integer (x * y).
+Proof. intros x y [m M] [n N]. exists (m * n)%Z. rewrite mult_IZR. subst. reflexivity. Qed.
+Lemma integer_constant : forall z, is_integer (IZR z).
+Proof. intro z. exists z. reflexivity. Qed.
+Ltac whole := first
+  [ assumption | apply integer_constant | apply integer_plus; whole | apply integer_minus; whole | apply integer_mult; whole ].
+Ltac assumed K t := lazymatch type of K with
+  | ?A -> _ => let P := fresh in assert (P : A) by (first [ t | fail 2 "at" A ]); specialize (K P)
+  end.
+(* Powers whose exponents are numbers, or which are of roots. *)
+Lemma rpow_one : forall x e, e = 1 -> 0 <= x -> rpow x e = x.
+Proof.
+  intros x e E [P | P]; subst.
+  - rewrite rpow_Rpower by exact P. apply Rpower_1, P.
+  - apply rpow_zero; lra.
+Qed.
+Lemma rpow_half : forall x e, e = 1 / 2 -> 0 <= x -> rpow x e = sqrt x.
+Proof.
+  intros x e E [P | P]; subst e.
+  - rewrite rpow_Rpower by exact P. replace (1 / 2) with (/ 2) by field. apply Rpower_sqrt, P.
+  - subst x. rewrite sqrt_0. apply rpow_zero; lra.
+Qed.
+Lemma rpow_two : forall x e, e = 2 -> 0 <= x -> rpow x e = x ^ 2.
+Proof.
+  intros x e E [P | P]; subst e.
+  - rewrite rpow_Rpower by exact P. replace 2 with (INR 2) by (simpl; ring). apply Rpower_pow, P.
+  - subst x. rewrite rpow_zero by lra. ring.
+Qed.
+Lemma rpow_none : forall x e, e = 0 -> rpow x e = 1.
+Proof.
+  intros x e E. subst. unfold rpow. destruct (Req_EM_T x 0); [destruct (Req_EM_T 0 0); [reflexivity | contradiction]|].
+  unfold Rpower. rewrite Rmult_0_l. apply exp_0.
+Qed.
+Lemma Rpower_one : forall x e, e = 1 -> 0 < x -> Rpower x e = x.
+Proof. intros x e E P; subst. apply Rpower_1, P. Qed.
+Lemma Rpower_half : forall x e, e = 1 / 2 -> 0 < x -> Rpower x e = sqrt x.
+Proof. intros x e E P; subst. replace (1 / 2) with (/ 2) by field. apply Rpower_sqrt, P. Qed.
+Lemma Rpower_two : forall x e, e = 2 -> 0 < x -> Rpower x e = x ^ 2.
+Proof. intros x e E P; subst. replace 2 with (INR 2) by (simpl; ring). apply Rpower_pow, P. Qed.
+Lemma Rpower_three_halves : forall x e, e = 3 / 2 -> 0 < x -> Rpower x e = sqrt x ^ 3.
+Proof.
+  intros x e E P; subst. rewrite <- Rpower_sqrt by exact P. rewrite <- (Rpower_pow 3) by apply exp_pos.
+  rewrite Rpower_mult. f_equal. simpl; field.
+Qed.
+Lemma Rpower_none : forall x e, e = 0 -> Rpower x e = 1.
+Proof. intros x e E. subst. unfold Rpower. rewrite Rmult_0_l. apply exp_0. Qed.
+Lemma rpow_of_root : forall x e, 0 <= x -> rpow (sqrt x) e = rpow x (e / 2).
+Proof.
+  intros x e [P | P].
+  - rewrite !rpow_Rpower by (try apply sqrt_lt_R0; exact P). rewrite <- Rpower_sqrt by exact P. rewrite Rpower_mult.
+    f_equal. field.
+  - subst x. rewrite sqrt_0. unfold rpow. destruct (Req_EM_T 0 0); [|contradiction].
+    destruct (Req_EM_T e 0), (Req_EM_T (e / 2) 0); try reflexivity; exfalso; lra.
+Qed.
+Ltac simple_power x e lemma1 lemmah lemma2 lemma0 :=
+  first [ rewrite (lemma1 x e) in * by (first [ field; sides | sign ])
+        | rewrite (lemmah x e) in * by (first [ field; sides | sign ])
+        | rewrite (lemma2 x e) in * by (first [ field; sides | sign ])
+        | rewrite (lemma0 x e) in * by (field; sides) ].
+Ltac same_exponents f x a := match goal with
+  | |- context [f x ?b] => assert_fails (constr_eq a b); replace (f x b) with (f x a) by (f_equal; field; sides)
+  end.
+Lemma Rpower_of_root : forall x e, 0 < x -> Rpower (sqrt x) e = Rpower x (e / 2).
+Proof. intros x e P. rewrite <- Rpower_sqrt by exact P. rewrite Rpower_mult. f_equal. field. Qed.
+Ltac simple_powers :=
+  repeat match goal with
+  | |- context [rpow ?x ?e] => rewrite (rpow_Rpower x e) in * by (first [ assumption | lra ])
+  | |- context [Rpower (Rpower ?x ?a) ?b] => rewrite (Rpower_mult x a b) in *
+  | |- context [Rpower (sqrt ?x) ?e] => rewrite (Rpower_of_root x e) in * by (first [ assumption | lra ])
+  | |- context [Rpower (?x * ?y) ?e] => rewrite <- (Rpower_mult_distr x y e) in * by sign
+  | |- context [rpow (sqrt ?x) ?e] => rewrite (rpow_of_root x e) in * by sign
+  | |- context [rpow ?x ?e] => simple_power x e rpow_one rpow_half rpow_two rpow_none
+  | |- context [Rpower ?x ?e] => simple_power x e Rpower_one Rpower_half Rpower_two Rpower_none
+  | |- context [Rpower ?x ?e] => rewrite (Rpower_three_halves x e) in * by (first [ field; sides | sign ])
+  end;
+  repeat match goal with
+  | |- context [rpow ?x ?a] => same_exponents rpow x a
+  | |- context [Rpower ?x ?a] => same_exponents Rpower x a
+  end.
+(* H in other words: both sides are the same by arithmetic. *)
+Ltac in_words H := first
+  [ exact H | timeout 4 (as_said H) | lra
+  | solve [ revert H; progress simple_powers; intro H; first [ exact H | timeout 4 (as_said H) ] ] ].
+Ltac as_claimed P t := let H := fresh in assert (H : P) by (first [ assumption | t ]); in_words H.
+Ltac as_known P H := first [ assert P by assumption; clear H | assert P by (timeout 15 (in_words H)); clear H | idtac ].
+Ltac function_premise :=
+  first [ assumption | intros; cbv beta; first [ assumption | solve [ sign ] | solve [ derivable ] | solve [ whole ]
+        | match goal with H : forall _, _ |- _ => solve [ apply H ] end ] ].
+Ltac library_lemma := first
+  [ assumption | lra | solve [ sign ] | apply rpow_nonneg
+  | apply exp_le_exp; lra | apply exp_above
+  | apply rpow_mono; first [ assumption | lra | sign ]
+  | timeout 3 inequality ].
