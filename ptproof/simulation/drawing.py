@@ -75,12 +75,12 @@ def _placed(figure: Any, kind: str) -> Iterator[None]:
     import matplotlib
     from matplotlib.backend_bases import get_registered_canvas_class
 
-    layout, canvas = figure.get_layout_engine(), figure.canvas
-    if layout is None:
+    layout, canvas, drawn_on = figure.get_layout_engine(), figure.canvas, get_registered_canvas_class(kind)
+    if layout is None or drawn_on is None:  # nothing to lay out, or no kind that Matplotlib writes: it says so itself
         yield
         return
     with matplotlib.rc_context(_STYLE):
-        get_registered_canvas_class(kind)(figure)
+        drawn_on(figure)
         layout.execute(figure)
         figure.set_canvas(canvas)
     figure.set_layout_engine(None)
