@@ -21,6 +21,9 @@ sys.dont_write_bytecode = False
 for _name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(_name, "1")
 
+# Little is left over that only a collection finds, and each looks through all that is young.
+gc.set_threshold(100_000, 50, 1_000)
+
 # What takes longest begins first, so that in the end no worker waits for another; of these, what shares a derivation
 # or what Coq has said stands together.
 _FIRST = ("proof/kernel", "derivations", "report", "test_quality.py", "test_tutorial.py")
@@ -34,9 +37,8 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 
 def pytest_collection_finish() -> None:
-    """The tests themselves are not looked through whenever Python collects what is left over, and that is seldom."""
+    """The tests themselves are not looked through whenever Python collects what is left over."""
     gc.freeze()
-    gc.set_threshold(10_000, 20, 50)
 
 
 def pytest_sessionfinish() -> None:

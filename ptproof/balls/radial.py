@@ -12,7 +12,8 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from functools import cached_property, lru_cache
+from functools import cached_property, lru_cache, reduce
+from operator import add, mul
 from typing import Any, TypeAlias
 
 import sympy as sp
@@ -213,10 +214,7 @@ def _mean_value(cell: Cell, over: Over, M: _Matrix, turned: list[Any]) -> Any:
 
 
 def _dot(left: Sequence[Any], right: Sequence[Any]) -> Any:
-    total = left[0] * right[0]
-    for a, b in zip(left[1:], right[1:], strict=True):
-        total = total + a * b
-    return total
+    return reduce(add, map(mul, left, right))
 
 
 def _apply(M: _Matrix, v: Sequence[Any]) -> list[Any]:

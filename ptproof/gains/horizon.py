@@ -86,15 +86,15 @@ class Horizon:
         late = self.nu_min is not None and sign(elapsed - self.corner) >= 0
         if not late and sign(self.T - elapsed) <= 0:
             raise InputError("without a clip the stretched time is infinite at t0 + T")
-        return self.T * self._piece(late).to_tau.subs(self.clock.t, elapsed / self.T)
+        return self.T * self._piece(late).to_tau.xreplace({self.clock.t: elapsed / self.T})
 
     def elapsed(self, stretched: sp.Expr) -> sp.Expr:
         """e at the stretched time s."""
-        return self.T * self._piece(self._is_late(stretched)).to_t.subs(self.clock.tau, stretched / self.T)
+        return self.T * self._piece(self._is_late(stretched)).to_t.xreplace({self.clock.tau: stretched / self.T})
 
     def weight(self, stretched: sp.Expr) -> sp.Expr:
         """w = dt/dτ = 1/K at the stretched time s, with which a drift enters dx/dτ."""
-        return self._piece(self._is_late(stretched)).rate_back.subs(self.clock.tau, stretched / self.T)
+        return self._piece(self._is_late(stretched)).rate_back.xreplace({self.clock.tau: stretched / self.T})
 
     def _is_late(self, stretched: sp.Expr) -> bool:
         return self.nu_min is not None and sign(stretched - self.stretched_corner) >= 0

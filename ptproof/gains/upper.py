@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import pairwise
 
 import sympy as sp
@@ -34,6 +35,11 @@ class Node:
     elapsed: sp.Expr
     weight: sp.Expr
 
+    @cached_property
+    def about(self) -> float:
+        """w as a float."""
+        return float(self.weight)
+
 
 def time_grid(horizon: Horizon, end: sp.Expr, steps: int) -> list[Node]:
     """Uniform in the stretched time on both sides of the corner, which is a node, and finer where w falls fast."""
@@ -52,7 +58,7 @@ def time_grid(horizon: Horizon, end: sp.Expr, steps: int) -> list[Node]:
 
 def _refined(horizon: Horizon, left: Node, right: Node) -> list[Node]:
     """The nodes after ``left`` up to ``right``: halves, until w falls by no more than a fifth from one to the next."""
-    if float(left.weight) <= _FALL * float(right.weight):
+    if left.about <= _FALL * right.about:
         return [right]
     s = (left.stretched + right.stretched) / 2
     middle = Node(s, horizon.elapsed(s), horizon.weight(s))

@@ -34,7 +34,15 @@ def _is_wave(node: sp.Basic) -> bool:
 
 def innermost(expression: sp.Basic, variables: Symbols) -> sp.Expr | None:
     """A kink of the expression that has no other inside, or None where nothing switches."""
-    return next((node for node in sp.postorder_traversal(expression) if is_kink(node, variables)), None)
+    return _innermost(expression, variables, set())
+
+
+def _innermost(node: sp.Basic, variables: Symbols, seen: set[sp.Basic]) -> sp.Expr | None:
+    if not node.args or node in seen:
+        return None
+    seen.add(node)
+    inside = (found for part in node.args if (found := _innermost(part, variables, seen)) is not None)
+    return next(inside, node if is_kink(node, variables) else None)
 
 
 def level(node: sp.Basic) -> sp.Expr | None:

@@ -69,7 +69,7 @@ class _Working(Generic[Answer]):
         self._answers: list[Answer] = []
         self._errors: list[BaseException] = []
         self._guard = threading.Lock()
-        self._told = self._begun = self._over = False
+        self._told = self._begun = self._over = self._telling = False
         self._inside = 0
         _listen()
         self.thread = threading.Thread(target=self._run, daemon=True, name="ptproof time limit")
@@ -96,13 +96,22 @@ class _Working(Generic[Answer]):
             return False
 
     def tell_again(self) -> None:
-        """Tell the thread once more, from another one, after what had swallowed the first time."""
+        """Tell the thread, from another one, after what had swallowed the first time, until it has heard: on a busy
+        machine it may still be in there."""
+        if self._telling:
+            return
+        self._telling = True
 
         def tell() -> None:
             time.sleep(_PAUSE)
-            self.over_or_told()
+            while not self.over_or_told():
+                time.sleep(_PAUSE)
 
-        threading.Thread(target=tell, daemon=True, name="ptproof tells again").start()
+        self._inside += 1  # starting waits, and nothing could be raised out of here either
+        try:
+            threading.Thread(target=tell, daemon=True, name="ptproof tells again").start()
+        finally:
+            self._inside -= 1
 
     @contextmanager
     def unbroken(self) -> Iterator[None]:
@@ -122,18 +131,31 @@ class _Working(Generic[Answer]):
 
     def _run(self) -> None:
         _here.working = self
-        with suppress(Stop):  # told in the last moment
-            with self._guard:
-                if self._told:  # before there was anything that would catch what it is told by
-                    return
-                self._begun = True
-            try:
-                self._answers.append(self._work())
-            except BaseException as error:  # handed over to the thread that waits
-                self._errors.append(error)
-            with self._guard:
-                self._over = True
-                _raise_in(self.thread, None)  # not in the steps by which a thread ends
+        try:
+            with suppress(Stop):  # told in the last moment
+                self._begin()
+            while not self._end():
+                pass
+        finally:
+            self._over = True
+
+    def _begin(self) -> None:
+        with self._guard:
+            if self._told:  # before there was anything that would catch what it is told by
+                return
+            self._begun = True
+        try:
+            self._answers.append(self._work())
+        except BaseException as error:  # handed over to the thread that waits
+            self._errors.append(error)
+
+    def _end(self) -> bool:
+        """Nothing is told to the thread from here on; False where it has just been told once more."""
+        with suppress(Stop), self._guard:
+            self._over = True
+            _raise_in(self.thread, None)  # not in the steps by which a thread ends
+            return True
+        return False
 
 
 def _listen() -> None:

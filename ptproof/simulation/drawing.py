@@ -45,7 +45,7 @@ def save(figure: Any, path: str | Path) -> None:
     metadata: dict[str, Any] = {".svg": {"Date": None}, ".png": {"Software": None}}.get(
         file.suffix.lower(), {"CreationDate": None, "Producer": None, "Creator": None}
     )
-    with matplotlib.rc_context(_STYLE):
+    with _placed(figure, file.suffix.lower()[1:]), matplotlib.rc_context(_STYLE):
         figure.savefig(file, metadata=metadata)
 
 
@@ -58,7 +58,7 @@ def svg(figure: Any) -> bytes:
     """The figure as SVG bytes that follow light and dark, with letters as outlines, to a hundredth of a point."""
     dark = "".join(f"--c{light[1:]}:{other};" for light, other in DARK.items())
     style = f"@media (prefers-color-scheme:dark){{svg{{{dark}fill:{DARK['#000000']}}}}}"
-    with _placed(figure):
+    with _placed(figure, "svg"):
         text = _drawn(figure, "svg", dict.fromkeys(("Date", "Creator", "Format", "Type"))).decode()
     text = re.sub(r"^.*?(?=<svg)|<!--.*?-->|<metadata>.*?</metadata>", "", text, flags=re.DOTALL)
     text = re.sub(r' (?:d|x|y)="[^"]+"', lambda part: _NUMBER.sub(_rounded, part[0]), re.sub(r"\s*\n\s*", "\n", text))
@@ -67,20 +67,20 @@ def svg(figure: Any) -> bytes:
 
 
 @contextmanager
-def _placed(figure: Any) -> Iterator[None]:
-    """Meanwhile its axes stay where their layout puts them in an SVG.
+def _placed(figure: Any, kind: str) -> Iterator[None]:
+    """Meanwhile its axes stay where their layout puts them in a file of that kind.
 
     To find that out, Matplotlib would draw the whole figure once for nothing; the layout measures what it needs.
     """
     import matplotlib
-    from matplotlib.backends.backend_svg import FigureCanvasSVG
+    from matplotlib.backend_bases import get_registered_canvas_class
 
-    layout, canvas = figure.get_layout_engine(), figure.canvas
-    if layout is None:
+    layout, canvas, drawn_on = figure.get_layout_engine(), figure.canvas, get_registered_canvas_class(kind)
+    if layout is None or drawn_on is None:  # nothing to lay out, or no kind that Matplotlib writes: it says so itself
         yield
         return
     with matplotlib.rc_context(_STYLE):
-        FigureCanvasSVG(figure)
+        drawn_on(figure)
         layout.execute(figure)
         figure.set_canvas(canvas)
     figure.set_layout_engine(None)

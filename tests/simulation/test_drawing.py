@@ -6,7 +6,7 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from ptproof.simulation.drawing import DARK, new_figure, svg
+from ptproof.simulation.drawing import DARK, new_figure, save, svg
 
 
 def luminance(colour: str) -> float:
@@ -42,16 +42,27 @@ def test_the_same_figure_gives_the_same_bytes_without_a_date_or_a_place():
     assert len(drawn) < 300_000
 
 
-def test_the_layout_alone_gives_the_bytes_that_drawing_twice_gives(monkeypatch):
+@pytest.mark.parametrize("kind", ["of a page", "png", "svg", "pdf"])
+def test_the_layout_alone_gives_the_bytes_that_drawing_twice_gives(monkeypatch, tmp_path, kind):
     from contextlib import nullcontext
 
     from matplotlib.figure import Figure
 
+    def once():
+        figure, axes = new_figure()
+        axes.plot([0, 1], [0, 1e6], label="sine $10^{-3}$")
+        axes.set(xlabel="$t$", ylabel="distance")
+        axes.legend()
+        if kind == "of a page":
+            return svg(figure)
+        save(figure, tmp_path / f"drawn.{kind}")
+        return (tmp_path / f"drawn.{kind}").read_bytes()
+
     draw, count = Figure.draw, []
     monkeypatch.setattr(Figure, "draw", lambda *arguments: [count.append(1), draw(*arguments)])
-    once, drawn = wave(), len(count)
-    monkeypatch.setattr("ptproof.simulation.drawing._placed", lambda figure: nullcontext())
-    assert wave() == once
+    found, drawn = once(), len(count)
+    monkeypatch.setattr("ptproof.simulation.drawing._placed", lambda figure, kind: nullcontext())
+    assert once() == found
     assert (drawn, len(count)) == (1, 3)
 
 

@@ -9,6 +9,7 @@ Coefficients are complex floats where W is looked for, and complex balls where i
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
+from functools import lru_cache
 from typing import Any, NamedTuple, TypeAlias
 
 from ptproof.balls import arithmetic
@@ -54,10 +55,15 @@ def scaled(factor: Any, part: Polynomial, *, grade: int = 0) -> Polynomial:
 def product(left: Polynomial, right: Polynomial) -> Polynomial:
     """The product of two polynomials."""
     return collected(
-        ((a[0] + b[0], a[1] + b[1], a[2] + b[2], tuple(sorted(a[3] + b[3]))), x * y)
+        ((a[0] + b[0], a[1] + b[1], a[2] + b[2], _joined(a[3], b[3])), x * y)
         for a, x in left.items()
         for b, y in right.items()
     )
+
+
+@lru_cache(maxsize=10_000)
+def _joined(left: tuple[Letter, ...], right: tuple[Letter, ...]) -> tuple[Letter, ...]:
+    return tuple(sorted(left + right))
 
 
 def by_heading(part: Polynomial) -> Polynomial:
