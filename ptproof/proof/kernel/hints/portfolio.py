@@ -121,6 +121,7 @@ def _replayed(
     named = {content: (told.new(f"used_{number}"), lemma) for number, (content, lemma) in enumerate(lemmas.items())}
     told.lines += _begun(said, given, (name for name, _ in named.values()))
     sought = _Sought(said, (), (), (), False, chains=True)
+    more = tuple(derived(known, said))
     # What has to be defined is shown while little is known: Coq looks at all of it for each step of arithmetic.
     alone = replace(sought, known=tuple(known))
     told.lines += [
@@ -134,7 +135,7 @@ def _replayed(
 
     Replay(said, named, tuple(given), leaf).take(steps, told)
     now = replace(said, names=told.names)
-    return replace(sought, said=now, known=tuple(dict.fromkeys(told.known)), thorough=thorough), told.lines
+    return replace(sought, said=now, known=tuple(dict.fromkeys(told.known)), more=more, thorough=thorough), told.lines
 
 
 def _without_substitutions(said: Proposition) -> Proposition:
@@ -205,6 +206,8 @@ def _leaf(part: Part, sought: _Sought) -> str:
     ways = () if tries else (by_norms, directly, by_logarithms)
     if sought.thorough:
         tries += _thoroughly(goal, sought)
+    elif sought.chains:
+        tries += _by_values(goal, sought)
     for way in ways:
         with contextlib.suppress(NoTranslation, sp.PolynomialError):
             tries += way(goal)
@@ -231,7 +234,8 @@ def _by_values(goal: Goal, sought: _Sought) -> Iterator[str]:
                 yield from by_equations(inner)
             else:
                 yield from certificate(inner.relation, inner.known, inner.names)
-        yield from _by_steps(inner, sought.said)
+        if sought.thorough:
+            yield from _by_steps(inner, sought.said)
 
     with contextlib.suppress(NoTranslation, sp.PolynomialError):
         yield from by_values(goal, sought.found, close)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import Any
 
 import sympy as sp
@@ -174,8 +175,12 @@ class Replay:
 
     def _leaf(self, relation: Relation, told: Told) -> str:
         wanted = relation.standard()
-        if wanted in map(Relation.standard, told.known):
-            return "quickly"
+        for item in map(Relation.standard, told.known):
+            if item == wanted:
+                return "quickly"
+            if item.sign == wanted.sign and all(map(_alike, _sides(item), _sides(wanted))):
+                turned = Relation(item.right, relation.sign, item.left) if relation != wanted else item
+                return f"as_claimed ({_text(turned, told.names)}) ltac:(quickly)"
         return self.leaf(Part("", relation), relevant(wanted, told.known), told.names)
 
     def _quantified(
@@ -267,6 +272,22 @@ def relevant(wanted: Relation, known: Iterable[Relation]) -> list[Relation]:
 
 def _calls_in(relation: Relation) -> set[sp.Basic]:
     return relation.left.atoms(AppliedUndef, sp.Derivative) | relation.right.atoms(AppliedUndef, sp.Derivative)
+
+
+def _sides(relation: Relation) -> tuple[sp.Basic, sp.Basic]:
+    return relation.left, relation.right
+
+
+def _alike(one: sp.Basic, other: sp.Basic) -> bool:
+    """Whether both are the same but for how exponents, and sums and products, are written."""
+    return bool(one == other or sp.expand(_plain(one) - _plain(other)) == 0)
+
+
+@lru_cache(maxsize=4096)
+def _plain(expression: sp.Basic) -> sp.Basic:
+    powers = {part: part.base ** sp.factor(sp.together(part.exp)) for part in expression.atoms(sp.Pow)
+              if not part.exp.is_number}  # fmt: skip
+    return expression.xreplace(powers)
 
 
 def _text(relation: Relation, names: Names) -> str:

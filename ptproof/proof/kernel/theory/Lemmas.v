@@ -69,6 +69,7 @@ Lemma Rpower_of_root : forall x e, 0 < x -> Rpower (sqrt x) e = Rpower x (e / 2)
 Proof. intros x e P. rewrite <- Rpower_sqrt by exact P. rewrite Rpower_mult. f_equal. field. Qed.
 Ltac simple_powers :=
   repeat match goal with
+  | |- context [sqrt ?x ^ 2] => rewrite (pow2_sqrt x) in * by sign
   | |- context [rpow ?x ?e] => rewrite (rpow_Rpower x e) in * by (first [ assumption | lra ])
   | |- context [Rpower (Rpower ?x ?a) ?b] => rewrite (Rpower_mult x a b) in *
   | |- context [Rpower (sqrt ?x) ?e] => rewrite (Rpower_of_root x e) in * by (first [ assumption | lra ])
