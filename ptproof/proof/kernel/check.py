@@ -8,6 +8,7 @@ import threading
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -80,11 +81,6 @@ def check(
             if progress is not None:
                 progress(claim, confirmation)
 
-    def learn(claim: Claim, confirmation: Confirmation) -> None:
-        if memory is not None:
-            remembered.keep(memory, confirmation, efforts)
-        answer(claim, confirmation)
-
     asked: list[tuple[Claim, Proposition]] = []
     for claim, known in _known(wanted, None if keep else memory, efforts):
         if isinstance(known, Confirmation):
@@ -92,9 +88,18 @@ def check(
         else:
             asked.append((claim, known))
     if asked:
+        learn = partial(_learn, answer, memory, efforts)
         _ask(asked, workers or os.cpu_count() or 1, timeout, efforts, keep, learn)
     answers = settled(answers)
     return {claim.id: answers[claim.id] for claim in wanted}
+
+
+def _learn(
+    answer: Progress, memory: Memory | None, efforts: Sequence[Effort], claim: Claim, confirmation: Confirmation
+) -> None:  # fmt: skip
+    if memory is not None:
+        remembered.keep(memory, confirmation, efforts)
+    answer(claim, confirmation)
 
 
 def _known(

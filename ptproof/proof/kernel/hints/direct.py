@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -150,3 +150,18 @@ def _solvable(gap: sp.Expr, sign: str) -> sp.Symbol | None:
 
     found = [symbol for symbol in gap.free_symbols if fits(symbol)]
     return min(found, key=lambda s: (s.name.startswith("gap"), s.is_nonnegative is True, s.name), default=None)
+
+
+def by_growth_of_parts(relation: Relation, known: Sequence[Relation]) -> Iterator[str]:
+    """By the squares of both sides, by what exponentials are above, and by parts that grow; of polynomials in these."""
+    powers = sp.Tuple(relation.left, relation.right).atoms(sp.Pow)
+    others = [part for part in sp.Tuple(relation.left, relation.right).atoms(sp.Function)
+              if not isinstance(part, sp.exp | sp.Abs)]  # fmt: skip
+    if relation.sign == "!=" or others or any(not power.exp.is_Integer or power.exp < 0 for power in powers):
+        return
+    if relation.has(sp.exp) and relation.sign in ("<=", ">="):
+        yield from ("by_exponentials", "parts_grow")
+    elif relation.has(sp.exp):
+        yield "; ".join([*("subst" for item in known[:1] if item.sign == "="), "parts_grow_strictly"])
+    elif relation.has(sp.Abs) and relation.sign in ("<=", ">="):
+        yield "by_squares"

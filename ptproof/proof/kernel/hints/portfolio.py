@@ -18,7 +18,7 @@ from ptproof.proof.kernel.hints.atoms import Atoms
 from ptproof.proof.kernel.hints.certificates import certificate
 from ptproof.proof.kernel.hints.comparisons import solved
 from ptproof.proof.kernel.hints.derived import Derived, derived
-from ptproof.proof.kernel.hints.direct import by_logarithms, by_norms, directly
+from ptproof.proof.kernel.hints.direct import by_growth_of_parts, by_logarithms, by_norms, directly
 from ptproof.proof.kernel.hints.equations import by_equations
 from ptproof.proof.kernel.hints.goals import Goal
 from ptproof.proof.kernel.hints.instances import Instance, instances
@@ -26,8 +26,9 @@ from ptproof.proof.kernel.hints.instances import lines as instance_lines
 from ptproof.proof.kernel.hints.integrals import integrals
 from ptproof.proof.kernel.hints.limits import near
 from ptproof.proof.kernel.hints.reduced import reduced_relation
-from ptproof.proof.kernel.hints.replay import Replay, Told, relevant
+from ptproof.proof.kernel.hints.replay import Replay
 from ptproof.proof.kernel.hints.search import by_steps
+from ptproof.proof.kernel.hints.told import Told, relevant
 from ptproof.proof.kernel.hints.values import by_values
 from ptproof.proof.kernel.hints.witnesses import witnesses
 from ptproof.proof.kernel.names import Names, fresh
@@ -214,7 +215,7 @@ def _leaf(part: Part, sought: _Sought) -> str:
     powers = sp.Tuple(part.relation.left, part.relation.right).atoms(sp.Pow)
     if part.relation.sign != "!=" and any(not power.exp.is_number for power in powers):
         tries.append("by_growth")
-    tries += _by_growth_of_parts(part.relation, sought.known)
+    tries += by_growth_of_parts(part.relation, sought.known)
     return f"cbv beta; quickly; {_tried(*tries)}"
 
 
@@ -239,21 +240,6 @@ def _by_values(goal: Goal, sought: _Sought) -> Iterator[str]:
 
     with contextlib.suppress(NoTranslation, sp.PolynomialError):
         yield from by_values(goal, sought.found, close)
-
-
-def _by_growth_of_parts(relation: Relation, known: Sequence[Relation]) -> Iterator[str]:
-    """By the squares of both sides, by what exponentials are above, and by parts that grow; of polynomials in these."""
-    powers = sp.Tuple(relation.left, relation.right).atoms(sp.Pow)
-    others = [part for part in sp.Tuple(relation.left, relation.right).atoms(sp.Function)
-              if not isinstance(part, sp.exp | sp.Abs)]  # fmt: skip
-    if relation.sign == "!=" or others or any(not power.exp.is_Integer or power.exp < 0 for power in powers):
-        return
-    if relation.has(sp.exp) and relation.sign in ("<=", ">="):
-        yield from ("by_exponentials", "parts_grow")
-    elif relation.has(sp.exp):
-        yield "; ".join([*("subst" for item in known[:1] if item.sign == "="), "parts_grow_strictly"])
-    elif relation.has(sp.Abs) and relation.sign in ("<=", ">="):
-        yield "by_squares"
 
 
 def _witnessed(part: Part, sought: _Sought) -> str:

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache
 from typing import Any
 
 import sympy as sp
@@ -16,6 +15,7 @@ from sympy.core.function import AppliedUndef
 
 from ptproof.errors import InputError
 from ptproof.proof.kernel import declared
+from ptproof.proof.kernel.hints.told import Told, alike, relevant, sides_of, text_of
 from ptproof.proof.kernel.names import Names, fresh
 from ptproof.proof.kernel.obligations import Part
 from ptproof.proof.kernel.terms import NoTranslation, term
@@ -26,25 +26,6 @@ from ptproof.proof.substitution import Substitution
 
 # Tactics for one part, from what is known and the names.
 Leaf = Callable[[Part, list[Relation], Names], str]
-
-
-@dataclass
-class Told:
-    """Lines for Coq, and what is known after them. ``names`` are those of the claim and of what the lines introduce."""
-
-    names: dict[Any, str]
-    known: list[Relation]
-    lines: list[str]
-
-    def inside(self) -> Told:
-        """The same for a goal inside this one."""
-        return Told(dict(self.names), list(self.known), [])
-
-    def new(self, name: str) -> str:
-        """A name that nothing else has."""
-        found = fresh(name, self.names)
-        self.names[found] = found
-        return found
 
 
 @dataclass(frozen=True)
@@ -171,16 +152,16 @@ class Replay:
         """A premise, first as the claim itself would say it."""
         if part.relation is None:
             return f"simple_powers; {self.leaf(part, told.known, told.names)}"
-        return f"as_claimed ({_text(part.relation, told.names)}) ltac:({self._leaf(part.relation, told)})"
+        return f"as_claimed ({text_of(part.relation, told.names)}) ltac:({self._leaf(part.relation, told)})"
 
     def _leaf(self, relation: Relation, told: Told) -> str:
         wanted = relation.standard()
         for item in map(Relation.standard, told.known):
             if item == wanted:
                 return "quickly"
-            if item.sign == wanted.sign and all(map(_alike, _sides(item), _sides(wanted))):
+            if item.sign == wanted.sign and all(map(alike, sides_of(item), sides_of(wanted))):
                 turned = Relation(item.right, relation.sign, item.left) if relation != wanted else item
-                return f"as_claimed ({_text(turned, told.names)}) ltac:(quickly)"
+                return f"as_claimed ({text_of(turned, told.names)}) ltac:(quickly)"
         return self.leaf(Part("", relation), relevant(wanted, told.known), told.names)
 
     def _quantified(
@@ -238,8 +219,8 @@ class Replay:
         if not says.conclusion.free_symbols:
             return
         for part in says.hypotheses:
-            told.lines.append(f"assert ({_text(part, names)}) by (first [ assumption | {self._leaf(part, told)} ])")
-        told.lines.append(f"assert ({_text(says.conclusion, names)}) by library_lemma")
+            told.lines.append(f"assert ({text_of(part, names)}) by (first [ assumption | {self._leaf(part, told)} ])")
+        told.lines.append(f"assert ({text_of(says.conclusion, names)}) by library_lemma")
         known.append(says.conclusion)
 
     def _learn(self, key: str, parts: Sequence[Part], values: Substitution, told: Told) -> None:
@@ -254,45 +235,7 @@ class Replay:
                 continue
             said = values.relation(part.relation)
             told.known.append(said)
-            told.lines.append(f"as_known ({_text(said, told.names)}) {name}")
-
-
-def relevant(wanted: Relation, known: Iterable[Relation]) -> list[Relation]:
-    """What is known that speaks of the same values of functions, or of nothing but the same symbols."""
-    known = list(dict.fromkeys(known))
-    calls, symbols = _calls_in(wanted), wanted.free_symbols
-    for _ in range(2):
-        found = [
-            item for item in known if _calls_in(item) & calls or (not _calls_in(item) and item.free_symbols <= symbols)
-        ]
-        calls = calls.union(*map(_calls_in, found))
-        symbols = symbols.union(*(item.free_symbols for item in found))
-    return found
-
-
-def _calls_in(relation: Relation) -> set[sp.Basic]:
-    return relation.left.atoms(AppliedUndef, sp.Derivative) | relation.right.atoms(AppliedUndef, sp.Derivative)
-
-
-def _sides(relation: Relation) -> tuple[sp.Basic, sp.Basic]:
-    return relation.left, relation.right
-
-
-def _alike(one: sp.Basic, other: sp.Basic) -> bool:
-    """Whether both are the same but for how exponents, and sums and products, are written."""
-    return bool(one == other or sp.expand(_plain(one) - _plain(other)) == 0)
-
-
-@lru_cache(maxsize=4096)
-def _plain(expression: sp.Basic) -> sp.Basic:
-    powers = {part: part.base ** sp.factor(sp.together(part.exp)) for part in expression.atoms(sp.Pow)
-              if not part.exp.is_number}  # fmt: skip
-    return expression.xreplace(powers)
-
-
-def _text(relation: Relation, names: Names) -> str:
-    sign = {"=": "=", "!=": "<>"}.get(relation.sign, relation.sign)
-    return f"{term(relation.left, names)} {sign} {term(relation.right, names)}"
+            told.lines.append(f"as_known ({text_of(said, told.names)}) {name}")
 
 
 def _items(said: Proposition) -> list[Any]:
