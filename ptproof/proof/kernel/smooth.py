@@ -56,21 +56,19 @@ def premises(statement: Smooth, functions: Iterable[sp.Basic], names: Names) -> 
     return found
 
 
-def of_derivatives(
-    derivatives: Iterable[sp.Derivative], applied: Iterable[AppliedUndef], names: Names
-) -> list[Part]:  # fmt: skip
-    """That functions below these derivatives are smooth, if of several arguments or of others than plain symbols.
+def of_derivatives(derivatives: Iterable[sp.Derivative], names: Names) -> list[Part]:
+    """That functions below these derivatives are smooth, if of several arguments or only of others than plain symbols.
 
     A claim that says nothing of smoothness is about smooth functions of real arguments; a function that can be
     differentiated by each argument alone is not one, and has no derivative along a curve.
     """
-    along = {call.func for call in applied if not bare(call) or len(call.args) > 1}
+    calls = [(call, len(item.variables)) for item in derivatives for call in item.expr.atoms(AppliedUndef)]
+    known = {call.func for call, _ in calls if bare(call) and len(call.args) == 1}
     orders: dict[tuple[Any, int], int] = {}
-    for derivative in derivatives:
-        for call in derivative.expr.atoms(AppliedUndef):
-            if call.func in along:
-                key = call.func, len(call.args)
-                orders[key] = max(orders.get(key, 0), len(derivative.variables))
+    for call, order in calls:
+        if call.func not in known:
+            key = call.func, len(call.args)
+            orders[key] = max(orders.get(key, 0), order)
     found = []
     for (function, count), order in sorted(orders.items(), key=lambda item: names[item[0][0]]):
         variables = [fresh(f"q{number}", names) for number in range(1, count + 1)]

@@ -67,7 +67,7 @@ def proposition(claim: Claim) -> Proposition:
     derivatives = {part for expression in expressions_of(statements) for part in expression.atoms(sp.Derivative)}
     premises += map(Part, declared.of_derivatives(derivatives, names))
     if not isinstance(claim.statement, Smooth):
-        premises += smooth.of_derivatives(derivatives, applied, names)
+        premises += smooth.of_derivatives(derivatives, names)
     else:
         premises += smooth.premises(claim.statement, functions, names)
     for item in claim.assumptions:

@@ -20,7 +20,15 @@ from ptproof.proof.kernel.names import Names, fresh
 from ptproof.proof.kernel.obligations import Part
 from ptproof.proof.kernel.terms import NoTranslation, term
 from ptproof.proof.kernel.theorem import Proposition, everywhere, given
-from ptproof.proof.statement import ForAll, Implication, Relation, RelationSign, plain, undefined_functions
+from ptproof.proof.statement import (
+    ForAll,
+    Implication,
+    Relation,
+    RelationSign,
+    plain,
+    relations_of,
+    undefined_functions,
+)
 from ptproof.proof.steps import Anywhere, At, Lemma, Put, Step
 from ptproof.proof.substitution import Substitution
 
@@ -81,7 +89,7 @@ class Replay:
         anywhere = iter(step.assumed)
         for tactic in self._premises(used, values, anywhere, told):
             told.lines.append(f"assumed {key} ltac:({tactic})")
-        self._learn(key, used.conclusions, values, told)
+        self._learn(key, used.conclusions, relations_of(used.claim.statement), values, told)
 
     def _arguments(self, used: Proposition, values: Substitution, told: Told) -> Iterator[str]:
         written = {key.func: (key, value) for key, value in values.values.items() if isinstance(key, AppliedUndef)}
@@ -210,7 +218,7 @@ class Replay:
                     for piece in given(there.relation(part), told.names):
                         lines.append(f"assumed {key} ltac:({self._shown(piece, told)})")
                 here = Told(told.names, told.known, lines)
-                self._learn(key, everywhere(item, self.said.names), there, here)
+                self._learn(key, everywhere(item, self.said.names), item.relation.components(), there, here)
                 told.lines.append(f"try ({'; '.join(here.lines)})")
             position += len(parts)
 
@@ -223,15 +231,17 @@ class Replay:
         told.lines.append(f"assert ({text_of(says.conclusion, names)}) by library_lemma")
         known.append(says.conclusion)
 
-    def _learn(self, key: str, parts: Sequence[Part], values: Substitution, told: Told) -> None:
-        """What was said, in the claim's own words."""
+    def _learn(
+        self, key: str, parts: Sequence[Part], spoken: Sequence[Relation], values: Substitution, told: Told
+    ) -> None:  # fmt: skip
+        """The parts by names of their own, and what was ``spoken`` in the claim's words; not what has to be defined."""
         names = [told.new("T") for _ in parts]
         pattern = names[-1]
         for name in reversed(names[:-1]):
             pattern = f"[{name} {pattern}]"
         told.lines.append(f"destruct {key} as {pattern}" if len(names) > 1 else f"rename {key} into {pattern}")
         for name, part in zip(names, parts, strict=True):
-            if part.relation is None or part.limit is not None:
+            if part.relation not in spoken or part.relation is None or part.limit is not None:
                 continue
             said = values.relation(part.relation)
             told.known.append(said)

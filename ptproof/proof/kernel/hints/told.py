@@ -63,9 +63,14 @@ def alike(one: sp.Basic, other: sp.Basic) -> bool:
 
 @lru_cache(maxsize=4096)
 def _plain(expression: sp.Basic) -> sp.Basic:
-    powers = {part: part.base ** sp.factor(sp.together(part.exp)) for part in expression.atoms(sp.Pow)
-              if not part.exp.is_number}  # fmt: skip
-    return expression.xreplace(powers)
+    """The expression with exponents, and arguments of functions, in one form."""
+    if not expression.args or isinstance(expression, sp.Derivative | sp.Subs | sp.Integral):
+        return expression
+    if isinstance(expression, sp.Pow) and not expression.exp.is_number:
+        return _plain(expression.base) ** sp.factor(sp.together(expression.exp))
+    if isinstance(expression, sp.exp | AppliedUndef):
+        return expression.func(*(sp.factor(sp.together(item)) for item in expression.args))
+    return expression.func(*map(_plain, expression.args))
 
 
 def text_of(relation: Relation, names: Names) -> str:

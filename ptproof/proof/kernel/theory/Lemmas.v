@@ -85,8 +85,8 @@ Ltac simple_powers :=
   end.
 (* H in other words: both sides are the same by arithmetic. *)
 Ltac in_words H := first
-  [ exact H | timeout 4 (as_said H) | lra
-  | solve [ revert H; progress simple_powers; intro H; first [ exact H | timeout 4 (as_said H) ] ] ].
+  [ exact H | timeout 10 (as_said H) | lra
+  | solve [ revert H; progress simple_powers; intro H; first [ exact H | timeout 10 (as_said H) ] ] ].
 Ltac as_claimed P t := let H := fresh in assert (H : P) by (first [ assumption | t ]); in_words H.
 Ltac as_known P H := first [ assert P by assumption; clear H | assert P by (timeout 15 (in_words H)); clear H | idtac ].
 Ltac function_premise :=
