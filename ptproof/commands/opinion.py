@@ -53,7 +53,7 @@ def confirmed(
     What it did not confirm, and why, is said on standard error; so is what it has confirmed by the end from outside.
     """
     from ptproof.commands.terminal import progress
-    from ptproof.proof.kernel import check
+    from ptproof.proof.kernel import check, coq
     from ptproof.proof.kernel.check import with_opinion
     from ptproof.proof.kernel.lemmas import settled
     from ptproof.proof.verdict import Verdict
@@ -71,6 +71,8 @@ def confirmed(
             check(proved, workers=jobs, keep=keep, progress=heard, memory=memory)
         except KeyboardInterrupt:
             status = guard.interrupt_status()
+        finally:  # this process may end without a chance for anybody to tidy up
+            coq.forget()
     # Those that come in later are too late.
     known = settled({claim.id: said[claim.id] for claim in proved if claim.id in said})
     _say(known, len(proved), interrupted=status is not None)

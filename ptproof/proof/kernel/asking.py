@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import threading
 import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -52,7 +51,7 @@ class Asking:
     folder: Path
     timeout: float
     efforts: tuple[Effort, ...]
-    stop: threading.Event
+    stop: coq.Stop
     steps: Callable[[Claim], Sequence[Step]]
 
     def answers(self, number: int, claims: Sequence[tuple[Claim, Proposition]]) -> Iterator[tuple[Claim, Confirmation]]:

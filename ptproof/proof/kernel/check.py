@@ -126,7 +126,7 @@ def _ask(
     """What Coq says of each, in files of several; meanwhile the steps of their proofs are noted."""
     least, most = _IN_A_FILE
     size = min(max(least, -(-len(asked) // processes)), most)
-    stop = threading.Event()
+    stop = coq.Stop()
     noted = Noted([claim for claim, _ in asked if claim.uses and "lemmas" in efforts], processes, timeout)
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as temporary:
         folder = Path(temporary) if keep is None else keep

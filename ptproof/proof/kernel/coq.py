@@ -10,8 +10,7 @@ import signal
 import subprocess
 import tempfile
 import threading
-import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -34,7 +33,6 @@ AXIOMS: Mapping[str, str] = {
 _MACHINE = re.compile(r"(PrimInt63|Uint63|Uint63Axioms|PrimFloat|FloatAxioms|FloatOps|Sint63)\.\w+|(int|float)")
 _OPTIONS = ("-q", "-w", "none", "-Q", ".", "Ptproof")
 _KEPT = "kept"  # what has been proved so far
-_A_LOOK = 0.2  # between two looks at whether Coq is to be stopped [s]
 _PACKAGES = "coq, libcoq-coquelicot and libcoq-interval (on Debian and Ubuntu: apt install them)"
 
 
@@ -114,9 +112,19 @@ def prepare(folder: Path) -> None:
         shutil.copy2(file, folder / file.name)
 
 
-@cache
+_made: list[tempfile.TemporaryDirectory[str]] = []
+
+
+def forget() -> None:
+    """Remove the compiled library; it is compiled again where it is needed."""
+    while _made:
+        _made.pop().cleanup()
+
+
 def _compiled() -> tempfile.TemporaryDirectory[str]:
-    """A folder with the compiled library, made once in a process and removed with it."""
+    """A folder with the compiled library, made once in a process."""
+    if _made:
+        return _made[0]
     made = tempfile.TemporaryDirectory(prefix="ptproof-coq-")
     folder = Path(made.name)
     parts = (Path(__file__).parent / "theory" / f"{name}.v" for name in LIBRARY)
@@ -126,6 +134,7 @@ def _compiled() -> tempfile.TemporaryDirectory[str]:
     if done.error or done.late:
         said = done.error.strip() or "time limit"
         raise RuntimeError(f"Coq refuses the library of tactics ({', '.join(LIBRARY)}, as one file): {said}")
+    _made.append(made)
     return made
 
 
@@ -135,7 +144,43 @@ def version() -> str:
     return subprocess.run(["coqc", "--version"], capture_output=True, text=True, check=True).stdout
 
 
-def ask(folder: Path, file: str, seconds: float, stop: threading.Event | None = None) -> Printed:
+class Stop:
+    """Whether Coq is to be stopped; once it is set, every process that was started with it is ended, and none more."""
+
+    def __init__(self) -> None:
+        self._lock, self._processes, self._set = threading.Lock(), set[int](), False
+
+    def is_set(self) -> bool:
+        """Whether it is set."""
+        return self._set
+
+    def set(self) -> None:
+        """End the processes, at once: this one may end before it could wait for them."""
+        with self._lock:
+            self._set = True
+            for process in self._processes:
+                _kill(process)
+
+    @contextlib.contextmanager
+    def ending(self, process: int) -> Iterator[None]:
+        """While the process runs."""
+        with self._lock:
+            self._processes.add(process)
+            if self._set:
+                _kill(process)
+        try:
+            yield
+        finally:
+            with self._lock:
+                self._processes.discard(process)
+
+
+def _kill(process: int) -> None:
+    with contextlib.suppress(ProcessLookupError):
+        os.killpg(process, signal.SIGKILL)
+
+
+def ask(folder: Path, file: str, seconds: float, stop: Stop | None = None) -> Printed:
     """Have Coq read the file as if it were typed, in the folder of the library: a failure costs one theorem.
 
     It is ended at its time limit, or once ``stop`` is set.
@@ -143,30 +188,26 @@ def ask(folder: Path, file: str, seconds: float, stop: threading.Event | None = 
     return _run(["coqtop", *_OPTIONS], folder, file, seconds, stop)
 
 
-def _run(
-    command: list[str], folder: Path, typed: str | None, seconds: float, stop: threading.Event | None = None
-) -> Printed:
+def _run(command: list[str], folder: Path, typed: str | None, seconds: float, stop: Stop | None = None) -> Printed:
     """The output of a process of Coq, which ends with every process of it at the time limit."""
-    until = time.monotonic() + seconds
     with (
         open(folder / typed if typed else os.devnull, "rb") as source,
         subprocess.Popen(
             command, cwd=folder, stdin=source, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
             encoding="utf-8", errors="replace", start_new_session=True,
         ) as process,
+        (stop or Stop()).ending(process.pid),
     ):  # fmt: skip
-        late = True
+        late = False
         try:
-            while time.monotonic() < until and not (stop and stop.is_set()):
-                with contextlib.suppress(subprocess.TimeoutExpired):
-                    output, error = process.communicate(timeout=_A_LOOK)
-                    late = False
-                    break
-        finally:
-            if process.poll() is None:
-                with contextlib.suppress(ProcessLookupError):
-                    os.killpg(process.pid, signal.SIGKILL)
-                output, error = process.communicate()
+            output, error = process.communicate(timeout=seconds)
+        except BaseException as reason:
+            _kill(process.pid)
+            output, error = process.communicate()
+            late = True
+            if not isinstance(reason, subprocess.TimeoutExpired):
+                raise
+    late = late or (stop is not None and stop.is_set())
     return Printed(output, error if typed or process.returncode or late else "", late)
 
 

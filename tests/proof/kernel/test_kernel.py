@@ -191,10 +191,13 @@ def test_an_interrupt_ends_coq_and_keeps_what_is_known(
     monkeypatch.setenv("PTPROOF_CACHE", str(tmp_path))
     confirming = coq.ask
 
-    def ask(folder: Path, file: str, seconds: float, stop: threading.Event) -> coq.Printed:
+    def ask(folder: Path, file: str, seconds: float, stop: coq.Stop) -> coq.Printed:
         if "claims_000" not in file:
             os.kill(os.getpid(), signal.SIGINT)
-            assert stop.wait(30)
+            until = time.monotonic() + 30
+            while not stop.is_set():
+                assert time.monotonic() < until
+                time.sleep(0.01)
         return confirming(folder, file, seconds)
 
     monkeypatch.setattr(coq, "ask", ask)
@@ -212,10 +215,11 @@ def test_an_interrupt_ends_coq_and_keeps_what_is_known(
 def test_coq_is_ended_when_it_is_told_to_stop(tmp_path: Path) -> None:
     coq.prepare(tmp_path)
     (tmp_path / "endless.v").write_text("Goal True. repeat (assert True by exact I; idtac). Qed.", "utf-8")
-    stop = threading.Event()
+    stop = coq.Stop()
     threading.Timer(0.5, stop.set).start()
     start = time.monotonic()
     assert coq.ask(tmp_path, "endless.v", 60, stop).late
+    assert coq.ask(tmp_path, "endless.v", 60, stop).late  # nor does it begin again
     assert time.monotonic() - start < 10
 
 
