@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 import signal
 import threading
 import time
@@ -189,11 +188,11 @@ def test_an_interrupt_ends_coq_and_keeps_what_is_known(
     pretended: list[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
     monkeypatch.setenv("PTPROOF_CACHE", str(tmp_path))
-    confirming = coq.ask
+    confirming, main_thread = coq.ask, threading.get_ident()
 
     def ask(folder: Path, file: str, seconds: float, stop: coq.Stop) -> coq.Printed:
         if "claims_000" not in file:
-            os.kill(os.getpid(), signal.SIGINT)
+            signal.pthread_kill(main_thread, signal.SIGINT)
             until = time.monotonic() + 30
             while not stop.is_set():
                 assert time.monotonic() < until

@@ -96,10 +96,11 @@ def test_the_corrupted_twin_is_not(answers: dict[str, Confirmation], id: str) ->
     assert answers[id].reason
 
 
-def test_functions_are_smooth_where_they_are_composed() -> None:
-    """A function of several arguments that is only differentiated by each of them is asked no more."""
+def test_functions_of_several_arguments_are_smooth() -> None:
+    """Of one that is differentiated by its only argument nothing more is said: it may stand for a curve's value."""
     assert "smooth_at 1" in proposition(stated("composed", eq(ALONG, CHAIN))).text
-    alone = sp.Derivative(G(x, y), x)
+    several, alone = sp.Derivative(G(x, y), x), sp.Derivative(sp.Function("H", real=True)(x), x)
+    assert "smooth_at 1" in proposition(stated("several", eq(several, several))).text
     assert "smooth_at" not in proposition(stated("alone", eq(alone, alone))).text
     smooth = claim("smooth", "smooth", Smooth((ALONG,), (t,), 1, ((G(x, y), 2),)))(engine)
     assert "smooth_at 1 (fun p : R * R" not in proposition(smooth).text
