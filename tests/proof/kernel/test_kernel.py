@@ -19,6 +19,7 @@ from ptproof.proof import claim, eq, exact, ge, le, lt
 from ptproof.proof.claim import Claim
 from ptproof.proof.kernel import Confirmation, check, coq, missing
 from ptproof.proof.kernel.asking import EFFORTS
+from ptproof.proof.kernel.lemmas import Noted
 from ptproof.proof.kernel.theorem import proposition
 from ptproof.proof.memory import Memory
 from ptproof.proof.result import Result, Verification
@@ -188,24 +189,31 @@ def test_an_interrupt_ends_coq_and_keeps_what_is_known(
     pretended: list[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
     monkeypatch.setenv("PTPROOF_CACHE", str(tmp_path))
-    confirming, main_thread = coq.ask, threading.get_ident()
+    confirming, begun, ended = coq.ask, threading.Event(), threading.Event()
 
     def ask(folder: Path, file: str, seconds: float, stop: coq.Stop) -> coq.Printed:
-        if "claims_000" not in file:
-            signal.pthread_kill(main_thread, signal.SIGINT)
-            until = time.monotonic() + 30
-            while not stop.is_set():
-                assert time.monotonic() < until
-                time.sleep(0.01)
-        return confirming(folder, file, seconds)
+        if "claims_000" in file:
+            return confirming(folder, file, seconds)
+        begun.set()
+        until = time.monotonic() + 30
+        while not stop.is_set() and time.monotonic() < until:
+            time.sleep(0.01)
+        ended.set()
+        return coq.Printed("", "", True)
+
+    def take(self: Noted) -> None:  # this process is interrupted while it waits
+        assert begun.wait(30)
+        raise KeyboardInterrupt
 
     monkeypatch.setattr(coq, "ask", ask)
+    monkeypatch.setattr(Noted, "take", take)
     results = tuple(Result(replace(TRUE[0], id=f"n{n}"), Verdict.PROVED, (), True) for n in range(18))
     memory = Memory([tmp_path])
     after, status = opinion.confirmed(Verification(results, 0.0), 1, None, memory)
     assert status == 128 + signal.SIGINT
     assert [len(item.evidence) for item in after.results] == [1] * 12 + [0] * 6
     assert "interrupted; Coq's kernel confirmed 12 of 18" in capsys.readouterr().err
+    assert ended.wait(5)
     assert memory.recall_said("Coq's kernel", "8.16", *EFFORTS, proposition(TRUE[0]).text)
 
 
