@@ -184,10 +184,7 @@ class Replay:
         inside.known += [there.relation(part) for part in plain(values.quantified(item).domain)]
         intro = f"intros {' '.join(inside.names[point] for point in points)}; intros; facts"
         self._at(tuple(points), inside)
-        lines = [f"try ({line})" for line in inside.lines]
-        inside.lines = []
         self.take(anywhere.steps, inside)
-        lines += inside.lines
         parts = [
             replace(
                 part,
@@ -197,7 +194,7 @@ class Replay:
             for part in everywhere(item, names)
         ]
         leaves = " | ".join(self._shown(part, inside) for part in parts)
-        return f"assumption || ({'; '.join([intro, *lines, 'pieces'])}; [> {leaves} ])"
+        return f"assumption || ({'; '.join([intro, *inside.lines, 'pieces'])}; [> {leaves} ])"
 
     def _at(self, point: tuple[Any, ...], told: Told) -> None:
         """The claim's own quantified assumptions at a point."""
