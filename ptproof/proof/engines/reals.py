@@ -139,13 +139,13 @@ def _answered(
     conclusion: Relation, assumptions: tuple[Relation, ...], facts: tuple[Implication, ...], seconds: float
 ) -> Answer:
     try:
-        problem = _Problem(conclusion, assumptions, facts)
+        problem = Problem(conclusion, assumptions, facts)
     except NotAlgebraic as error:
         return Answer(False, str(error))
     return asked(lambda: _asked(problem, bool(facts), seconds))
 
 
-def _asked(problem: _Problem, told_facts: bool, seconds: float) -> Answer:
+def _asked(problem: Problem, told_facts: bool, seconds: float) -> Answer:
     z3, tried = library(), []
     # What the facts say may be enough, whatever the roots in them are roots of.
     told, most = bool(problem.generators.relations and told_facts), int(1000 * min(seconds / 5, _SECONDS_TOLD))
@@ -162,7 +162,7 @@ def _asked(problem: _Problem, told_facts: bool, seconds: float) -> Answer:
     return Answer(False, f"z3 gave no answer in {seconds:g} s ({'; '.join(tried)})")
 
 
-class _Problem:
+class Problem:
     """The relations as rational functions in generators, beside what is known of the generators.
 
     An assumption is known to be defined; the hypotheses of a fact hold only where they are.
@@ -197,11 +197,11 @@ class _Problem:
         solver = solver_by(tactic)
         solver.set("timeout", max(milliseconds, 1))
         if opaque not in self._asserted:
-            self._asserted[opaque] = list(self._assertions(opaque))
+            self._asserted[opaque] = list(self.assertions(opaque))
         solver.add(*self._asserted[opaque])
         return solver
 
-    def _assertions(self, opaque: bool) -> Iterator[Any]:
+    def assertions(self, opaque: bool = False) -> Iterator[Any]:
         z3, used = library(), dict[sp.Symbol, None]()
 
         def number(expression: sp.Expr) -> Any:

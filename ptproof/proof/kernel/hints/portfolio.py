@@ -25,6 +25,7 @@ from ptproof.proof.kernel.hints.instances import Instance, instances
 from ptproof.proof.kernel.hints.instances import lines as instance_lines
 from ptproof.proof.kernel.hints.integrals import integrals
 from ptproof.proof.kernel.hints.limits import near
+from ptproof.proof.kernel.hints.refuted import by_refutation
 from ptproof.proof.kernel.hints.reduced import reduced_relation
 from ptproof.proof.kernel.hints.replay import Replay
 from ptproof.proof.kernel.hints.search import by_steps
@@ -132,7 +133,7 @@ def _replayed(
     ]
 
     def leaf(part: Part, known: Sequence[Relation], names: Names) -> str:
-        return _leaf(part, replace(sought, said=replace(said, names=names), known=tuple(known)))
+        return _leaf(part, replace(sought, said=replace(said, names=names), known=tuple(known)).narrowed(part))
 
     Replay(said, named, tuple(given), leaf).take(steps, told)
     now = replace(said, names=told.names)
@@ -177,12 +178,13 @@ class _Sought:
     found: tuple[Instance, ...]
     thorough: bool
     chains: bool = False
+    every: tuple[Relation, ...] = ()  # what is known before it was narrowed
 
     def narrowed(self, part: Part) -> _Sought:
         """With less to look at, where much is known by lemmas."""
         if part.relation is None or not self.chains:
             return self
-        return replace(self, known=tuple(relevant(part.relation, self.known)))
+        return replace(self, known=tuple(relevant(part.relation, self.known)), every=self.known)
 
     def goal(self, relation: Relation) -> Goal:
         return Goal(relation, self.known, self.said.names)
@@ -201,6 +203,12 @@ def _leaf(part: Part, sought: _Sought) -> str:
     if part.relation.sign == "=":
         return _equal(goal, sought)
     tries: list[str] = []
+    # Before what looks at all that is known: it has less to look at.
+    focused = ""
+    if sought.chains or sought.thorough:
+        with contextlib.suppress(NoTranslation, sp.PolynomialError):
+            hints = by_refutation(replace(goal, known=sought.every or sought.known))
+            focused = "".join(f"try (solve [ {hint} ]); " for hint in hints)
     if sought.more or sought.thorough or sought.chains:
         with contextlib.suppress(NoTranslation, sp.PolynomialError):
             tries += certificate(part.relation, sought.known, sought.said.names, sought.more)
@@ -216,7 +224,7 @@ def _leaf(part: Part, sought: _Sought) -> str:
     if part.relation.sign != "!=" and any(not power.exp.is_number for power in powers):
         tries.append("by_growth")
     tries += by_growth_of_parts(part.relation, sought.known)
-    return f"cbv beta; quickly; {_tried(*tries)}"
+    return f"cbv beta; {focused}quickly; {_tried(*tries)}"
 
 
 def _thoroughly(goal: Goal, sought: _Sought) -> Iterator[str]:

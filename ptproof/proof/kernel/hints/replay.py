@@ -15,7 +15,9 @@ from sympy.core.function import AppliedUndef
 
 from ptproof.errors import InputError
 from ptproof.proof.kernel import declared
-from ptproof.proof.kernel.hints.told import Told, alike, relevant, sides_of, text_of
+from ptproof.proof.kernel.hints.goals import Goal
+from ptproof.proof.kernel.hints.refuted import follows
+from ptproof.proof.kernel.hints.told import Told, alike, sides_of, text_of
 from ptproof.proof.kernel.names import Names, fresh
 from ptproof.proof.kernel.obligations import Part
 from ptproof.proof.kernel.terms import NoTranslation, term
@@ -58,7 +60,17 @@ class Replay:
     leaf: Leaf
 
     def take(self, steps: Iterable[Step], told: Told) -> None:
-        """Take the steps one after the other; one that Coq cannot take is left out there."""
+        """Take the steps one after the other; one that Coq cannot take is left out there.
+
+        A claim is put to use once what it assumes follows from what is known; where it never does, last.
+        """
+        left = list(steps)
+        while left:
+            ready = [step for step in left if self._is_ready(step, told)] or left
+            self._take(ready[:1] if ready is left else ready, told)
+            left = [step for step in left if step not in (ready[:1] if ready is left else ready)]
+
+    def _take(self, steps: Iterable[Step], told: Told) -> None:
         for step in steps:
             here = Told(told.names, list(told.known), [])
             try:
@@ -74,6 +86,22 @@ class Replay:
             if here.lines:
                 told.known[:] = here.known
                 told.lines.append(f"try ({'; '.join(here.lines)})")
+
+    def _is_ready(self, step: Step, told: Told) -> bool:
+        """Whether nothing that a used claim assumes is seen not to follow yet."""
+        if not isinstance(step, Put) or step.content not in self.lemmas:
+            return True
+        values = Substitution(dict(step.values), has_sign=lambda value, sign: True)
+        known = set(map(Relation.standard, told.known))
+        for item in self.lemmas[step.content][1].claim.assumptions:
+            for part in () if isinstance(item, ForAll) else item.components():
+                try:
+                    wanted = values.relation(part)
+                except InputError:
+                    continue
+                if wanted.standard() not in known and follows(Goal(wanted, tuple(told.known), told.names)) is False:
+                    return False
+        return True
 
     def _put(self, step: Put, told: Told) -> None:
         if step.content not in self.lemmas:
@@ -170,7 +198,7 @@ class Replay:
             if item.sign == wanted.sign and all(map(alike, sides_of(item), sides_of(wanted))):
                 turned = Relation(item.right, relation.sign, item.left) if relation != wanted else item
                 return f"as_claimed ({text_of(turned, told.names)}) ltac:(quickly)"
-        return self.leaf(Part("", relation), relevant(wanted, told.known), told.names)
+        return self.leaf(Part("", relation), told.known, told.names)
 
     def _quantified(
         self, item: ForAll, names: Names, values: Substitution, anywhere: Anywhere, told: Told
@@ -212,8 +240,9 @@ class Replay:
                     for text in declared.of_symbol(variable, "x"):
                         lines.append(f"assumed {key} ltac:({self._kind(text, there.into(variable), told)})")
                 for part in plain(item.domain):
-                    for piece in given(there.relation(part), told.names):
-                        lines.append(f"assumed {key} ltac:({self._shown(piece, told)})")
+                    for piece in given(part, self.said.names):
+                        said = replace(piece, relation=piece.relation and there.relation(piece.relation))
+                        lines.append(f"assumed {key} ltac:({self._shown(said, told)})")
                 here = Told(told.names, told.known, lines)
                 self._learn(key, everywhere(item, self.said.names), item.relation.components(), there, here)
                 told.lines.append(f"try ({'; '.join(here.lines)})")

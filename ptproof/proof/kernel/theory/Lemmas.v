@@ -10,7 +10,7 @@ Proof. intro z. exists z. reflexivity. Qed.
 Ltac whole := first
   [ assumption | apply integer_constant | apply integer_plus; whole | apply integer_minus; whole | apply integer_mult; whole ].
 Ltac assumed K t := lazymatch type of K with
-  | ?A -> _ => let P := fresh in assert (P : A) by (first [ t | fail 2 "at" A ]); specialize (K P)
+  | ?A -> _ => let P := fresh in assert (P : A) by (first [ t | fail 1 "at" A ]); specialize (K P)
   end.
 (* Powers whose exponents are numbers, or which are of roots. *)
 Lemma rpow_one : forall x e, e = 1 -> 0 <= x -> rpow x e = x.
@@ -83,12 +83,33 @@ Ltac simple_powers :=
   | |- context [rpow ?x ?a] => same_exponents rpow x a
   | |- context [Rpower ?x ?a] => same_exponents Rpower x a
   end.
+(* Powers of one base by each other: 0 or positive, and every exponent a multiple of another one. *)
+Ltac base_cases := repeat match goal with
+  | |- context [rpow ?x ?e] =>
+      let P := fresh in assert (P : 0 <= x) by (first [ assumption | lra | sign ]);
+      let E := fresh in destruct (nonneg_cases x P) as [E | E];
+      [ rewrite ?E; zero_powers | repeat match goal with |- context [rpow x ?a] => rewrite (rpow_Rpower x a E) end ]
+  end.
+Ltac multiple_powers := repeat match goal with |- context [Rpower ?x ?b] =>
+  match goal with |- context [Rpower x ?a] =>
+    assert_fails (constr_eq a b);
+    let E := fresh in assert (E : Rpower x b = Rpower x a ^ 2) by (timeout 3 by_powers); rewrite E; clear E
+  end end.
+Ltac same_by_powers := as_reals; base_cases; multiple_powers; rational.
+Ltac said_by_powers H := lazymatch type of H with
+  | _ <= _ => apply (le_as _ _ _ _ H)
+  | _ < _ => apply (lt_as _ _ _ _ H)
+  | _ >= _ => apply (ge_as _ _ _ _ H)
+  | _ > _ => apply (gt_as _ _ _ _ H)
+  | _ = _ => apply (eq_as _ _ _ _ H)
+  end; same_by_powers.
 (* H in other words: both sides are the same by arithmetic. *)
 Ltac in_words H := first
   [ exact H | timeout 10 (as_said H) | lra
-  | solve [ revert H; progress simple_powers; intro H; first [ exact H | timeout 10 (as_said H) ] ] ].
+  | solve [ revert H; progress simple_powers; intro H; first [ exact H | timeout 10 (as_said H) ] ]
+  | solve [ timeout 12 (said_by_powers H) ] ].
 Ltac as_claimed P t := let H := fresh in assert (H : P) by (first [ assumption | t ]); in_words H.
-Ltac as_known P H := first [ assert P by assumption; clear H | assert P by (timeout 15 (in_words H)); clear H | idtac ].
+Ltac as_known P H := first [ assert P by assumption; clear H | assert P by (timeout 25 (in_words H)); clear H | idtac ].
 Ltac function_premise :=
   first [ assumption | intros; cbv beta; first [ assumption | solve [ sign ] | solve [ derivable ] | solve [ whole ]
         | match goal with H : forall _, _ |- _ => solve [ apply H ] end ] ].
@@ -97,3 +118,35 @@ Ltac library_lemma := first
   | apply exp_le_exp; lra | apply exp_above
   | apply rpow_mono; first [ assumption | lra | sign ]
   | timeout 3 inequality ].
+
+(* A goal from few facts by contradiction. *)
+Ltac plain_number x := first [ is_var x | lazymatch x with IZR _ => idtac end ].
+Ltac only_from P :=
+  let N := fresh in
+  match goal with |- ?G => let Q := only_goal P G in enough (N : Q) by (apply N; first [ assumption | lra | solve [ sign ] | timeout 10 found_as ]) end;
+  repeat match goal with H : ?T |- _ =>
+    lazymatch T with
+    | ?a < ?b => assert_fails (plain_number a; plain_number b)
+    | ?a <= ?b => assert_fails (plain_number a; plain_number b)
+    | ?a > ?b => assert_fails (plain_number a; plain_number b)
+    | ?a >= ?b => assert_fails (plain_number a; plain_number b)
+    | ?a <> ?b => assert_fails (plain_number a; plain_number b)
+    | @eq R ?a ?b => assert_fails (plain_number a; plain_number b)
+    end; clear H end;
+  intros
+with only_goal P G := lazymatch P with True => G | ?A -> ?B => let Q := only_goal B G in constr:(A -> Q) end.
+Lemma equation_top : forall a b top bottom, a = b -> 0 < bottom -> b - a = top / bottom -> top = 0.
+Proof. intros a b top bottom L P E. replace top with ((b - a) * bottom) by (rewrite E; field; lra). rewrite L. ring. Qed.
+Ltac equation_from bottom top :=
+  match goal with H : ?a = ?b |- _ => first
+    [ assert (top = 0) by (apply (equation_top a b top bottom H); [ sign | rational ])
+    | assert (top = 0) by (apply (equation_top b a top bottom (eq_sym H)); [ sign | rational ]) ] end.
+Ltac deny d := lazymatch goal with
+  | |- 0 <= ?t => apply Rnot_lt_le; let N := fresh in intro N; assert (0 < d) by (replace d with (- t) by ring; lra); clear N
+  | |- 0 < ?t => apply Rnot_le_lt; let N := fresh in intro N; assert (0 <= d) by (replace d with (- t) by ring; lra); clear N
+  end.
+Lemma times_zero : forall a b, b = 0 -> a * b = 0.
+Proof. intros; subst; ring. Qed.
+Ltac no_product p := assert (p = 0) by (apply times_zero; assumption).
+Ltac power_known := first [ by_powers | solve [ rewrite <- Rsqr_pow2; apply Rsqr_sqrt; sign ] | solve [ apply pow2_sqrt; sign ]
+  | match goal with |- sin ?x ^ 2 = _ => pose proof (sin2_cos2 x); unfold Rsqr in *; lra end ].

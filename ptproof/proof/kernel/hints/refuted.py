@@ -1,0 +1,246 @@
+"""A goal by contradiction: what z3 needs of all that is known, and products that cannot hold with the goal's negation.
+
+z3 and a linear program say what to look at; Coq multiplies out what they point to.
+"""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from ptproof.proof.algebra import NotAlgebraic
+from ptproof.proof.definedness import domain_of
+from ptproof.proof.engines.reals import Problem
+from ptproof.proof.kernel.hints.bases import by_zero, lettered
+from ptproof.proof.kernel.hints.cases import split
+from ptproof.proof.kernel.hints.goals import Goal
+from ptproof.proof.kernel.hints.ground import Ground
+from ptproof.proof.kernel.hints.masks import hidden, masked, put_in
+from ptproof.proof.kernel.hints.needed import can_be_told, needed
+from ptproof.proof.kernel.hints.positivstellensatz import Product, Sign, contradiction
+from ptproof.proof.kernel.hints.told import text_of
+from ptproof.proof.kernel.names import fresh
+from ptproof.proof.kernel.terms import NoTranslation, term
+from ptproof.proof.statement import Relation
+
+_MOST_CASES = 2
+
+
+def by_refutation(goal: Goal) -> Iterator[str]:
+    """The goal from what it needs alone, if that is found."""
+    match goal.relation:
+        case Relation(value, "!=", sp.S.Zero):
+            for way, item in (("Rgt_not_eq; red", Relation(sp.S.Zero, "<", value)), ("Rlt_not_eq", Relation(value, "<", sp.S.Zero))):
+                for line in by_refutation(replace(goal, relation=item)):
+                    yield f"apply {way}; {line}"
+                    return
+            return
+        case Relation(_, "=" | "!=", _):
+            return
+    known = list(dict.fromkeys([*goal.known, *_domains(goal.relations())]))
+    core = _core(goal, known)
+    if core is None:
+        return
+    facts = [*core, *_of_bases((goal.relation, *core), known)]
+    for bottom in _bottoms((goal.relation, *core)):
+        facts += needed(Relation(sp.Integer(0), "<", bottom), known) or ()
+    focused = Goal(goal.relation, tuple(dict.fromkeys(facts)), goal.names)
+    lines: list[str] = []
+    for step in (put_in, masked, _without_functions, masked, lettered):
+        more, focused = step(focused)
+        lines += more
+    inner = _by_cases(focused, _MOST_CASES)
+    if inner:
+        said = "".join(f"({text_of(item, goal.names)}) -> " for item in dict.fromkeys(facts))
+        yield "; ".join([f"only_from ({said}True)", *lines, inner])
+
+
+def follows(goal: Goal) -> bool | None:
+    """Whether z3 finds that the goal follows from what is known; None if it cannot be told."""
+    if not can_be_told(goal.relation):
+        return None
+    try:
+        return _core(goal, list(dict.fromkeys([*goal.known, *_domains(goal.relations())]))) is not None
+    except NotAlgebraic:
+        return None
+
+
+def _core(goal: Goal, known: Sequence[Relation]) -> tuple[Relation, ...] | None:
+    """What is needed of all that is known; sums and derivatives are looked into only if they have to be."""
+    seen = hidden(Goal(goal.relation, tuple(known), goal.names))
+    if (core := needed(seen.relation, seen.known)) is not None:
+        return tuple(item for item, masked in zip(known, seen.known, strict=True) if masked in core)
+    return needed(goal.relation, known)
+
+
+def _domains(relations: Iterable[Relation]) -> Iterator[Relation]:
+    """What holds where the relations are defined."""
+    for item in relations:
+        for need in domain_of(item):
+            if need.relation is not None and not need.settled and not need.given:
+                yield need.relation
+
+
+def _of_bases(relations: Iterable[Relation], known: Iterable[Relation]) -> Iterator[Relation]:
+    """What is known of the signs of the bases of powers."""
+    sides = sp.Tuple(*(side for item in relations for side in (item.left, item.right)))
+    bases = {power.base for power in sides.atoms(sp.Pow) if not power.exp.is_Integer and power.base.is_Add}
+    for item in known:
+        wanted = item.standard()
+        if wanted.left == 0 and wanted.right in bases:
+            yield item
+
+
+def _bottoms(relations: Iterable[Relation]) -> Iterator[sp.Expr]:
+    """What stands below a line and has no plain sign."""
+    for item in relations:
+        for power in sp.Tuple(item.left, item.right).atoms(sp.Pow):
+            if power.exp.is_negative and power.base.is_Add and not power.base.is_positive:
+                yield power.base
+
+
+def _without_functions(goal: Goal) -> tuple[list[str], Goal]:
+    """Values of unknown functions, and of their derivatives, as numbers."""
+    if not any(item.has(AppliedUndef, sp.Derivative) for item in goal.relations()):
+        return [], goal
+    ground = Ground.over(goal.names)
+    relation = goal.relation.map(ground)
+    spoken = [item for item in goal.known if item.has(AppliedUndef)]
+    facts = [item.map(ground) for item in goal.known]
+    again = [item.map(ground) for item in spoken]
+    inner = Goal(relation, tuple(dict.fromkeys(facts)), ground.names)
+    return [
+        *ground.lines(),
+        *(f"try (assert ({text_of(item, inner.names)}) by found_as)" for item in again),
+        f"try (shown_as {inner.text(relation.left)} {inner.text(relation.right)})",
+    ], inner
+
+
+def _by_cases(goal: Goal, left: int) -> str:
+    """Bases of powers that may be 0, minima, maxima and absolute values one after the other; nothing if one fails."""
+    if left and (sides := by_zero(goal)) is not None:
+        line, zero, positive = sides
+        both = [_by_cases(each, left - 1) for each in (zero, positive)]
+        return f"{line}; [> zero_powers; {both[0]} | positive_powers; {both[1]} ]" if all(both) else ""
+    if left and (found := split(goal)) is not None:
+        line, goals = found
+        each = [_by_cases(case, left - 1) for case in goals]
+        return f"{line}; [> {' | '.join(f'facts; {tactic}' for tactic in each)} ]" if all(each) else ""
+    with contextlib.suppress(NoTranslation, sp.PolynomialError):
+        return _refuted(goal)
+    return ""
+
+
+@dataclass
+class _Written:
+    """A relation between polynomials: ``top`` sign 0, once the positive ``bottom`` is multiplied away."""
+
+    top: sp.Expr
+    bottom: sp.Expr
+    sign: str
+
+    def known(self) -> Sign:
+        return Sign(self.top, {"<=": ">=", "<": ">", "=": "="}[self.sign])  # type: ignore[arg-type]
+
+
+def _refuted(goal: Goal) -> str:
+    problem = Problem(goal.relation, [item for item in goal.known if item.sign != "!="], ())
+    letters = _Letters(goal, problem)
+    wanted = _written(letters.seen(problem.conclusion))
+    told = [fact.conclusion for fact in problem.told if not fact.hypotheses and fact.conclusion.sign != "!="]
+    told += [Relation(polynomial, "=", sp.Integer(0)) for _, polynomial in problem.generators.relations]
+    facts = [_written(letters.seen(item)) for item in told]
+    if wanted is None:
+        return ""
+    known = {item.known(): item for item in facts if item is not None}
+    whole = [Sign(symbol - 1, ">=") for symbol in wanted.top.free_symbols.union(*(s.polynomial.free_symbols for s in known))
+             if symbol.is_integer and symbol.is_positive]
+    denied = Sign(sp.expand(-wanted.top), ">" if wanted.sign == "<=" else ">=")
+    found = contradiction([*known, *whole], denied)
+    if found is None:
+        return ""
+    used = dict.fromkeys(factor for product in found for factor in product.factors)
+    lines = [*letters.lines(), f"top_of {letters.text(wanted.top)} {letters.text(wanted.bottom)}",
+             f"deny {letters.text(denied.polynomial)}"]
+    for sign in used:
+        if (item := known.get(sign)) is not None:
+            name = "equation_from" if sign.sign == "=" else "fact_from"
+            lines.append(f"{name} {letters.text(item.bottom)} {letters.text(item.top)}")
+    lines += [letters.product(product) for product in found if product.symbols or len(product.factors) > 1 or (product.factors and product.factors[0] not in known and product.factors[0] != denied)]
+    return "; ".join([*lines, "lra"])
+
+
+def _written(relation: Relation) -> _Written | None:
+    item = relation.standard()
+    top, bottom = sp.fraction(sp.together(item.right - item.left))
+    top = sp.expand(top)
+    if not top.free_symbols or (top.is_Symbol and top.is_nonnegative):
+        return None
+    return _Written(top, bottom, item.sign)
+
+
+def _upright(node: sp.Basic) -> sp.Basic:
+    """The power that Coq has below the line, where it stands there."""
+    below = isinstance(node, sp.Pow) and node.base.is_positive and node.exp.could_extract_minus_sign()
+    return node.base**-node.exp if below else node
+
+
+class _Letters:
+    """The generators of a problem for Coq: powers written by them, what is known of them, and then a letter each."""
+
+    def __init__(self, goal: Goal, problem: Problem) -> None:
+        self._goal = goal
+        self._generators = problem.generators
+        self._names = dict(goal.names)
+        self._full = dict(goal.names)
+        self._letters: dict[sp.Symbol, sp.Symbol] = {}
+        meanings = self._generators.meaning
+        for letter, meaning in sorted(meanings.items(), key=lambda item: (-sp.count_ops(item[1]), item[0].name)):
+            name = fresh(f"g{len(self._letters)}", self._names)
+            root = isinstance(meaning, sp.Pow) and not meaning.exp.is_Integer
+            own = "positive" if meaning.is_positive else "nonnegative" if root or meaning.is_nonnegative else "real"
+            symbol = sp.Symbol(name, **{"real": True, own: True})
+            self._letters[letter] = symbol
+            self._names[symbol] = self._names[name] = name
+            self._full[letter] = term(meaning, goal.names)
+
+    def seen(self, relation: Relation) -> Relation:
+        """The relation with the letters for generators that Coq will have."""
+        return relation.map(lambda side: side.xreplace(self._letters))
+
+    def text(self, expression: sp.Expr) -> str:
+        """A polynomial for Coq."""
+        return term(expression, self._names)
+
+    def product(self, product: Product) -> str:
+        """The line for a product."""
+        powers = (symbol ** product.symbols.count(symbol) for symbol in dict.fromkeys(product.symbols))
+        text = " * ".join(map(self.text, (*powers, *(item.polynomial for item in product.factors))))
+        return f"no_product ({text})" if product.sign == "=" else f"product ({text})"
+
+    def lines(self) -> Iterator[str]:
+        """Powers by generators, what is known of these, and the letters: the outer ones first, as they hold others."""
+        sides = [side for item in self._goal.relations() for side in (item.left, item.right)]
+        nodes = {_upright(node) for side in sides for node in side.atoms(sp.Pow, sp.exp)
+                 if isinstance(node, sp.exp) or not node.exp.is_Integer}  # fmt: skip
+        for node in sorted(nodes, key=lambda node: (-sp.count_ops(node), sp.default_sort_key(node))):
+            (prepared,) = self._generators.read([node])
+            old, new = term(node, self._goal.names), term(self._generators.rational(prepared), self._full)
+            if old != new:
+                yield f"try (power_as {old} {new})"
+        split = [(base, product) for base, product in self._generators.split_bases()
+                 if base.is_Symbol and product not in self._letters]  # fmt: skip
+        for base, product in split:
+            yield f"try (assert ({self._full[base]} = {term(product, self._full)}) by by_powers)"
+        for letter, polynomial in self._generators.relations:
+            power = letter ** sp.degree(polynomial, letter)
+            value = term(sp.expand(power - polynomial), self._full)
+            yield f"try (assert ({term(power, self._full)} = {value}) by power_known)"
+        for letter, symbol in self._letters.items():
+            yield f"try (atom {symbol.name} {self._full[letter]})"
+        for base, _ in split:
+            yield f"try (subst {self._full[base]})"
