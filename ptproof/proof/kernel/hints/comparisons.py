@@ -61,7 +61,7 @@ class Rate:
 
 def compared(claim: Claim, known: Sequence[Relation], names: Names) -> Iterator[Compared]:
     """The bounds, each with the line by which Coq finds it."""
-    for rate, _ in _rates(claim, known, names):
+    for rate, _ in rates(claim, known, names):
         for start, end in _times(rate):
             for way in (_integral, _decay, _bernoulli):
                 with contextlib.suppress(NoTranslation, sp.PolynomialError):
@@ -70,14 +70,14 @@ def compared(claim: Claim, known: Sequence[Relation], names: Names) -> Iterator[
 
 def solved(claim: Claim, known: Sequence[Relation], names: Names) -> Iterator[Compared]:
     """What solutions of linear differential equations are, each with the line by which Coq finds it."""
-    for rate, sign in _rates(claim, known, names):
+    for rate, sign in rates(claim, known, names):
         if sign == "=":
             for start, end in _times(rate):
                 with contextlib.suppress(NoTranslation, sp.PolynomialError):
                     yield from _solution(rate, start, end)
 
 
-def _rates(claim: Claim, known: Sequence[Relation], names: Names) -> Iterator[tuple[Rate, RelationSign]]:
+def rates(claim: Claim, known: Sequence[Relation], names: Names) -> Iterator[tuple[Rate, RelationSign]]:
     """The differential equations and inequalities that the claim assumes."""
     statements = [claim.statement, *claim.assumptions]
     said = tuple(expressions_of(statements))

@@ -8,6 +8,7 @@ from collections.abc import Iterator, Sequence
 import sympy as sp
 
 from ptproof.proof.kernel.hints.comparisons import compared
+from ptproof.proof.kernel.hints.supersolutions import never_above
 from ptproof.proof.kernel.names import Names
 from ptproof.proof.kernel.terms import NoTranslation, term
 from ptproof.proof.kernel.theorem import Proposition
@@ -22,6 +23,8 @@ def derived(known: Sequence[Relation], said: Proposition) -> list[Derived]:
     for item in known:
         with contextlib.suppress(NoTranslation):
             found += _raised(item.standard(), said.names)
+    with contextlib.suppress(NoTranslation, sp.PolynomialError):
+        found += never_above(said, list(known))
     return [*found, *compared(said.claim, known, said.names)]
 
 

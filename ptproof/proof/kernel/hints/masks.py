@@ -14,6 +14,7 @@ from ptproof.proof.kernel.names import fresh
 from ptproof.proof.kernel.terms import term
 
 _MOST = 12
+_MILLISECONDS = 500
 _BOUND = (sp.Derivative, sp.Subs, sp.Integral, sp.Limit)
 _KINDS = {">": "positive", ">=": "nonnegative", "!=": "nonzero"}
 
@@ -27,7 +28,7 @@ def masked(goal: Goal) -> tuple[list[str], Goal]:
         letter = sp.Symbol(name, real=True, **kinds)
         inner = goal.replaced(part, letter, {**goal.names, letter: name})
         if inner.relation != goal.relation or inner.known != goal.known:
-            if needed(inner.relation, inner.known) is None:
+            if needed(inner.relation, inner.known, _MILLISECONDS) is None:
                 continue
             lines.append(f"try (named {name} {goal.text(part)})")
             goal = inner

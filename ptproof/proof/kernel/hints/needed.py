@@ -10,25 +10,27 @@ from ptproof.proof.engines.reals import Problem
 from ptproof.proof.engines.terms import asked, library, solver_by
 from ptproof.proof.statement import Relation
 
-_MILLISECONDS = 4000
+_MILLISECONDS = 3000
 _MILLISECONDS_TO_SPARE = 400  # for leaving out one more
 
 
-def needed(goal: Relation, known: Sequence[Relation]) -> tuple[Relation, ...] | None:
-    """Few of the ``known`` relations from which the goal follows; None if that is not found.
+def needed(
+    goal: Relation, known: Sequence[Relation], milliseconds: int = _MILLISECONDS
+) -> tuple[Relation, ...] | None:  # fmt: skip
+    """Few of the ``known`` relations from which the goal follows; None if that is not found in time.
 
     The goal and what is known may speak of anything that z3 takes for a real number.
     """
-    return _needed(goal, tuple(dict.fromkeys(item for item in known if can_be_told(item))))
+    return _needed(goal, tuple(dict.fromkeys(item for item in known if can_be_told(item))), milliseconds)
 
 
 @lru_cache(maxsize=1024)
-def _needed(goal: Relation, known: tuple[Relation, ...]) -> tuple[Relation, ...] | None:
+def _needed(goal: Relation, known: tuple[Relation, ...], milliseconds: int) -> tuple[Relation, ...] | None:
     try:
         problem = Problem(goal, known, ())
     except NotAlgebraic:
         return None
-    return asked(lambda: _core(problem, known))
+    return asked(lambda: _core(problem, known, milliseconds))
 
 
 @lru_cache(maxsize=4096)
@@ -41,20 +43,20 @@ def can_be_told(item: Relation) -> bool:
     return True
 
 
-def _core(problem: Problem, known: Sequence[Relation]) -> tuple[Relation, ...] | None:
+def _core(problem: Problem, known: Sequence[Relation], milliseconds: int) -> tuple[Relation, ...] | None:
     """Without what is known of roots first: often it is not needed, and the problem is much simpler."""
     for opaque in (True, False) if problem.generators.relations else (False,):
-        if (found := _core_of(list(problem.assertions(opaque)), len(known))) is not None:
+        if (found := _core_of(list(problem.assertions(opaque)), len(known), milliseconds)) is not None:
             return tuple(known[number] for number in found)
     return None
 
 
-def _core_of(said: Sequence[Any], count: int) -> list[int] | None:
+def _core_of(said: Sequence[Any], count: int, milliseconds: int) -> list[int] | None:
     """Numbers below ``count`` of what has to be said for a contradiction."""
     z3, solver = library(), solver_by("default")
     marks = [z3.Bool(f"needed!{number}") for number in range(len(said))]
     solver.add(*(z3.Implies(mark, item) for mark, item in zip(marks, said, strict=True)))
-    solver.set("timeout", _MILLISECONDS)
+    solver.set("timeout", milliseconds)
     if solver.check(*marks) != z3.unsat:
         return None
 
@@ -63,7 +65,7 @@ def _core_of(said: Sequence[Any], count: int) -> list[int] | None:
         return [number for number, mark in enumerate(marks) if mark.decl().name() in found]
 
     left = core()
-    solver.set("timeout", _MILLISECONDS_TO_SPARE)
+    solver.set("timeout", min(milliseconds, _MILLISECONDS_TO_SPARE))
     # The first ones are what is known, in its order; the others are what is known of generators.
     for number in [number for number in reversed(left) if number < count]:
         fewer = [other for other in left if other != number]

@@ -6,6 +6,7 @@ What is found is a hint: floating-point numbers say which products matter, and n
 from __future__ import annotations
 
 import itertools
+import time
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -17,7 +18,8 @@ from ptproof.proof.statement import RelationSign
 _MOST_COLUMNS = 6000
 _MOST_ROWS = 6000
 _ROUNDS = 3
-_SECONDS = 4.0
+_SECONDS = 8.0
+_SECONDS_A_PROGRAM = 3.0
 _WEIGHTS = (1, -1, 2, -2, sp.Rational(1, 2), -sp.Rational(1, 2))
 Powers = tuple[int, ...]
 Polynomial = dict[Powers, float]
@@ -67,15 +69,16 @@ def contradiction(known: Sequence[Sign], denied: Sign) -> tuple[Product, ...] | 
         return None
     bases = list(_bases(every, symbols))
     goal = bases[1].polynomial
+    until = time.monotonic() + _SECONDS
     for start in _starts(goal, bases, symbols):
         rows, seen = set(start), dict[tuple[int, Powers], None]()
         for _ in range(_ROUNDS):
             before = len(seen)
             for key in _matching(rows, bases, symbols):
                 seen.setdefault(key)
-            if len(seen) > _MOST_COLUMNS:
-                break
-            if len(seen) == before:
+                if len(seen) > _MOST_COLUMNS or time.monotonic() > until:
+                    break
+            if len(seen) > _MOST_COLUMNS or len(seen) == before or time.monotonic() > until:
                 break
             columns = [_shifted(bases[number].polynomial, powers) for number, powers in seen]
             rows = {powers for column in columns for powers in column}
@@ -182,7 +185,7 @@ def _vanishing(columns: Sequence[Polynomial], found: Sequence[Product]) -> tuple
     whole = hstack([matrix, -matrix[:, turned]]).tocsr() if turned else matrix
     cost = [1.0 + len(item.factors) + 0.1 * len(item.symbols) for item in found]
     cost += [cost[number] for number in turned]
-    done = linprog(cost, A_eq=whole, b_eq=vector, bounds=(0, None), method="highs", options={"time_limit": _SECONDS})
+    done = linprog(cost, A_eq=whole, b_eq=vector, bounds=(0, None), method="highs", options={"time_limit": _SECONDS_A_PROGRAM})
     if done.status != 0:
         return None
     weights = list(done.x[: len(found)])

@@ -41,6 +41,9 @@ def by_refutation(goal: Goal) -> Iterator[str]:
             return
         case Relation(_, "=" | "!=", _):
             return
+        case Relation(left, "<=" | ">=", right) if left == right:
+            yield "first [ apply Rle_refl | apply Rge_refl ]"
+            return
     known = list(dict.fromkeys([*goal.known, *_domains(goal.relations())]))
     core = _core(goal, known)
     if core is None:
