@@ -6,7 +6,6 @@ import itertools
 import time
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 
 import sympy as sp
 
@@ -146,22 +145,17 @@ def _weights(top: sp.Expr, fact: sp.Expr) -> Iterator[tuple[sp.Expr, sp.Expr]]:
     """A factor and a weight, both positive, such that factor top - weight fact has a term fewer in some symbol."""
     seen: set[tuple[sp.Expr, sp.Expr]] = set()
     for ratio in _ratios(top, sp.expand(fact)):
-        weight, factor = _fraction(ratio)
+        weight, factor = sp.fraction(ratio)
+        if not is_shown(factor, strictly=True) and is_shown(-factor, strictly=True):
+            weight, factor = -weight, -factor
         if not is_shown(weight) or not is_shown(factor, strictly=True) or (factor, weight) in seen or weight == 0:
             continue
         seen.add((factor, weight))
         yield factor, weight
 
 
-@lru_cache(maxsize=4096)  # several goals of one claim have the same ratios
-def _fraction(ratio: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
-    """Numerator and denominator in lowest terms and as products; the denominator positive, if its sign is plain."""
-    top, bottom = sp.fraction(as_factors(ratio))
-    return (-top, -bottom) if is_shown(-bottom, strictly=True) else (top, bottom)
-
-
 def _ratios(top: sp.Expr, fact: sp.Expr) -> Iterator[sp.Expr]:
-    yield top / fact
+    yield as_factors(top) / as_factors(fact)
     for symbol in sorted(fact.free_symbols, key=str):
         above = sp.Poly(top, symbol).as_dict()
         below = sp.Poly(fact, symbol).as_dict()
@@ -169,7 +163,7 @@ def _ratios(top: sp.Expr, fact: sp.Expr) -> Iterator[sp.Expr]:
             continue
         for ((i,), a), ((j,), b) in itertools.product(sorted(above.items()), sorted(below.items())):
             if i >= j:
-                yield a / b * symbol ** (i - j)
+                yield as_factors(a) / as_factors(b) * symbol ** (i - j)
 
 
 def loosen(facts: Sequence[Relation], names: dict[sp.Basic, str]) -> tuple[dict[sp.Symbol, sp.Expr], list[str]]:
