@@ -138,7 +138,10 @@ with sign_nonneg :=
     | |- 0 <= _ + _ => apply Rplus_le_le_0_compat; sign_nonneg
     end
   | match goal with H : forall _, _ |- _ => solve [simple apply H; first [assumption | lra]] end
-  | lra | left; sign_pos ]
+  | lra
+  | lazymatch goal with  (* of a sum, product or power the parts have been looked at *)
+    | |- 0 <= _ + _ => fail | |- 0 <= _ * _ => fail | |- 0 <= _ / _ => fail | |- 0 <= _ ^ _ => fail | |- _ => left; sign_pos
+    end ]
 with sign_nonzero :=
   first
   [ assumption
