@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from typing import Any
 
-import pytest
 import sympy as sp
 
 from ptproof.proof import claim, eq, exact, ge, gt, le, lt
 from ptproof.proof.claim import Claim
-from ptproof.proof.kernel import Confirmation, missing
+from tests.proof.kernel.asked import test_what_is_not_true_is_not_confirmed as test_what_is_not_true_is_not_confirmed
+from tests.proof.kernel.asked import test_what_is_true_is_confirmed as test_what_is_true_is_confirmed
 
-pytestmark = pytest.mark.skipif(bool(missing()), reason=missing() or "coq is there")
 x, y, u, v, q = sp.symbols("x y u v q", real=True)
 a, b, w = sp.symbols("a b w", positive=True)
 c, d = sp.symbols("c d", nonnegative=True)
@@ -79,14 +78,3 @@ NOT_CONFIRMED += [
     stated("parts-false", le(*reversed(SUM))),
     stated("parts-strictly-false", lt(*GROWN), given=[le(c, d)]),
 ]
-
-
-@pytest.mark.parametrize("id", [item.id for item in TRUE])
-def test_what_is_true_is_confirmed(answers: dict[str, Confirmation], id: str) -> None:
-    assert answers[id].confirmed, answers[id].reason
-
-
-@pytest.mark.parametrize("id", [item.id for item in NOT_CONFIRMED])
-def test_the_corrupted_twin_is_not(answers: dict[str, Confirmation], id: str) -> None:
-    assert not answers[id].confirmed
-    assert answers[id].reason
