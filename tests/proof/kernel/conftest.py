@@ -57,6 +57,13 @@ def _compiled(folder: Path) -> str:
     return str(folder)
 
 
+def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
+    """The tests of asked.py, for the claims of the module that has them."""
+    for name, kind in (("true", "TRUE"), ("not_confirmed", "NOT_CONFIRMED")):
+        if name in metafunc.fixturenames:
+            metafunc.parametrize(name, [item.id for item in getattr(metafunc.module, kind)])
+
+
 @pytest.fixture(scope="module")
 def answers(
     request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory, library: None

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from typing import Any
 
-import pytest
 import sympy as sp
 
 from ptproof.proof import ForAll, claim, eq, exact, ge, le
 from ptproof.proof.claim import Claim
-from ptproof.proof.kernel import Confirmation, missing
+from tests.proof.kernel.asked import test_what_is_not_true_is_not_confirmed as test_what_is_not_true_is_not_confirmed
+from tests.proof.kernel.asked import test_what_is_true_is_confirmed as test_what_is_true_is_confirmed
 
-needs_coq = pytest.mark.skipif(bool(missing()), reason=missing() or "coq is there")
 s, t, p, v = sp.symbols("s t p v", real=True)
 a, b, c, g, r = sp.symbols("a b c g r", positive=True)
 z = sp.Symbol("z", nonnegative=True)
@@ -60,15 +59,3 @@ NOT_CONFIRMED = [
            given=BERNOULLI),
     stated("before-the-start", le(Y(t), Y(p) + a * (t - p)), given=rate(Y, a)[1:]),
 ]  # fmt: skip
-
-
-@needs_coq
-@pytest.mark.parametrize("id", [item.id for item in TRUE])
-def test_what_follows_is_confirmed(answers: dict[str, Confirmation], id: str) -> None:
-    assert answers[id].confirmed, answers[id].reason
-
-
-@needs_coq
-@pytest.mark.parametrize("id", [item.id for item in NOT_CONFIRMED])
-def test_what_does_not_follow_is_not(answers: dict[str, Confirmation], id: str) -> None:
-    assert not answers[id].confirmed

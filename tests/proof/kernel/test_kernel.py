@@ -17,15 +17,17 @@ from ptproof.commands import opinion
 from ptproof.commands.cli import main
 from ptproof.proof import claim, eq, exact, ge, le, lt
 from ptproof.proof.claim import Claim
-from ptproof.proof.kernel import Confirmation, check, coq, missing
+from ptproof.proof.kernel import check, coq
 from ptproof.proof.kernel.asking import EFFORTS
 from ptproof.proof.kernel.lemmas import Noted
 from ptproof.proof.kernel.theorem import proposition
 from ptproof.proof.memory import Memory
 from ptproof.proof.result import Result, Verification
 from ptproof.proof.verdict import Verdict
+from tests.proof.kernel.asked import needs_coq
+from tests.proof.kernel.asked import test_what_is_not_true_is_not_confirmed as test_what_is_not_true_is_not_confirmed
+from tests.proof.kernel.asked import test_what_is_true_is_confirmed as test_what_is_true_is_confirmed
 
-needs_coq = pytest.mark.skipif(bool(missing()), reason=missing() or "coq is there")
 x, y = sp.symbols("x y", real=True)
 lam = sp.Symbol("lambda", positive=True)
 a, b = sp.symbols("a b", positive=True)
@@ -58,19 +60,6 @@ NOT_CONFIRMED = [
     stated("wrong-limit", eq(sp.Limit(x / (1 + x / a), x, sp.oo), 2 * a)),
     stated("strictness", lt(a ** (2 * n), b ** (2 * n)), given=[le(a, b)]),
 ]
-
-
-@needs_coq
-@pytest.mark.parametrize("id", [item.id for item in TRUE])
-def test_what_is_true_is_confirmed(answers: dict[str, Confirmation], id: str) -> None:
-    assert answers[id].confirmed, answers[id].reason
-
-
-@needs_coq
-@pytest.mark.parametrize("id", [item.id for item in NOT_CONFIRMED])
-def test_what_is_false_or_not_defined_is_not_confirmed(answers: dict[str, Confirmation], id: str) -> None:
-    assert not answers[id].confirmed
-    assert answers[id].reason
 
 
 @needs_coq

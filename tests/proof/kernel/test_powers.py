@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from typing import Any
 
-import pytest
 import sympy as sp
 
 from ptproof.proof import claim, eq, exact, ge, le, lt
 from ptproof.proof.claim import Claim
-from ptproof.proof.kernel import Confirmation, missing
+from tests.proof.kernel.asked import test_what_is_not_true_is_not_confirmed as test_what_is_not_true_is_not_confirmed
+from tests.proof.kernel.asked import test_what_is_true_is_confirmed as test_what_is_true_is_confirmed
 
-pytestmark = pytest.mark.skipif(bool(missing()), reason=missing() or "coq is there")
 x, y, u, v = sp.symbols("x y u v", real=True)
 a, b, s = sp.symbols("a b s", positive=True)
 c, d = sp.symbols("c d", nonnegative=True)
@@ -71,14 +70,3 @@ NOT_CONFIRMED = [
     stated("iterated-twice", eq(sp.Integral(sp.sin(v) * INNER, (v, 0, 2 * sp.pi)), 2 * sp.pi)),
     stated("derivatives-exchanged", eq(x * DERIVATIVE[0] + y * DERIVATIVE[1], y * DERIVATIVE[0] + x * DERIVATIVE[1])),
 ]
-
-
-@pytest.mark.parametrize("id", [item.id for item in TRUE])
-def test_what_is_true_is_confirmed(answers: dict[str, Confirmation], id: str) -> None:
-    assert answers[id].confirmed, answers[id].reason
-
-
-@pytest.mark.parametrize("id", [item.id for item in NOT_CONFIRMED])
-def test_what_is_false_or_not_defined_is_not_confirmed(answers: dict[str, Confirmation], id: str) -> None:
-    assert not answers[id].confirmed
-    assert answers[id].reason

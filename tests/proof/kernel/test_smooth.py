@@ -10,12 +10,12 @@ import sympy as sp
 from ptproof.proof import claim, ge
 from ptproof.proof import smooth as engine
 from ptproof.proof.claim import Claim
-from ptproof.proof.kernel import Confirmation, missing
 from ptproof.proof.kernel.terms import NoTranslation
 from ptproof.proof.kernel.theorem import proposition
 from ptproof.proof.statement import Smooth
+from tests.proof.kernel.asked import test_what_is_not_true_is_not_confirmed as test_what_is_not_true_is_not_confirmed
+from tests.proof.kernel.asked import test_what_is_true_is_confirmed as test_what_is_true_is_confirmed
 
-pytestmark = pytest.mark.skipif(bool(missing()), reason=missing() or "coq is there")
 x, y, z, t = sp.symbols("x y z t", real=True)
 a = sp.Symbol("a", positive=True)
 c = sp.Symbol("c", nonnegative=True)
@@ -49,17 +49,6 @@ NOT_CONFIRMED = [
     stated("boundary", sp.log(x), x, given=[ge(x, 0)]),
     stated("other-kind", F(x), x, assumed=((F(a), 2),)),
 ]
-
-
-@pytest.mark.parametrize("id", [item.id for item in TRUE])
-def test_what_is_smooth_is_confirmed(answers: dict[str, Confirmation], id: str) -> None:
-    assert answers[id].confirmed, answers[id].reason
-
-
-@pytest.mark.parametrize("id", [item.id for item in NOT_CONFIRMED])
-def test_what_is_not_is_not_confirmed(answers: dict[str, Confirmation], id: str) -> None:
-    assert not answers[id].confirmed
-    assert answers[id].reason
 
 
 def test_what_is_smooth_up_to_a_boundary_only_is_not_assumed_beyond_it() -> None:

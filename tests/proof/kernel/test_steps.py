@@ -4,15 +4,14 @@ from __future__ import annotations
 
 from typing import Any
 
-import pytest
 import sympy as sp
 
 from ptproof.proof import claim, eq, exact, ge, gt, le, lt
 from ptproof.proof.claim import Claim
-from ptproof.proof.kernel import Confirmation, missing
 from ptproof.proof.statement import Exists
+from tests.proof.kernel.asked import test_what_is_not_true_is_not_confirmed as test_what_is_not_true_is_not_confirmed
+from tests.proof.kernel.asked import test_what_is_true_is_confirmed as test_what_is_true_is_confirmed
 
-pytestmark = pytest.mark.skipif(bool(missing()), reason=missing() or "coq is there")
 x, y, u, v, p, q, r = sp.symbols("x y u v p q r", real=True)
 a, b, c, w = sp.symbols("a b c w", positive=True)
 n = sp.Symbol("n", integer=True, positive=True)
@@ -81,14 +80,3 @@ PAIRS = {
 
 TRUE, NOT_CONFIRMED = zip(*PAIRS.values(), strict=True)
 EFFORT = "thorough"
-
-
-@pytest.mark.parametrize("name", PAIRS)
-def test_what_is_true_is_confirmed(answers: dict[str, Confirmation], name: str) -> None:
-    answer = answers[PAIRS[name][0].id]
-    assert answer.confirmed, answer.reason
-
-
-@pytest.mark.parametrize("name", PAIRS)
-def test_the_corrupted_twin_is_not(answers: dict[str, Confirmation], name: str) -> None:
-    assert not answers[PAIRS[name][1].id].confirmed

@@ -4,17 +4,16 @@ from __future__ import annotations
 
 from typing import Any
 
-import pytest
 import sympy as sp
 
 from ptproof.proof import ForAll, claim, eq, every, exact, ge, gt, le, lt
 from ptproof.proof import smooth as engine
 from ptproof.proof.claim import Claim
-from ptproof.proof.kernel import Confirmation, missing
 from ptproof.proof.kernel.theorem import proposition
 from ptproof.proof.statement import Smooth
+from tests.proof.kernel.asked import test_what_is_not_true_is_not_confirmed as test_what_is_not_true_is_not_confirmed
+from tests.proof.kernel.asked import test_what_is_true_is_confirmed as test_what_is_true_is_confirmed
 
-pytestmark = pytest.mark.skipif(bool(missing()), reason=missing() or "coq is there")
 EFFORT = "thorough"
 x, y, s, t, p, q = sp.symbols("x y s t p q", real=True)
 a, b = sp.symbols("a b", positive=True)
@@ -83,17 +82,6 @@ PAIRS: dict[str, tuple[Any, Any, list[Any]]] = {
 TRUE = [stated(name, right, given=given) for name, (right, _, given) in PAIRS.items()]
 TRUE += [stated("cauchy-by-lengths", le(p * x + q * y, m * n), given=[le(p**2 + q**2, m**2), eq(n**2, x**2 + y**2)])]
 NOT_CONFIRMED = [stated(f"{name}-false", wrong, given=given) for name, (_, wrong, given) in PAIRS.items()]
-
-
-@pytest.mark.parametrize("id", [item.id for item in TRUE])
-def test_what_is_true_is_confirmed(answers: dict[str, Confirmation], id: str) -> None:
-    assert answers[id].confirmed, answers[id].reason
-
-
-@pytest.mark.parametrize("id", [item.id for item in NOT_CONFIRMED])
-def test_the_corrupted_twin_is_not(answers: dict[str, Confirmation], id: str) -> None:
-    assert not answers[id].confirmed
-    assert answers[id].reason
 
 
 def test_functions_of_several_arguments_are_smooth() -> None:

@@ -7,7 +7,7 @@ from itertools import combinations
 
 import sympy as sp
 
-from ptproof.proof.kernel.hints.goals import Goal
+from ptproof.proof.kernel.hints.goals import Goal, as_factors
 from ptproof.proof.statement import Relation
 
 Vector = tuple[sp.Expr, sp.Expr]
@@ -78,5 +78,5 @@ def _vector(expression: sp.Expr) -> Vector | None:
 
 def _root(expression: sp.Expr) -> sp.Expr | None:
     """What is not negative and has the expression as its square."""
-    root = sp.sqrt(sp.factor(expression))
+    root = sp.sqrt(as_factors(expression))
     return root if root.is_nonnegative and not any(not p.exp.is_Integer for p in root.atoms(sp.Pow)) else None

@@ -9,7 +9,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from ptproof.proof.kernel.hints.atoms import Atoms
-from ptproof.proof.kernel.hints.goals import Goal, upright
+from ptproof.proof.kernel.hints.goals import Goal, as_factors, upright
 from ptproof.proof.kernel.hints.norms import norms
 from ptproof.proof.kernel.hints.products import products
 from ptproof.proof.kernel.hints.squares import sum_of_squares
@@ -32,7 +32,7 @@ def directly(goal: Goal) -> Iterator[str]:
         with contextlib.suppress(NoTranslation):
             facts.append(item.standard().map(atoms))
     moved, lines = _slack(facts, atoms)
-    gap = sp.factor(sp.together((wanted.right - wanted.left).xreplace(moved)))
+    gap = as_factors((wanted.right - wanted.left).xreplace(moved))
     if relation.sign == "!=":
         last = f"nonzero_as {term(sum_of_squares(-gap) or -gap, atoms.names)}"
     else:
@@ -41,7 +41,7 @@ def directly(goal: Goal) -> Iterator[str]:
     if relation.sign == "!=" or gap.is_positive or (gap.is_nonnegative and relation.sign in ("<=", ">=")):
         return
     # Here the variables stay as they are: their bounds are facts like any other.
-    gap = sp.factor(sp.together(wanted.right - wanted.left))
+    gap = as_factors(wanted.right - wanted.left)
     if hint := _by_products(gap, facts, atoms):
         yield "; ".join([*atoms.lines, hint])
 
@@ -88,7 +88,7 @@ def by_logarithms(goal: Goal) -> Iterator[str]:
     facts += [Relation(sp.Integer(1), "<=", symbol) for symbol in goal.names if getattr(symbol, "is_Symbol", False)
               and symbol.is_integer and symbol.is_positive]  # fmt: skip
     wanted = wanted.map(lambda side: _logarithm(side, atoms))
-    gap = sp.factor(sp.together(wanted.right - wanted.left))
+    gap = as_factors(wanted.right - wanted.left)
     if hint := _by_products(gap, facts, atoms):
         yield "; ".join([*steps, "logarithms", *atoms.lines, hint])
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
+from functools import lru_cache
 
 import sympy as sp
 
@@ -56,6 +57,12 @@ def one_of(hints: Iterable[str]) -> str:
     """The first of the tactics that proves the goal, or nothing is done."""
     tried = [f"solve [ {hint} ]" for hint in dict.fromkeys(hints)]
     return f"first [ {' | '.join([*tried, 'quickly; inequality'])} ]"
+
+
+@lru_cache(maxsize=4096)
+def as_factors(expression: sp.Basic) -> sp.Expr:
+    """The quotient of products that it is: the ways to close a goal come back to the same expressions many times."""
+    return sp.factor(expression)
 
 
 def is_shown(expression: sp.Expr, strictly: bool = False) -> bool:

@@ -7,6 +7,8 @@ from collections.abc import Mapping
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from ptproof.proof.kernel.hints.goals import as_factors
+
 Exponents = Mapping[sp.Basic, sp.Expr]
 
 
@@ -81,7 +83,7 @@ def _plain(part: sp.Expr) -> tuple[sp.Rational, sp.Expr]:
 
 
 def _tidy(exponent: sp.Expr) -> sp.Expr:
-    return exponent if exponent.is_Rational else sp.factor(sp.together(exponent))
+    return exponent if exponent.is_Rational else as_factors(exponent)
 
 
 def _split(expression: sp.Expr) -> list[sp.Expr]:
@@ -90,7 +92,7 @@ def _split(expression: sp.Expr) -> list[sp.Expr]:
     if expression.is_Mul:
         found = [sp.Integer(1)]
         for item in expression.args:
-            if item.is_Add and not any(map(_open, sp.Mul.make_args(joined := sp.factor(sp.together(item))))):
+            if item.is_Add and not any(map(_open, sp.Mul.make_args(joined := as_factors(item)))):
                 item = joined
             found = [a * b for a in found for b in (_split(item) if _open(item) else [item])]
         return found

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import sympy as sp
 
 from ptproof.proof.kernel.hints.atoms import Atoms
-from ptproof.proof.kernel.hints.goals import Goal, is_shown, upright
+from ptproof.proof.kernel.hints.goals import Goal, as_factors, is_shown, upright
 from ptproof.proof.kernel.hints.squares import sum_of_squares
 from ptproof.proof.kernel.names import fresh
 from ptproof.proof.kernel.terms import term
@@ -52,7 +52,7 @@ def by_multiples(goal: Goal) -> Iterator[str]:
     for depth, moving in ((1, True), (1, False), (2, True)):
         names = dict(atoms.names)
         moved, lines = loosen(facts, names) if moving else ({}, [])
-        gap = sp.factor(sp.together((wanted.right - wanted.left).xreplace(moved)))
+        gap = as_factors((wanted.right - wanted.left).xreplace(moved))
         start = [*atoms.lines, *lines]
         if line := _contradiction([_moved(fact, moved) for fact in facts], names):
             yield "; ".join([*start, line])
@@ -88,8 +88,8 @@ def _lines(found: _Sum, top: sp.Expr, bottom: sp.Expr, names: dict[sp.Basic, str
 
 def _facts(relations: Sequence[Relation], names: dict[sp.Basic, str]) -> Iterator[_Fact]:
     for relation in relations:
-        top, bottom = sp.fraction(sp.factor(sp.together(relation.right - relation.left)))
-        top, bottom = sp.expand(top), sp.factor(bottom)
+        top, bottom = sp.fraction(as_factors(relation.right - relation.left))
+        top, bottom = sp.expand(top), as_factors(bottom)
         if not top.free_symbols or relation.sign == "!=" or sp.count_ops(top) > _MOST_OPERATIONS:
             continue
         if is_shown(bottom, strictly=True):
@@ -99,7 +99,7 @@ def _facts(relations: Sequence[Relation], names: dict[sp.Basic, str]) -> Iterato
                     line = f"fact_from {term(bottom, names)} {term(own, names)}"
                     yield _Fact(own, relation.sign == "<", line)
         elif relation.sign != "=":
-            whole = sp.factor(top * bottom)
+            whole = as_factors(top * bottom)
             line = f"fact_by_square {term(bottom, names)} {term(top, names)} {term(whole, names)}"
             yield _Fact(whole, relation.sign == "<", line)
 
@@ -107,7 +107,7 @@ def _facts(relations: Sequence[Relation], names: dict[sp.Basic, str]) -> Iterato
 def _contradiction(relations: Sequence[Relation], names: dict[sp.Basic, str]) -> str:
     """The line for a fact that cannot hold."""
     for relation in relations:
-        top, bottom = sp.fraction(sp.factor(sp.together(relation.right - relation.left)))
+        top, bottom = sp.fraction(as_factors(relation.right - relation.left))
         strict = relation.sign == "<"
         if relation.sign in ("<", "<=") and is_shown(bottom, strictly=True) and is_shown(-top, strictly=not strict):
             return f"contradicts {' '.join(term(part, names) for part in (bottom, top, sp.factor(-top)))}"
@@ -119,7 +119,7 @@ def _search(top: sp.Expr, facts: Sequence[_Fact], depth: int, strictly: bool, tr
         for factor, weight in _weights(top, fact.top):
             if not next(tries):
                 return None
-            rest = sp.factor(sp.expand(factor * top - weight * fact.top))
+            rest = as_factors(sp.expand(factor * top - weight * fact.top))
             positive = fact.strict and is_shown(weight, strictly=True)
             if is_shown(rest, strictly and not positive):
                 return _Sum(factor, ((weight, fact),), rest)
@@ -145,7 +145,7 @@ def _weights(top: sp.Expr, fact: sp.Expr) -> Iterator[tuple[sp.Expr, sp.Expr]]:
     """A factor and a weight, both positive, such that factor top - weight fact has a term fewer in some symbol."""
     seen: set[tuple[sp.Expr, sp.Expr]] = set()
     for ratio in _ratios(top, sp.expand(fact)):
-        weight, factor = sp.fraction(sp.factor(sp.cancel(ratio)))
+        weight, factor = sp.fraction(ratio)
         if not is_shown(factor, strictly=True) and is_shown(-factor, strictly=True):
             weight, factor = -weight, -factor
         if not is_shown(weight) or not is_shown(factor, strictly=True) or (factor, weight) in seen or weight == 0:
@@ -155,7 +155,7 @@ def _weights(top: sp.Expr, fact: sp.Expr) -> Iterator[tuple[sp.Expr, sp.Expr]]:
 
 
 def _ratios(top: sp.Expr, fact: sp.Expr) -> Iterator[sp.Expr]:
-    yield top / fact
+    yield as_factors(top) / as_factors(fact)
     for symbol in sorted(fact.free_symbols, key=str):
         above = sp.Poly(top, symbol).as_dict()
         below = sp.Poly(fact, symbol).as_dict()
@@ -163,7 +163,7 @@ def _ratios(top: sp.Expr, fact: sp.Expr) -> Iterator[sp.Expr]:
             continue
         for ((i,), a), ((j,), b) in itertools.product(sorted(above.items()), sorted(below.items())):
             if i >= j:
-                yield a / b * symbol ** (i - j)
+                yield as_factors(a) / as_factors(b) * symbol ** (i - j)
 
 
 def loosen(facts: Sequence[Relation], names: dict[sp.Basic, str]) -> tuple[dict[sp.Symbol, sp.Expr], list[str]]:
@@ -187,7 +187,7 @@ def loosen(facts: Sequence[Relation], names: dict[sp.Basic, str]) -> tuple[dict[
         if found is None:
             continue
         symbol, factor = found
-        bound = sp.factor(symbol - gap / factor)
+        bound = as_factors(symbol - gap / factor)
         text = term(bound, names)
         if relation.sign == "=":
             value = bound
@@ -207,7 +207,7 @@ def loosen(facts: Sequence[Relation], names: dict[sp.Basic, str]) -> tuple[dict[
 
 def _vanishing(gap: sp.Expr, sign: str) -> sp.Symbol | None:
     """The symbol that is 0 because it is not negative and the gap, a negative multiple of it, is not either."""
-    top, bottom = sp.fraction(sp.factor(gap))
+    top, bottom = sp.fraction(as_factors(gap))
     factors = [part for part in sp.Mul.make_args(-top) if not is_shown(part, strictly=True)]
     if sign == "<=" and is_shown(bottom, strictly=True) and len(factors) == 1 and factors[0].is_Symbol:
         return factors[0] if is_shown(factors[0]) else None
@@ -223,7 +223,7 @@ def _solvable(gap: sp.Expr, sign: str) -> tuple[sp.Symbol, sp.Expr] | None:
             continue
         fits = factor in (1, -1) if sign == "=" else is_shown(factor, strictly=True)
         # A sign that is known already must not be lost.
-        if fits and (not is_shown(symbol) or is_shown(sp.factor(symbol - gap / factor))):
+        if fits and (not is_shown(symbol) or is_shown(as_factors(symbol - gap / factor))):
             found.append((symbol, factor))
 
     def order(item: tuple[sp.Symbol, sp.Expr]) -> tuple[bool, bool, bool, str]:

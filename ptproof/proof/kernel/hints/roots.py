@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import sympy as sp
 
-from ptproof.proof.kernel.hints.goals import Goal
+from ptproof.proof.kernel.hints.goals import Goal, as_factors
 from ptproof.proof.kernel.names import fresh
 from ptproof.proof.statement import Relation
 
@@ -81,6 +81,6 @@ def roots_of_facts(goal: Goal) -> tuple[list[str], Goal]:
 def _root(side: sp.Expr) -> sp.Expr | None:
     if not side.free_symbols:
         return None
-    found = sp.sqrt(sp.factor(side))
+    found = sp.sqrt(as_factors(side))
     found = found.replace(sp.Abs, lambda inner: inner)
     return found if not found.atoms(sp.Pow) or all(power.exp.is_Integer for power in found.atoms(sp.Pow)) else None

@@ -116,8 +116,8 @@ with sign_pos :=
     | |- 0 < PI => exact PI_RGT_0
     | |- 0 < Rmax ?a ?b => first [ apply Rlt_le_trans with (2 := Rmax_l a b); sign_pos | apply Rlt_le_trans with (2 := Rmax_r a b); sign_pos ]
     | |- 0 < Rmin _ _ => apply Rmin_pos; sign_pos
-    | |- 0 < _ + _ => first [ apply Rplus_lt_0_compat; sign_pos | apply Rplus_le_lt_0_compat; [sign_nonneg | sign_pos]
-                            | apply Rplus_lt_le_0_compat; [sign_pos | sign_nonneg] ]
+    | |- 0 < _ + _ => first [ apply Rplus_lt_le_0_compat; [sign_pos | sign_nonneg]
+                            | apply Rplus_le_lt_0_compat; [sign_nonneg | sign_pos] ]
     end
   | match goal with H : forall _, _ |- _ => solve [simple apply H; first [assumption | lra]] end
   | lra ]
@@ -138,7 +138,10 @@ with sign_nonneg :=
     | |- 0 <= _ + _ => apply Rplus_le_le_0_compat; sign_nonneg
     end
   | match goal with H : forall _, _ |- _ => solve [simple apply H; first [assumption | lra]] end
-  | lra | left; sign_pos ]
+  | lra
+  | lazymatch goal with  (* of a sum, product or power the parts have been looked at *)
+    | |- 0 <= _ + _ => fail | |- 0 <= _ * _ => fail | |- 0 <= _ / _ => fail | |- 0 <= _ ^ _ => fail | |- _ => left; sign_pos
+    end ]
 with sign_nonzero :=
   first
   [ assumption
@@ -225,7 +228,9 @@ Ltac opaque := unfold Rdiv;
   | |- context [?f ?x ?y ?z] => is_var f; lazymatch type of (f x y z) with R => generalize (f x y z); intro end
   | |- context [Derive ?f ?x] => generalize (Derive f x); intro
   end.
-Ltac ideal := cbv [Rpow_def.pow] in *; solve [nsatz].
+(* The difference itself in the ideal, and no power of it: those that are tried where it is not take far longer, and
+   circles and reciprocals, for which the facts are, have radical ideals. *)
+Ltac ideal := cbv [Rpow_def.pow] in *; solve [nsatz with radicalmax := 1%N strategy := 1%Z parameters := (@nil R) variables := (@nil R)].
 Ltac angles_of_PI := rewrite ?cos_2PI, ?sin_2PI, ?cos_PI, ?sin_PI, ?cos_PI2, ?sin_PI2, ?cos_0, ?sin_0.
 Ltac trigonometric := as_reals; expand_angles; angles_of_PI; first [ rational | opaque; circles; first [ rational | ideal ] ].
 
