@@ -15,6 +15,8 @@ from sympy.core.function import AppliedUndef
 
 from ptproof.proof.claim import Claim
 from ptproof.proof.kernel.hints.certificates import certificate
+from ptproof.proof.kernel.hints.goals import Goal
+from ptproof.proof.kernel.hints.refuted import by_refutation, follows
 from ptproof.proof.kernel.hints.views import view
 from ptproof.proof.kernel.names import Names
 from ptproof.proof.kernel.terms import NoTranslation, term
@@ -98,12 +100,16 @@ def _times(rate: Rate) -> Iterator[tuple[sp.Expr, sp.Expr]]:
     times = sorted({call.args[0] for call in calls if not call.has(rate.time)}, key=sp.default_sort_key)
     plain = [item for item in rate.known if not item.left.atoms(AppliedUndef) | item.right.atoms(AppliedUndef)]
     seen = view(plain)
+
+    def shown(gap: sp.Expr) -> bool:
+        return bool(sp.expand(seen.of(gap)).is_nonnegative or follows(Goal(Relation(gap, ">=", 0), (*plain,), rate.names)))
+
     for start in times:
         for end in times:
             inside = [item.standard().map(lambda side, at=at: side.subs(rate.time, at))  # type: ignore[misc]
                       for item in rate.domain for at in (start, end)]  # fmt: skip
             gaps = [end - start, *(item.right - item.left for item in inside)]
-            if start != end and all(sp.expand(seen.of(gap)).is_nonnegative for gap in gaps):
+            if start != end and all(map(shown, gaps)):
                 yield start, end
 
 
@@ -141,6 +147,13 @@ def _primitive(rate: Rate, function: sp.Expr) -> sp.Expr:
     return found
 
 
+def _in_order(rate: Rate, start: sp.Expr, end: sp.Expr) -> str:
+    """Tactics for that the start comes first."""
+    plain = tuple(item for item in rate.known if not item.has(AppliedUndef))
+    ways = [f"solve [ {line} ]" for line in by_refutation(Goal(Relation(start, "<=", end), plain, rate.names))]
+    return f"first [ {' | '.join(['bound', *ways])} ]"
+
+
 def _asserted(rate: Rate, end: sp.Expr, bound: sp.Expr, lemma: str, steps: Sequence[str], exact: str) -> Compared:
     """The bound at the end, by a lemma of which the conclusion says ``exact``."""
     left = rate.at(end)
@@ -155,7 +168,8 @@ def _integral(rate: Rate, start: sp.Expr, end: sp.Expr) -> Iterator[Compared]:
         bound, exact, word, arguments, closing = found
         lemma = f"({'integral' if word == '+' else 'exponential'}_bound {arguments})"
         name = rate.names[rate.time]
-        steps = ["bound", f"cbv beta; rate_is {rate.names[rate.function.func]} {name} ltac:(same)", closing]
+        order = _in_order(rate, start, end)
+        steps = [order, f"cbv beta; rate_is {rate.names[rate.function.func]} {name} ltac:(same)", closing]
         yield _asserted(rate, end, bound, lemma, steps, exact)
 
 
@@ -165,7 +179,7 @@ def _solution(rate: Rate, start: sp.Expr, end: sp.Expr) -> Iterator[Compared]:
         bound, exact, word, arguments, closing = found
         lemma = f"({'is_integral' if word == '+' else 'is_exponential'} {arguments})"
         left = rate.at(end)
-        steps = f"bound | cbv beta; rate_equals {rate.names[rate.function.func]} {rate.names[rate.time]} | {closing}"
+        steps = f"{_in_order(rate, start, end)} | cbv beta; rate_equals {rate.names[rate.function.func]} {rate.names[rate.time]} | {closing}"
         line = (f"assert ({rate.write(left)} = {rate.write(bound)}) by (apply eq_trans with {exact}; "
                 f"[ apply {lemma}; [ {steps} ] | first [ rational | same_values; rational ] ])")  # fmt: skip
         yield Relation(left, "=", bound), line
@@ -183,7 +197,7 @@ def _integrated(rate: Rate, start: sp.Expr, end: sp.Expr) -> tuple[sp.Expr, str,
     grown = primitive.subs(rate.time, end) - primitive.subs(rate.time, start)
     bound, word = (first + grown, "+") if alone else (rate.as_said(first * sp.exp(grown)), "* exp")
     exact = f"({rate.write(first)} {word} ({F} {q} - {F} {p}))"
-    return bound, exact, word, f"{U} {F} {f} {p} {q}", f"cbv beta; antiderivative {name}"
+    return bound, exact, word, f"{U} {F} {f} {p} {q}", f"cbv beta; antiderivative {U} {name}"
 
 
 def _decay(rate: Rate, start: sp.Expr, end: sp.Expr) -> Iterator[Compared]:

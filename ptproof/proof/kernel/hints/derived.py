@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 import sympy as sp
 
 from ptproof.proof.kernel.hints.comparisons import compared
-from ptproof.proof.kernel.hints.supersolutions import never_above
+from ptproof.proof.kernel.hints.supersolutions import never_above, weakened
 from ptproof.proof.kernel.names import Names
 from ptproof.proof.kernel.terms import NoTranslation, term
 from ptproof.proof.kernel.theorem import Proposition
@@ -25,7 +25,8 @@ def derived(known: Sequence[Relation], said: Proposition) -> list[Derived]:
             found += _raised(item.standard(), said.names)
     with contextlib.suppress(NoTranslation, sp.PolynomialError):
         found += never_above(said, list(known))
-    return [*found, *compared(said.claim, known, said.names)]
+    bounds = list(compared(said.claim, known, said.names))
+    return [*found, *bounds, *(more for bound in bounds for more in weakened(said, bound, list(known)))]
 
 
 def _raised(item: Relation, names: Names) -> Iterator[Derived]:

@@ -91,11 +91,8 @@ def _domains(relations: Iterable[Relation]) -> Iterator[Relation]:
 def _of_bases(relations: Iterable[Relation], known: Iterable[Relation]) -> Iterator[Relation]:
     """What is known of the signs of the bases of powers."""
     sides = sp.Tuple(*(side for item in relations for side in (item.left, item.right)))
-    bases = {power.base for power in sides.atoms(sp.Pow) if not power.exp.is_Integer and power.base.is_Add}
-    for item in known:
-        wanted = item.standard()
-        if wanted.left == 0 and wanted.right in bases:
-            yield item
+    bases = {power.base for power in sides.atoms(sp.Pow) if not power.exp.is_Integer and not power.base.is_nonnegative}
+    yield from (item for item in known if item.standard().left == 0 and item.standard().right in bases)
 
 
 def _bottoms(relations: Iterable[Relation]) -> Iterator[sp.Expr]:

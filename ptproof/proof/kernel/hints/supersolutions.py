@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import sympy as sp
+from sympy.core.function import AppliedUndef
 
 from ptproof.proof.kernel.hints.comparisons import Compared, Rate, rates
 from ptproof.proof.kernel.hints.goals import Goal
@@ -31,6 +32,40 @@ def never_above(said: Proposition, known: list[Relation]) -> Iterator[Compared]:
                 yield from _never_above(rate, start, end, wanted)
 
 
+def _simpler(expression: sp.Expr) -> sp.Expr:
+    """The expression in factors, its exponentials as they are."""
+    letters = {part: sp.Dummy(positive=True) for part in expression.atoms(sp.exp)}
+    return sp.factor(expression.xreplace(letters)).xreplace({letter: part for part, letter in letters.items()})
+
+
+def weakened(said: Proposition, found: Compared, known: list[Relation]) -> Iterator[Compared]:
+    """From U <= w exp(a): the claim's own bound w exp(b), by a <= b."""
+    relation, line = found
+    for part in said.conclusions:
+        wanted = part.relation and part.relation.standard()
+        if not wanted or wanted.sign != "<=" or wanted.left != relation.left or wanted.right == relation.right:
+            continue
+        (first, small), (factor, large) = map(_exponential, (relation.right, wanted.right))
+        if first != factor or not small or not large:
+            continue
+        plain = tuple(item for item in known if not item.has(AppliedUndef))
+        for below in by_refutation(Goal(Relation(small, "<=", large), plain, said.names)):
+            w, a, b, bound = (term(item, said.names) for item in (first, small, large, wanted.right))
+            yield wanted, (
+                f"{line}; assert ({term(wanted.left, said.names)} <= {bound}); "
+                f"[ apply Rle_trans with ({w} * exp {a}); [ found_as | apply Rle_trans with ({w} * exp {b}); "
+                f"[ apply Rmult_le_compat_l; [ solve [ sign | lra ] | apply exp_le_exp; {below} ] "
+                f"| right; rewrite <- ?Rmult_assoc, <- ?exp_plus; exponents_agree ] ] | ]"
+            )
+
+
+def _exponential(product: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
+    """The factors without e, and the exponent of e."""
+    parts = sp.Mul.make_args(product)
+    exponents = [part.args[0] for part in parts if isinstance(part, sp.exp)]
+    return sp.Mul(*(part for part in parts if not isinstance(part, sp.exp))), sp.Add(*exponents)
+
+
 def _start(rate: Rate) -> sp.Expr | None:
     """The first time at which the rate is known."""
     for item in map(Relation.standard, rate.domain):
@@ -41,7 +76,7 @@ def _start(rate: Rate) -> sp.Expr | None:
 
 def _never_above(rate: Rate, start: sp.Expr, end: sp.Symbol, wanted: Relation) -> Iterator[Compared]:
     time, bound = rate.time, wanted.right.xreplace({end: rate.time})
-    slope = sp.diff(bound, time)
+    slope = _simpler(sp.diff(bound, time))
     inside = [Relation(start, "<=", time), Relation(time, "<=", end)]
     first = bound.xreplace({time: start})
     known = (*rate.known, *inside, Relation(bound, "<", rate.function))
@@ -57,7 +92,7 @@ def _never_above(rate: Rate, start: sp.Expr, end: sp.Symbol, wanted: Relation) -
     lines = [
         "bound",
         f"intros {s} ?; facts; apply (is_derive_minus {U} {Y}); "
-        f"[ apply Derive_correct; first [ assumption | match goal with H : forall _, _ |- _ => apply H end ] "
+        f"[ apply Derive_correct; first [ assumption | match goal with H : forall _, _ |- _ => solve [ apply H; lra ] end ] "
         f"| auto_derive; [ repeat split; sign | first [ rational | same_values; rational ] ] ]",
         f"cbv beta; {'; '.join([*replaced, ''])}apply Rle_minus; apply Rle_trans with {rate.write(first)}; "
         f"[ {before[0]} | right; first [ rational | same_values; rational ] ]",
@@ -66,7 +101,8 @@ def _never_above(rate: Rate, start: sp.Expr, end: sp.Symbol, wanted: Relation) -
         f"apply Rle_trans with {rate.write(rate.rate)}; [ first [ assumption | lra ] | {between[0]} ]",
     ]
     yield wanted, (
-        f"assert ({rate.write(wanted.left)} <= {rate.write(wanted.right)}); [ apply Rminus_le; "
+        f"assert ({rate.write(wanted.left)} <= {rate.write(wanted.right)}); [ apply Rle_trans with ({Y} {q}); "
+        f"[ apply Rminus_le; "
         f"apply (stays_below (fun {s} => {U} {s} - {Y} {s}) (fun {s} => Derive {U} {s} - {y} {s}) {p} {q}); "
-        f"[> {' | '.join(lines)} ] | ]"
+        f"[> {' | '.join(lines)} ] | right; cbv beta; first [ rational | same_values; rational ] ] | ]"
     )

@@ -319,7 +319,7 @@ Ltac rate_equals U s :=
   intros s ?; facts; rate U s; split;
   [ assumption | lazymatch goal with K : Derive _ _ = ?e |- _ => apply eq_trans with e; [ exact K | first [ rational | same_values; rational ] ] end ].
 Ltac same := right; first [ rational | same_values; rational ].
-Ltac antiderivative s := intros s ?; facts; auto_derive; [ repeat split; sign | first [ rational | same_values; rational ] ].
+Ltac antiderivative U s := intros s ?; facts; try (rate U s); auto_derive; [ repeat split; sign | first [ rational | same_values; rational ] ].
 
 (* The bound of Bernoulli's inequality with its parts as they are written elsewhere. *)
 Lemma bernoulli_bound_as : forall (U : R -> R) p q b c r w A i v B e,

@@ -153,3 +153,5 @@ Ltac power_known := first [ by_powers | solve [ rewrite <- Rsqr_pow2; apply Rsqr
 (* What an exponential or a power is at the start. *)
 Ltac value_at old new := replace old with new by
   (first [ rational | rewrite <- exp_0; f_equal; rational | unfold Rpower; rewrite <- exp_0; f_equal; rational ]).
+(* A product of exponentials as one, and equal exponents. *)
+Ltac exponents_agree := repeat rewrite Rmult_assoc; rewrite <- ?exp_plus; first [ rational | f_equal; f_equal; rational | same_values; rational ].
