@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
+from functools import partial
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -26,13 +27,24 @@ def masked(goal: Goal) -> tuple[list[str], Goal]:
         name = fresh(f"m{len(lines)}", goal.names)
         kinds = {_KINDS[sign]: True for sign in _signs(goal, part)}
         letter = sp.Symbol(name, real=True, **kinds)
-        inner = goal.replaced(part, letter, {**goal.names, letter: name})
-        if inner.relation != goal.relation or inner.known != goal.known:
-            if needed(inner.relation, inner.known, _MILLISECONDS) is None:
+        inner = goal.map(partial(_put, part, letter), {**goal.names, letter: name})
+        if inner.relations() != goal.relations():
+            # A derivative is worth the time: without its letter it is carried out.
+            limit = _MILLISECONDS if part.is_Add else 4 * _MILLISECONDS
+            if needed(inner.relation, inner.known, limit) is None:
                 continue
             lines.append(f"try (named {name} {goal.text(part)})")
             goal = inner
     return lines, goal
+
+
+def _put(part: sp.Basic, letter: sp.Symbol, expression: sp.Basic) -> sp.Basic:
+    """The expression with a letter for the part, but where something is bound."""
+    if expression == part:
+        return letter
+    if not expression.args or isinstance(expression, _BOUND):
+        return expression
+    return expression.func(*(_put(part, letter, argument) for argument in expression.args))
 
 
 def hidden(goal: Goal) -> Goal:

@@ -193,7 +193,7 @@ class _Sought:
 def _leaf(part: Part, sought: _Sought) -> str:
     if part.exists is not None and sought.thorough and (hint := _witnessed(part, sought)):
         return _tried(hint)
-    if part.base is not None and part.exponent is not None and sought.thorough:
+    if part.base is not None and part.exponent is not None and (sought.thorough or sought.chains):
         signs = Relation(part.base, ">=", sp.Integer(0)), Relation(part.exponent, ">", sp.Integer(0))
         base, exponent = (_leaf(Part("", sign), sought) for sign in signs)
         return _tried(f"cbv beta; apply rpow_defined_as; [> {base} | {exponent} ]")
@@ -292,4 +292,4 @@ def _equal(goal: Goal, sought: _Sought) -> str:
         quick += by_equations(goal)
     if sought.thorough:
         quick += _thoroughly(goal, sought)
-    return f"cbv beta; {_tried(*quick)}"
+    return f"cbv beta; {_tried(*quick, 'progress simple_values; rational')}"

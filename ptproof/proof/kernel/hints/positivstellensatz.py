@@ -70,7 +70,8 @@ def contradiction(known: Sequence[Sign], denied: Sign) -> tuple[Product, ...] | 
     bases = list(_bases(every, symbols))
     goal = bases[1].polynomial
     until = time.monotonic() + _SECONDS
-    for start in _starts(goal, bases, symbols):
+    alone = [base for base in bases if len(base.factors) < 2]
+    for start, bases in itertools.product(_starts(goal, bases, symbols), (alone, bases)):
         rows, seen = set(start), dict[tuple[int, Powers], None]()
         for _ in range(_ROUNDS):
             before = len(seen)
@@ -183,7 +184,7 @@ def _vanishing(columns: Sequence[Polynomial], found: Sequence[Product]) -> tuple
     from scipy.sparse import hstack
 
     whole = hstack([matrix, -matrix[:, turned]]).tocsr() if turned else matrix
-    cost = [1.0 + len(item.factors) + 0.1 * len(item.symbols) for item in found]
+    cost = [1.0 + 4 * len(item.factors) ** 2 + 0.1 * len(item.symbols) for item in found]
     cost += [cost[number] for number in turned]
     done = linprog(cost, A_eq=whole, b_eq=vector, bounds=(0, None), method="highs", options={"time_limit": _SECONDS_A_PROGRAM})
     if done.status != 0:

@@ -155,7 +155,7 @@ def _refuted(goal: Goal) -> str:
     told += [Relation(polynomial, "=", sp.Integer(0)) for _, polynomial in problem.generators.relations]
     facts = [_written(letters.seen(item)) for item in told]
     if wanted is None:
-        return ""
+        return "solve [ sign | lra ]"
     known = {item.known(): item for item in facts if item is not None}
     whole = [Sign(symbol - 1, ">=") for symbol in wanted.top.free_symbols.union(*(s.polynomial.free_symbols for s in known))
              if symbol.is_integer and symbol.is_positive]

@@ -7,6 +7,7 @@ assumes there.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -225,28 +226,41 @@ class Replay:
         return f"assumption || ({'; '.join([intro, *inside.lines, 'pieces'])}; [> {leaves} ])"
 
     def _at(self, point: tuple[Any, ...], told: Told) -> None:
-        """The claim's own quantified assumptions at a point."""
+        """The claim's own quantified assumptions at a point, those that can be taken there."""
         position = len(self.said.premises) - sum(
             len(given(item, self.said.names)) for item in self.said.claim.assumptions
         )
         for item in self.said.claim.assumptions:
-            parts = given(item, self.said.names)
             if isinstance(item, ForAll) and len(item.variables) == len(point):
-                there = Substitution(dict(zip(item.variables, point, strict=True)), has_sign=lambda value, sign: True)
-                key = told.new("I")
-                values = " ".join(term(value, told.names) for value in point)
-                lines = [f"pose proof ({self.assumed[position]} {values}) as {key}; cbv beta in {key}"]
-                for variable in item.variables:
-                    for text in declared.of_symbol(variable, "x"):
-                        lines.append(f"assumed {key} ltac:({self._kind(text, there.into(variable), told)})")
-                for part in plain(item.domain):
-                    for piece in given(part, self.said.names):
-                        said = replace(piece, relation=piece.relation and there.relation(piece.relation))
-                        lines.append(f"assumed {key} ltac:({self._shown(said, told)})")
-                here = Told(told.names, told.known, lines)
-                self._learn(key, everywhere(item, self.said.names), item.relation.components(), there, here)
-                told.lines.append(f"try ({'; '.join(here.lines)})")
-            position += len(parts)
+                here = Told(told.names, list(told.known), [])
+                with suppress(NoTranslation, InputError):
+                    self._instance(item, self.assumed[position], point, here)
+                    told.known[:] = here.known
+                    told.lines.append(f"try ({'; '.join(here.lines)})")
+            position += len(given(item, self.said.names))
+
+    def _instance(self, item: ForAll, name: str, point: tuple[Any, ...], told: Told) -> None:
+        """An assumption, which Coq knows by its name, at a point.
+
+        Raises
+        ------
+        NoTranslation
+            Also where the point is seen not to be one of its domain.
+        """
+        there = Substitution(dict(zip(item.variables, point, strict=True)), has_sign=lambda value, sign: True)
+        key = told.new("I")
+        values = " ".join(term(value, told.names) for value in point)
+        told.lines.append(f"pose proof ({name} {values}) as {key}; cbv beta in {key}")
+        for variable in item.variables:
+            for text in declared.of_symbol(variable, "x"):
+                told.lines.append(f"assumed {key} ltac:({self._kind(text, there.into(variable), told)})")
+        for part in plain(item.domain):
+            for piece in given(part, self.said.names):
+                said = replace(piece, relation=piece.relation and there.relation(piece.relation))
+                if said.relation and follows(Goal(said.relation, tuple(told.known), told.names)) is False:
+                    raise NoTranslation("not in the domain")
+                told.lines.append(f"assumed {key} ltac:({self._shown(said, told)})")
+        self._learn(key, everywhere(item, self.said.names), item.relation.components(), there, told)
 
     def _lemma(self, says: Implication, told: Told) -> None:
         names, known = told.names, told.known

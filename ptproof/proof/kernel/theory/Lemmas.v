@@ -155,3 +155,9 @@ Ltac value_at old new := replace old with new by
   (first [ rational | rewrite <- exp_0; f_equal; rational | unfold Rpower; rewrite <- exp_0; f_equal; rational ]).
 (* A product of exponentials as one, and equal exponents. *)
 Ltac exponents_agree := repeat rewrite Rmult_assoc; rewrite <- ?exp_plus; first [ rational | f_equal; f_equal; rational | same_values; rational ].
+(* Roots and exponentials of what is a number once it is multiplied out. *)
+Ltac simple_values := repeat match goal with
+  | |- context [sqrt ?x] => let E := fresh in assert (E : x = 1) by rational; rewrite E, sqrt_1; clear E
+  | |- context [sqrt ?x] => let E := fresh in assert (E : x = 0) by rational; rewrite E, sqrt_0; clear E
+  | |- context [exp ?x] => let E := fresh in assert (E : x = 0) by rational; rewrite E, exp_0; clear E
+  end.
