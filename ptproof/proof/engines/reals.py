@@ -149,10 +149,11 @@ def _asked(problem: _Problem, told_facts: bool, seconds: float) -> Answer:
     z3, tried = library(), []
     # What the facts say may be enough, whatever the roots in them are roots of.
     told, most = bool(problem.generators.relations and told_facts), int(1000 * min(seconds / 5, _SECONDS_TOLD))
-    if told and problem.solver("default", most, opaque=True).check() == z3.unsat:
-        return Answer(True, "z3 (default)")
-    for tactic, share in (("default", 0.5), ("qfnra-nlsat", 0.5)):
-        context = problem.solver(tactic, int(1000 * seconds * share))
+    if told and problem.solver("qfnra-nlsat", most, opaque=True).check() == z3.unsat:
+        return Answer(True, "z3 (qfnra-nlsat)")
+    # z3's own choice comes to nlsat in most cases, after probing and other attempts that cost as much as the answer.
+    for tactic in ("qfnra-nlsat", "default"):
+        context = problem.solver(tactic, int(500 * seconds))
         answer = context.check()
         if answer == z3.unsat:
             return Answer(True, f"z3 ({tactic})")
