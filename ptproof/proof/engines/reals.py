@@ -117,9 +117,10 @@ def are_met(
     for need in needs:
         if need.relation is None:
             return Answer(False, str(need))
-        if need.settled or is_said(need.relation, facts):
+        given = [*known, *need.given]
+        if need.settled or need.relation in given or is_said(need.relation, facts):
             continue
-        answer = _shown(need.relation, [*known, *need.given], facts, seconds or SECONDS)
+        answer = _shown(need.relation, given, facts, seconds or SECONDS)
         if not answer.shown:
             return Answer(False, f"{need} is not shown, without which {need.node} is not defined: {answer.how}")
         if not need.given:
@@ -131,7 +132,7 @@ def _follows(
     conclusion: Relation, assumptions: Sequence[Relation], facts: Sequence[Implication], seconds: float
 ) -> Answer:
     """What z3 says; a third of the questions about a claim are asked more than once, of its parts and their domains."""
-    return _answered(conclusion, tuple(assumptions), tuple(facts), seconds)
+    return _answered(conclusion, tuple(dict.fromkeys(assumptions)), tuple(facts), seconds)
 
 
 @lru_cache(maxsize=4096)
@@ -149,10 +150,12 @@ def _asked(problem: Problem, told_facts: bool, seconds: float) -> Answer:
     z3, tried = library(), []
     # What the facts say may be enough, whatever the roots in them are roots of.
     told, most = bool(problem.generators.relations and told_facts), int(1000 * min(seconds / 5, _SECONDS_TOLD))
-    if told and problem.solver("default", most, opaque=True).check() == z3.unsat:
-        return Answer(True, "z3 (default)")
-    for tactic, share in (("default", 0.5), ("qfnra-nlsat", 0.5)):
-        context = problem.solver(tactic, int(1000 * seconds * share))
+    if told and problem.solver("qfnra-nlsat", most, opaque=True).check() == z3.unsat:
+        return Answer(True, "z3 (qfnra-nlsat)")
+    # z3's own choice comes to nlsat in most cases, after probing and other attempts that cost as much as the answer:
+    # it comes second, and is not worth it before the facts are told.
+    for tactic in ("qfnra-nlsat", "default") if seconds > _SECONDS_ALONE else ("qfnra-nlsat",):
+        context = problem.solver(tactic, int(500 * seconds))
         answer = context.check()
         if answer == z3.unsat:
             return Answer(True, f"z3 ({tactic})")

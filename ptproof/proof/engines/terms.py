@@ -104,13 +104,8 @@ def implication_term(fact: Implication) -> tuple[Any, dict[sp.Symbol, None]]:
 
 
 def solver_by(tactic: str) -> Any:
-    """A fresh solver: of z3's own choice for "default", otherwise one that ends with the tactic."""
-    return library().Solver() if tactic == "default" else _strategy(tactic).solver()
-
-
-@cache
-def _strategy(tactic: str) -> Any:
-    return library().Then("simplify", "purify-arith", "propagate-values", "solve-eqs", "tseitin-cnf", tactic)
+    """A fresh solver: of z3's own choice for "default", otherwise by the tactic."""
+    return library().Solver() if tactic == "default" else library().Tactic(tactic).solver()
 
 
 def known_of_value(symbol: sp.Symbol, variable: Any) -> list[Any]:
