@@ -34,6 +34,16 @@ def using(id: str, statement: Any, used: Claim, values: dict[Any, Any], **option
     return made
 
 
+def beside(id: str, statement: Any, used: Claim, values: dict[Any, Any], unmet: Claim, **options: Any) -> Claim:
+    """The same with another claim, which is put to use where it says nothing, and first."""
+
+    @claim(id, id, statement, uses=[used, unmet], **options)
+    def made(goal: Goal) -> Evidence:
+        return reals(goal, *specialise(goal, unmet, {x: -y - 2, a: b}), *specialise(goal, used, values))
+
+    return made
+
+
 INSIDE = (ge(s, p), le(s, q))
 
 
@@ -47,6 +57,7 @@ decays = lemma(
     "decays", le(U(q), U(p) * sp.exp(-k * (q - p))),
     given=[ForAll((s,), le(sp.Derivative(U(s), s), -k * U(s)), INSIDE), ge(q, p)],
 )  # fmt: skip
+cube = lemma("cube", le(x**3, a**3), given=[ge(x, 0), le(x, a)])
 FALLING = [rate(X(s), -X(s)), ge(q, p)]
 ON_A_CURVE = [rate(F(X(s), Y(s)), -F(X(s), Y(s))), rate(X(s), Y(s)), rate(Y(s), X(s)), ge(q, p)]
 root = lemma("root", le(sp.sqrt(x**2 + b**2) ** (2 * a), (x**2 + b**2) ** a))
@@ -57,6 +68,9 @@ TRUE = [
     using("for-a-function", le(X(q) ** 2, X(p) ** 2 * sp.exp(-2 * (q - p))), decays, SQUARED, given=FALLING),
     using(
         "along-a-curve", le(F(X(q), Y(q)), F(X(p), Y(p)) * sp.exp(-(q - p))), decays, CURVED, given=ON_A_CURVE
+    ),
+    beside(
+        "beside-an-unmet-one", le((y + 1) ** 2, b**2), square, {x: y + 1, a: b}, cube, given=[ge(y, 0), le(y + 1, b)]
     ),
     using("in-other-words", le(y**2 + 1, sp.sqrt(y**2 + 1) ** 2), root, {x: y, a: 1, b: 1}),
 ]  # fmt: skip

@@ -102,7 +102,9 @@ def _times(rate: Rate) -> Iterator[tuple[sp.Expr, sp.Expr]]:
     seen = view(plain)
 
     def shown(gap: sp.Expr) -> bool:
-        return bool(sp.expand(seen.of(gap)).is_nonnegative or follows(Goal(Relation(gap, ">=", 0), (*plain,), rate.names)))
+        return bool(
+            sp.expand(seen.of(gap)).is_nonnegative or follows(Goal(Relation(gap, ">=", 0), (*plain,), rate.names))
+        )
 
     for start in times:
         for end in times:
@@ -179,7 +181,8 @@ def _solution(rate: Rate, start: sp.Expr, end: sp.Expr) -> Iterator[Compared]:
         bound, exact, word, arguments, closing = found
         lemma = f"({'is_integral' if word == '+' else 'is_exponential'} {arguments})"
         left = rate.at(end)
-        steps = f"{_in_order(rate, start, end)} | cbv beta; rate_equals {rate.names[rate.function.func]} {rate.names[rate.time]} | {closing}"
+        rated = f"cbv beta; rate_equals {rate.names[rate.function.func]} {rate.names[rate.time]}"
+        steps = f"{_in_order(rate, start, end)} | {rated} | {closing}"
         line = (f"assert ({rate.write(left)} = {rate.write(bound)}) by (apply eq_trans with {exact}; "
                 f"[ apply {lemma}; [ {steps} ] | first [ rational | same_values; rational ] ])")  # fmt: skip
         yield Relation(left, "=", bound), line

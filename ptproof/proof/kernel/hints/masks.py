@@ -108,8 +108,10 @@ def _candidates(goal: Goal) -> Iterator[sp.Basic]:
     yield from dict.fromkeys(composed)
     seen = Counter(part for side in sides for part in _free(side) if part.is_Add)
     exponents = sp.Tuple(*_exponents(sides))
-    yield from sorted((part for part, times in seen.items() if times > 1 and not exponents.has(part)),
-                      key=lambda part: (-sp.count_ops(part), sp.default_sort_key(part)))
+    yield from sorted(
+        (part for part, times in seen.items() if times > 1 and not exponents.has(part)),
+        key=lambda part: (-sp.count_ops(part), sp.default_sort_key(part)),
+    )
 
 
 def _free(expression: sp.Basic) -> Iterator[sp.Basic]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import lru_cache
 from typing import Any
+
 from ptproof.proof.algebra import NotAlgebraic
 from ptproof.proof.engines.reals import Problem
 from ptproof.proof.engines.terms import asked, library, solver_by

@@ -25,8 +25,8 @@ from ptproof.proof.kernel.hints.instances import Instance, instances
 from ptproof.proof.kernel.hints.instances import lines as instance_lines
 from ptproof.proof.kernel.hints.integrals import integrals
 from ptproof.proof.kernel.hints.limits import near
-from ptproof.proof.kernel.hints.refuted import by_refutation
 from ptproof.proof.kernel.hints.reduced import reduced_relation
+from ptproof.proof.kernel.hints.refuted import by_refutation
 from ptproof.proof.kernel.hints.replay import Replay
 from ptproof.proof.kernel.hints.search import by_steps
 from ptproof.proof.kernel.hints.told import Told, relevant

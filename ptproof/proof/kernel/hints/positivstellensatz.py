@@ -68,26 +68,34 @@ def contradiction(known: Sequence[Sign], denied: Sign) -> tuple[Product, ...] | 
     if not symbols:
         return None
     bases = list(_bases(every, symbols))
-    goal = bases[1].polynomial
     until = time.monotonic() + _SECONDS
     alone = [base for base in bases if len(base.factors) < 2]
-    for start, bases in itertools.product(_starts(goal, bases, symbols), (alone, bases)):
-        rows, seen = set(start), dict[tuple[int, Powers], None]()
-        for _ in range(_ROUNDS):
-            before = len(seen)
-            for key in _matching(rows, bases, symbols):
-                seen.setdefault(key)
-                if len(seen) > _MOST_COLUMNS or time.monotonic() > until:
-                    break
-            if len(seen) > _MOST_COLUMNS or len(seen) == before or time.monotonic() > until:
-                break
-            columns = [_shifted(bases[number].polynomial, powers) for number, powers in seen]
-            rows = {powers for column in columns for powers in column}
-            if len(rows) > _MOST_ROWS:
-                break
-            found = [_product(bases[number], powers, symbols) for number, powers in seen]
-            if (chosen := _vanishing(columns, found)) is not None:
-                return chosen
+    for start, some in itertools.product(_starts(bases[1].polynomial, bases, symbols), (alone, bases)):
+        if (found := _from(start, some, symbols, until)) is not None:
+            return found
+    return None
+
+
+def _from(
+    start: set[Powers], bases: Sequence[_Base], symbols: Sequence[sp.Symbol], until: float
+) -> tuple[Product, ...] | None:  # fmt: skip
+    """Products in which the monomials of the start cancel, and then those that come in with them."""
+    rows, seen = set(start), dict[tuple[int, Powers], None]()
+    for _ in range(_ROUNDS):
+        before = len(seen)
+        for key in _matching(rows, bases, symbols):
+            seen.setdefault(key)
+            if len(seen) > _MOST_COLUMNS or time.monotonic() > until:
+                return None
+        if len(seen) == before:
+            return None
+        columns = [_shifted(bases[number].polynomial, powers) for number, powers in seen]
+        rows = {powers for column in columns for powers in column}
+        if len(rows) > _MOST_ROWS:
+            return None
+        products = [_product(bases[number], powers, symbols) for number, powers in seen]
+        if (chosen := _vanishing(columns, products)) is not None:
+            return chosen
     return None
 
 
@@ -162,38 +170,35 @@ def _product(base: _Base, powers: Powers, symbols: Sequence[sp.Symbol]) -> Produ
 
 
 def _vanishing(columns: Sequence[Polynomial], found: Sequence[Product]) -> tuple[Product, ...] | None:
+    """Those of the products whose weighted sum vanishes, some of them positive; the least of them by their factors."""
     import numpy as np
     from scipy.optimize import linprog
-    from scipy.sparse import csr_matrix
+    from scipy.sparse import csr_matrix, hstack
 
     rows: dict[Powers, int] = {}
     entries = [(rows.setdefault(powers, len(rows)), number, value)
                for number, column in enumerate(columns) for powers, value in column.items()]  # fmt: skip
-    positive = len(rows)
-    entries += [(positive, number, 1.0) for number, product in enumerate(found) if product.sign == ">"]
-    if entries[-1][0] != positive:
+    total = len(rows)
+    entries += [(total, number, 1.0) for number, product in enumerate(found) if product.sign == ">"]
+    if entries[-1][0] != total:
         return None
     matrix: Any = csr_matrix(
-        ([e[2] for e in entries], ([e[0] for e in entries], [e[1] for e in entries])), (positive + 1, len(columns))
+        ([e[2] for e in entries], ([e[0] for e in entries], [e[1] for e in entries])), (total + 1, len(columns))
     )
-    vector = np.zeros(positive + 1)
-    vector[positive] = 1.0
-    free = [product.sign == "=" for product in found]
+    vector = np.zeros(total + 1)
+    vector[total] = 1.0
     # A product that is 0 may be taken away: its two signs are columns of their own.
-    turned = [number for number, zero in enumerate(free) if zero]
-    from scipy.sparse import hstack
-
+    turned = [number for number, product in enumerate(found) if product.sign == "="]
     whole = hstack([matrix, -matrix[:, turned]]).tocsr() if turned else matrix
     cost = [1.0 + 4 * len(item.factors) ** 2 + 0.1 * len(item.symbols) for item in found]
     cost += [cost[number] for number in turned]
-    done = linprog(cost, A_eq=whole, b_eq=vector, bounds=(0, None), method="highs", options={"time_limit": _SECONDS_A_PROGRAM})
+    options = {"time_limit": _SECONDS_A_PROGRAM}
+    done = linprog(cost, A_eq=whole, b_eq=vector, bounds=(0, None), method="highs", options=options)
     if done.status != 0:
         return None
-    weights = list(done.x[: len(found)])
-    for place, number in enumerate(turned):
-        weights[number] = abs(weights[number]) + abs(done.x[len(found) + place])
-    largest = max(weights)
-    return tuple(item for item, weight in zip(found, weights, strict=True) if weight > 1e-9 * largest)
+    weights = np.abs(done.x[: len(found)])
+    weights[turned] += np.abs(done.x[len(found) :])
+    return tuple(item for item, weight in zip(found, weights, strict=True) if weight > 1e-9 * weights.max())
 
 
 def _polynomial(expression: sp.Expr, symbols: Sequence[sp.Symbol]) -> Polynomial:

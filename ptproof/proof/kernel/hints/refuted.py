@@ -34,7 +34,10 @@ def by_refutation(goal: Goal) -> Iterator[str]:
     """The goal from what it needs alone, if that is found."""
     match goal.relation:
         case Relation(value, "!=", sp.S.Zero):
-            for way, item in (("Rgt_not_eq; red", Relation(sp.S.Zero, "<", value)), ("Rlt_not_eq", Relation(value, "<", sp.S.Zero))):
+            for way, item in (
+                ("Rgt_not_eq; red", Relation(sp.S.Zero, "<", value)),
+                ("Rlt_not_eq", Relation(value, "<", sp.S.Zero)),
+            ):
                 for line in by_refutation(replace(goal, relation=item)):
                     yield f"apply {way}; {line}"
                     return
@@ -130,7 +133,7 @@ def _by_cases(goal: Goal, left: int) -> str:
         line, goals = found
         each = [_by_cases(case, left - 1) for case in goals]
         return f"{line}; [> {' | '.join(f'facts; {tactic}' for tactic in each)} ]" if all(each) else ""
-    with contextlib.suppress(NoTranslation, sp.PolynomialError):
+    with contextlib.suppress(NoTranslation, NotAlgebraic, sp.PolynomialError):
         return _refuted(goal)
     return ""
 
@@ -151,26 +154,28 @@ def _refuted(goal: Goal) -> str:
     problem = Problem(goal.relation, [item for item in goal.known if item.sign != "!="], ())
     letters = _Letters(goal, problem)
     wanted = _written(letters.seen(problem.conclusion))
-    told = [fact.conclusion for fact in problem.told if not fact.hypotheses and fact.conclusion.sign != "!="]
-    told += [Relation(polynomial, "=", sp.Integer(0)) for _, polynomial in problem.generators.relations]
-    facts = [_written(letters.seen(item)) for item in told]
     if wanted is None:
         return "solve [ sign | lra ]"
-    known = {item.known(): item for item in facts if item is not None}
-    whole = [Sign(symbol - 1, ">=") for symbol in wanted.top.free_symbols.union(*(s.polynomial.free_symbols for s in known))
-             if symbol.is_integer and symbol.is_positive]
+    told = [fact.conclusion for fact in problem.told if not fact.hypotheses and fact.conclusion.sign != "!="]
+    told += [Relation(polynomial, "=", sp.S.Zero) for _, polynomial in problem.generators.relations]
+    known = {item.known(): item for item in map(_written, map(letters.seen, told)) if item is not None}
+    symbols = wanted.top.free_symbols.union(*(sign.polynomial.free_symbols for sign in known))
+    whole = [Sign(symbol - 1, ">=") for symbol in symbols if symbol.is_integer and symbol.is_positive]
     denied = Sign(sp.expand(-wanted.top), ">" if wanted.sign == "<=" else ">=")
     found = contradiction([*known, *whole], denied)
     if found is None:
         return ""
-    used = dict.fromkeys(factor for product in found for factor in product.factors)
-    lines = [*letters.lines(), f"top_of {letters.text(wanted.top)} {letters.text(wanted.bottom)}",
-             f"deny {letters.text(denied.polynomial)}"]
-    for sign in used:
+    lines = [
+        *letters.lines(),
+        f"top_of {letters.text(wanted.top)} {letters.text(wanted.bottom)}",
+        f"deny {letters.text(denied.polynomial)}",
+    ]
+    for sign in dict.fromkeys(factor for product in found for factor in product.factors):
         if (item := known.get(sign)) is not None:
             name = "equation_from" if sign.sign == "=" else "fact_from"
             lines.append(f"{name} {letters.text(item.bottom)} {letters.text(item.top)}")
-    lines += [letters.product(product) for product in found if product.symbols or len(product.factors) > 1 or (product.factors and product.factors[0] not in known and product.factors[0] != denied)]
+    there = {(), *((sign,) for sign in (denied, *known))}
+    lines += [letters.product(item) for item in found if item.symbols or item.factors not in there]
     return "; ".join([*lines, "lra"])
 
 

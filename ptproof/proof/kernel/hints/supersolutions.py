@@ -51,11 +51,14 @@ def weakened(said: Proposition, found: Compared, known: list[Relation]) -> Itera
         plain = tuple(item for item in known if not item.has(AppliedUndef))
         for below in by_refutation(Goal(Relation(small, "<=", large), plain, said.names)):
             w, a, b, bound = (term(item, said.names) for item in (first, small, large, wanted.right))
-            yield wanted, (
-                f"{line}; assert ({term(wanted.left, said.names)} <= {bound}); "
-                f"[ apply Rle_trans with ({w} * exp {a}); [ found_as | apply Rle_trans with ({w} * exp {b}); "
-                f"[ apply Rmult_le_compat_l; [ solve [ sign | lra ] | apply exp_le_exp; {below} ] "
-                f"| right; rewrite <- ?Rmult_assoc, <- ?exp_plus; exponents_agree ] ] | ]"
+            yield (
+                wanted,
+                (
+                    f"{line}; assert ({term(wanted.left, said.names)} <= {bound}); "
+                    f"[ apply Rle_trans with ({w} * exp {a}); [ found_as | apply Rle_trans with ({w} * exp {b}); "
+                    f"[ apply Rmult_le_compat_l; [ solve [ sign | lra ] | apply exp_le_exp; {below} ] "
+                    f"| right; rewrite <- ?Rmult_assoc, <- ?exp_plus; exponents_agree ] ] | ]"
+                ),
             )
 
 
@@ -91,18 +94,19 @@ def _never_above(rate: Rate, start: sp.Expr, end: sp.Symbol, wanted: Relation) -
     replaced = [f"try (value_at {term(part, there)} {rate.write(value)})" for part, value in values if value.is_number]
     lines = [
         "bound",
-        f"intros {s} ?; facts; apply (is_derive_minus {U} {Y}); "
-        f"[ apply Derive_correct; first [ assumption | match goal with H : forall _, _ |- _ => solve [ apply H; lra ] end ] "
-        f"| auto_derive; [ repeat split; sign | first [ rational | same_values; rational ] ] ]",
+        f"gap_moves {U} {Y} {s}",
         f"cbv beta; {'; '.join([*replaced, ''])}apply Rle_minus; apply Rle_trans with {rate.write(first)}; "
         f"[ {before[0]} | right; first [ rational | same_values; rational ] ]",
         f"intros {s} ? ?; facts; cbv beta in *; rate {U} {s}; apply Rle_minus; "
         f"assert ({rate.write(bound)} < {rate.write(rate.function)}) by lra; "
         f"apply Rle_trans with {rate.write(rate.rate)}; [ first [ assumption | lra ] | {between[0]} ]",
     ]
-    yield wanted, (
-        f"assert ({rate.write(wanted.left)} <= {rate.write(wanted.right)}); [ apply Rle_trans with ({Y} {q}); "
-        f"[ apply Rminus_le; "
-        f"apply (stays_below (fun {s} => {U} {s} - {Y} {s}) (fun {s} => Derive {U} {s} - {y} {s}) {p} {q}); "
-        f"[> {' | '.join(lines)} ] | right; cbv beta; first [ rational | same_values; rational ] ] | ]"
+    yield (
+        wanted,
+        (
+            f"assert ({rate.write(wanted.left)} <= {rate.write(wanted.right)}); [ apply Rle_trans with ({Y} {q}); "
+            f"[ apply Rminus_le; "
+            f"apply (stays_below (fun {s} => {U} {s} - {Y} {s}) (fun {s} => Derive {U} {s} - {y} {s}) {p} {q}); "
+            f"[> {' | '.join(lines)} ] | right; cbv beta; first [ rational | same_values; rational ] ] | ]"
+        ),
     )
