@@ -31,13 +31,12 @@ def certificate(
     if goal.sign not in ("<=", ">=") or goal.has(*_BOUND):
         return
     wanted = goal.standard()
-    for relation, line in more:
-        if relation.left == wanted.left and relation.right == wanted.right:
-            yield f"solve [ {line}; lra ]"
-            return
-        if relation.left == wanted.left and _same(relation.right, wanted.right):
-            yield f"solve [ {line}; found_as ]"
-            return
+    alike = [(relation, line) for relation, line in more if relation.left == wanted.left]
+    same = [f"solve [ {line}; lra ]" for relation, line in alike if relation.right == wanted.right]
+    same = same or [f"solve [ {line}; found_as ]" for relation, line in alike if _same(relation.right, wanted.right)]
+    if same:
+        yield from same
+        return
     known = [item for item in known if not item.has(*_BOUND)]
     seen, facts = view(known), list(directed([*known, *(relation for relation, _ in more)]))
     derived = {seen.relation(relation): line for relation, line in more}

@@ -23,10 +23,11 @@ def derived(known: Sequence[Relation], said: Proposition) -> list[Derived]:
     for item in known:
         with contextlib.suppress(NoTranslation):
             found += _raised(item.standard(), said.names)
+    bounds = list(compared(said.claim, known, said.names))
+    found += [*bounds, *(more for bound in bounds for more in weakened(said, bound, list(known)))]
     with contextlib.suppress(NoTranslation, sp.PolynomialError):
         found += never_above(said, list(known))
-    bounds = list(compared(said.claim, known, said.names))
-    return [*found, *bounds, *(more for bound in bounds for more in weakened(said, bound, list(known)))]
+    return found
 
 
 def _raised(item: Relation, names: Names) -> Iterator[Derived]:

@@ -21,15 +21,14 @@ from ptproof.proof.statement import Relation
 
 def never_above(said: Proposition, known: list[Relation]) -> Iterator[Compared]:
     """The claim's bounds of functions of which it knows the rates, each with the line for Coq."""
+    wanted = [part.relation.standard() for part in said.conclusions if part.relation]
     for rate, _ in rates(said.claim, known, said.names):
-        for part in said.conclusions:
-            wanted = part.relation and part.relation.standard()
-            start = _start(rate)
-            if not wanted or wanted.sign != "<=" or start is None or wanted.left.func != rate.function.func:
-                continue
-            (end,) = wanted.left.args
-            if end.is_Symbol:
-                yield from _never_above(rate, start, end, wanted)
+        start = _start(rate)
+        if start is None or rate.function.args != (rate.time,):
+            continue
+        for item in wanted:
+            if item.sign == "<=" and item.left.func == rate.function.func and item.left.args[0].is_Symbol:
+                yield from _never_above(rate, start, item.left.args[0], item)
 
 
 def _simpler(expression: sp.Expr) -> sp.Expr:
