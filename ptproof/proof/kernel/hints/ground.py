@@ -90,6 +90,8 @@ class Ground:
                 yield f"try ({'atom' if signed else 'named'} {symbol} {text})"
 
     def _value(self, value: Value) -> sp.Symbol:
+        if value.function not in self.names:
+            raise NoTranslation(f"{value.function}, which has no name here")
         if value in self.made:
             return self.made[value]
         if value in self.same:
