@@ -11,7 +11,7 @@ from typing import Literal, TypeAlias
 from ptproof.proof.claim import Claim
 from ptproof.proof.kernel import coq
 from ptproof.proof.kernel.hints.portfolio import script
-from ptproof.proof.kernel.lemmas import from_lemmas, lemmas_of
+from ptproof.proof.kernel.lemmas import from_lemmas, has_steps, lemmas_of
 from ptproof.proof.kernel.remembered import Confirmation
 from ptproof.proof.kernel.theorem import Proposition
 from ptproof.proof.steps import Put, Step
@@ -98,9 +98,9 @@ class Asking:
         """The claim with the tactics of the first of the efforts that can be made for it."""
         for position, effort in enumerate(efforts):
             lemmas = lemmas_of(claim) if effort == "lemmas" else {}
-            if effort == "lemmas" and not lemmas:
+            steps = self._steps(claim, lemmas) if effort == "lemmas" and has_steps(claim) else ()
+            if effort == "lemmas" and not steps:
                 continue
-            steps = self._steps(claim, lemmas) if lemmas else ()
             name, left = f"{said.name}_{number}", tuple(efforts[position + 1 :])
             text = from_lemmas(said, lemmas.values()) if lemmas else said.text
             tactics = _tactics(said, effort, lemmas, steps)

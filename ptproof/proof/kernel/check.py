@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 from ptproof.proof.claim import Claim
 from ptproof.proof.kernel import coq, remembered
 from ptproof.proof.kernel.asking import EFFORTS, Asking, Effort
-from ptproof.proof.kernel.lemmas import Noted, settled
+from ptproof.proof.kernel.lemmas import Noted, has_steps, settled
 from ptproof.proof.kernel.remembered import Confirmation
 from ptproof.proof.kernel.terms import NoTranslation
 from ptproof.proof.kernel.theorem import Proposition, proposition
@@ -127,7 +127,7 @@ def _ask(
     least, most = _IN_A_FILE
     size = min(max(least, -(-len(asked) // processes)), most)
     stop = coq.Stop()
-    noted = Noted([claim for claim, _ in asked if claim.uses and "lemmas" in efforts], processes, timeout)
+    noted = Noted([claim for claim, _ in asked if has_steps(claim) and "lemmas" in efforts], processes, timeout)
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as temporary:
         folder = Path(temporary) if keep is None else keep
         folder.mkdir(parents=True, exist_ok=True)

@@ -13,6 +13,7 @@ from ptproof.proof.kernel.remembered import Confirmation
 from ptproof.proof.kernel.terms import NoTranslation
 from ptproof.proof.kernel.theorem import Proposition, proposition
 from ptproof.proof.load import homes_of
+from ptproof.proof.statement import ForAll
 from ptproof.proof.steps import Step, noting
 from ptproof.reading.limits import Answered, Workers
 
@@ -43,6 +44,11 @@ def settled(answers: Mapping[str, Confirmation]) -> dict[str, Confirmation]:
         else answer
         for name, answer in answers.items()
     }
+
+
+def has_steps(claim: Claim) -> bool:
+    """Whether the proof may put something to use: a claim, or what is assumed for all values."""
+    return bool(claim.uses) or any(isinstance(item, ForAll) for item in claim.assumptions)
 
 
 class Noted:

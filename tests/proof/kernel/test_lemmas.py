@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 import sympy as sp
 
-from ptproof.proof import Evidence, ForAll, Goal, claim, eq, exact, ge, le, reals, specialise
+from ptproof.proof import Evidence, ForAll, Goal, claim, eq, exact, ge, instances, le, reals, specialise
 from ptproof.proof.claim import Claim
 from ptproof.proof.kernel import Confirmation, missing
 from ptproof.proof.kernel.lemmas import Noted, lemmas_of, settled, steps_of
@@ -44,6 +44,16 @@ def beside(id: str, statement: Any, used: Claim, values: dict[Any, Any], unmet: 
     return made
 
 
+def placed(id: str, statement: Any, **options: Any) -> Claim:
+    """A claim that uses no other, and what it assumes for all values at one place."""
+
+    @claim(id, id, statement, **options)
+    def made(goal: Goal) -> Evidence:
+        return reals(goal, *instances(goal, (q + 1, 0)))
+
+    return made
+
+
 INSIDE = (ge(s, p), le(s, q))
 
 
@@ -58,6 +68,8 @@ decays = lemma(
     given=[ForAll((s,), le(sp.Derivative(U(s), s), -k * U(s)), INSIDE), ge(q, p)],
 )  # fmt: skip
 cube = lemma("cube", le(x**3, a**3), given=[ge(x, 0), le(x, a)])
+AWAY = (x - q) ** 2 + y**2
+BETWEEN = [ForAll((x, y), le(a * AWAY**k, F(x, y))), ForAll((x, y), le(F(x, y), b * AWAY**k))]
 FALLING = [rate(X(s), -X(s)), ge(q, p)]
 ON_A_CURVE = [rate(F(X(s), Y(s)), -F(X(s), Y(s))), rate(X(s), Y(s)), rate(Y(s), X(s)), ge(q, p)]
 root = lemma("root", le(sp.sqrt(x**2 + b**2) ** (2 * a), (x**2 + b**2) ** a))
@@ -72,9 +84,11 @@ TRUE = [
     beside(
         "beside-an-unmet-one", le((y + 1) ** 2, b**2), square, {x: y + 1, a: b}, cube, given=[ge(y, 0), le(y + 1, b)]
     ),
+    placed("at-a-place", le(a, b), given=BETWEEN),
     using("in-other-words", le(y**2 + 1, sp.sqrt(y**2 + 1) ** 2), root, {x: y, a: 1, b: 1}),
 ]  # fmt: skip
 NOT_CONFIRMED = [
+    placed("at-a-place-false", le(a, b / 2), given=BETWEEN),
     using("at-a-value-false", le((y + 1) ** 2, b), square, {x: y + 1, a: b}, given=[ge(y, 0), le(y + 1, b)]),
     using("at-a-value-unmet", le((y + 1) ** 2, b**2), square, {x: y + 1, a: b}, given=[le(y + 1, b)]),
     using("for-a-function-false", le(X(q) ** 2, X(p) ** 2 * sp.exp(-3 * (q - p))), decays, SQUARED, given=FALLING),
@@ -85,12 +99,12 @@ NOT_CONFIRMED = [
 
 
 @pytest.mark.skipif(bool(missing()), reason=missing() or "coq is there")
-@pytest.mark.parametrize("id", [item.id for item in TRUE])
-def test_what_follows_from_a_lemma_waits_for_it(answers: dict[str, Confirmation], id: str) -> None:
-    answer = answers[id]
-    assert answer.given, answer.reason
-    assert not answer.confirmed
-    assert answer.reason.startswith("only if")
+@pytest.mark.parametrize("item", TRUE, ids=lambda item: item.id)
+def test_what_follows_from_a_lemma_waits_for_it(answers: dict[str, Confirmation], item: Claim) -> None:
+    answer = answers[item.id]
+    assert bool(answer.given) == bool(item.uses), answer.reason
+    assert answer.confirmed == (not item.uses)
+    assert answer.reason.startswith("only if") or not item.uses
 
 
 @pytest.mark.skipif(bool(missing()), reason=missing() or "coq is there")

@@ -57,8 +57,8 @@ def script(
     told = (item for item in assumed if item is not None and item.sign != "!=" and not _trivial(item))
     known = list(dict.fromkeys(told))
     given = [fresh(f"given_{number}", said.names) for number in range(len(said.premises))]
-    if lemmas:
-        sought, before = _replayed(said, known, given, lemmas, steps, thorough)
+    if lemmas or steps:
+        sought, before = _replayed(said, known, given, lemmas or {}, steps, thorough)
     else:
         sought, before = _instantiated(said, known, given, thorough)
     said = sought.said

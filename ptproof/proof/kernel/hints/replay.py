@@ -247,6 +247,7 @@ class Replay:
         NoTranslation
             Also where the point is seen not to be one of its domain.
         """
+        point = tuple(map(sp.sympify, point))
         there = Substitution(dict(zip(item.variables, point, strict=True)), has_sign=lambda value, sign: True)
         key = told.new("I")
         values = " ".join(term(value, told.names) for value in point)

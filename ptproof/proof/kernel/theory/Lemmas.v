@@ -83,6 +83,15 @@ Ltac simple_powers :=
   | |- context [rpow ?x ?a] => same_exponents rpow x a
   | |- context [Rpower ?x ?a] => same_exponents Rpower x a
   end.
+(* Roots, powers and exponentials of what is a number once it is multiplied out. *)
+Lemma rpow_of_one : forall e, rpow 1 e = 1.
+Proof. intro e. rewrite rpow_Rpower by lra. unfold Rpower. rewrite ln_1, Rmult_0_r. apply exp_0. Qed.
+Ltac simple_values := repeat match goal with
+  | |- context [sqrt ?x] => let E := fresh in assert (E : x = 1) by rational; rewrite E, sqrt_1; clear E
+  | |- context [sqrt ?x] => let E := fresh in assert (E : x = 0) by rational; rewrite E, sqrt_0; clear E
+  | |- context [exp ?x] => let E := fresh in assert (E : x = 0) by rational; rewrite E, exp_0; clear E
+  | |- context [rpow ?x ?e] => let E := fresh in assert (E : x = 1) by rational; rewrite E, rpow_of_one; clear E
+  end.
 (* Powers of one base by each other: 0 or positive, and every exponent a multiple of another one. *)
 Ltac base_cases := repeat match goal with
   | |- context [rpow ?x ?e] =>
@@ -95,7 +104,7 @@ Ltac multiple_powers := repeat match goal with |- context [Rpower ?x ?b] =>
     assert_fails (constr_eq a b);
     let E := fresh in assert (E : Rpower x b = Rpower x a ^ 2) by (timeout 3 by_powers); rewrite E; clear E
   end end.
-Ltac same_by_powers := as_reals; base_cases; multiple_powers; rational.
+Ltac same_by_powers := as_reals; simple_values; base_cases; multiple_powers; rational.
 Ltac said_by_powers H := lazymatch type of H with
   | _ <= _ => apply (le_as _ _ _ _ H)
   | _ < _ => apply (lt_as _ _ _ _ H)
@@ -158,9 +167,3 @@ Ltac value_at old new := replace old with new by
   (first [ rational | rewrite <- exp_0; f_equal; rational | unfold Rpower; rewrite <- exp_0; f_equal; rational ]).
 (* A product of exponentials as one, and equal exponents. *)
 Ltac exponents_agree := repeat rewrite Rmult_assoc; rewrite <- ?exp_plus; first [ rational | f_equal; f_equal; rational | same_values; rational ].
-(* Roots and exponentials of what is a number once it is multiplied out. *)
-Ltac simple_values := repeat match goal with
-  | |- context [sqrt ?x] => let E := fresh in assert (E : x = 1) by rational; rewrite E, sqrt_1; clear E
-  | |- context [sqrt ?x] => let E := fresh in assert (E : x = 0) by rational; rewrite E, sqrt_0; clear E
-  | |- context [exp ?x] => let E := fresh in assert (E : x = 0) by rational; rewrite E, exp_0; clear E
-  end.
