@@ -13,6 +13,7 @@ from ptproof.proof.kernel.hints.goals import Goal
 from ptproof.proof.kernel.hints.needed import needed
 from ptproof.proof.kernel.names import fresh
 from ptproof.proof.kernel.terms import term
+from ptproof.proof.statement import Relation
 
 _MOST = 12
 _MILLISECONDS = 500
@@ -26,6 +27,9 @@ def masked(goal: Goal) -> tuple[list[str], Goal]:
     for part in list(_candidates(goal))[:_MOST]:
         name = fresh(f"m{len(lines)}", goal.names)
         kinds = {_KINDS[sign]: True for sign in _signs(goal, part)}
+        if part.is_Add and needed(Relation(sp.S.Zero, "<", part), goal.known, _MILLISECONDS) is not None:
+            kinds = {"positive": True}
+            lines.append(f"try (assert (0 < {goal.text(part)}) by (first [ sign | lra ]))")
         letter = sp.Symbol(name, real=True, **kinds)
         inner = goal.map(partial(_put, part, letter), {**goal.names, letter: name})
         if inner.relations() != goal.relations():
