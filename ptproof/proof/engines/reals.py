@@ -205,6 +205,7 @@ class Problem:
         return solver
 
     def assertions(self, opaque: bool = False) -> Iterator[Any]:
+        """What z3 is told: one for each of ``told``, in its order, and then what is known of the generators."""
         z3, used = library(), dict[sp.Symbol, None]()
 
         def number(expression: sp.Expr) -> Any:

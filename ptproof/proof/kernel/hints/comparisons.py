@@ -37,6 +37,11 @@ class Rate:
     said: tuple[sp.Expr, ...]
     names: Names
 
+    @property
+    def plain(self) -> tuple[Relation, ...]:
+        """What is known of plain symbols."""
+        return tuple(item for item in self.known if not item.has(AppliedUndef))
+
     def at(self, time: sp.Expr) -> sp.Expr:
         """The function's value at a time."""
         return self.function.xreplace({self.time: time})
@@ -98,13 +103,11 @@ def rates(claim: Claim, known: Sequence[Relation], names: Names) -> Iterator[tup
 def _times(rate: Rate) -> Iterator[tuple[sp.Expr, sp.Expr]]:
     calls = {call for item in rate.said for call in item.atoms(AppliedUndef) if call.func == rate.function.func}
     times = sorted({call.args[0] for call in calls if not call.has(rate.time)}, key=sp.default_sort_key)
-    plain = [item for item in rate.known if not item.left.atoms(AppliedUndef) | item.right.atoms(AppliedUndef)]
-    seen = view(plain)
+    seen = view(rate.plain)
 
     def shown(gap: sp.Expr) -> bool:
-        return bool(
-            sp.expand(seen.of(gap)).is_nonnegative or follows(Goal(Relation(gap, ">=", 0), (*plain,), rate.names))
-        )
+        goal = Goal(Relation(gap, ">=", sp.S.Zero), rate.plain, rate.names)
+        return bool(sp.expand(seen.of(gap)).is_nonnegative or follows(goal))
 
     for start in times:
         for end in times:
@@ -151,8 +154,7 @@ def _primitive(rate: Rate, function: sp.Expr) -> sp.Expr:
 
 def _in_order(rate: Rate, start: sp.Expr, end: sp.Expr) -> str:
     """Tactics for that the start comes first."""
-    plain = tuple(item for item in rate.known if not item.has(AppliedUndef))
-    ways = [f"solve [ {line} ]" for line in by_refutation(Goal(Relation(start, "<=", end), plain, rate.names))]
+    ways = [f"solve [ {line} ]" for line in by_refutation(Goal(Relation(start, "<=", end), rate.plain, rate.names))]
     return f"first [ {' | '.join(['bound', *ways])} ]"
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 
 import sympy as sp
@@ -13,12 +13,13 @@ from ptproof.proof.kernel.hints.goals import Goal
 from ptproof.proof.kernel.hints.needed import needed
 from ptproof.proof.kernel.names import fresh
 from ptproof.proof.kernel.terms import term
-from ptproof.proof.statement import Relation
+from ptproof.proof.statement import Relation, RelationSign
 
 _MOST = 12
 _MILLISECONDS = 500
 _BOUND = (sp.Derivative, sp.Subs, sp.Integral, sp.Limit)
-_KINDS = {">": "positive", ">=": "nonnegative", "!=": "nonzero"}
+_KINDS: dict[RelationSign, str] = {">": "positive", ">=": "nonnegative", "!=": "nonzero"}
+_MIRROR: dict[RelationSign, RelationSign] = {"<": ">", "<=": ">=", "!=": "!="}
 
 
 def masked(goal: Goal) -> tuple[list[str], Goal]:
@@ -26,29 +27,28 @@ def masked(goal: Goal) -> tuple[list[str], Goal]:
     lines: list[str] = []
     for part in list(_candidates(goal))[:_MOST]:
         name = fresh(f"m{len(lines)}", goal.names)
-        kinds = {_KINDS[sign]: True for sign in _signs(goal, part)}
-        if part.is_Add and needed(Relation(sp.S.Zero, "<", part), goal.known, _MILLISECONDS) is not None:
-            kinds = {"positive": True}
-            lines.append(f"try (assert (0 < {goal.text(part)}) by (first [ sign | lra ]))")
+        positive = part.is_Add and needed(Relation(sp.S.Zero, "<", part), goal.known, _MILLISECONDS) is not None
+        kinds = {"positive": True} if positive else _kinds(goal, part)
         letter = sp.Symbol(name, real=True, **kinds)
-        inner = goal.map(partial(_put, part, letter), {**goal.names, letter: name})
-        if inner.relations() != goal.relations():
-            # A derivative is worth the time: without its letter it is carried out.
-            limit = _MILLISECONDS if part.is_Add else 4 * _MILLISECONDS
-            if needed(inner.relation, inner.known, limit) is None:
-                continue
-            lines.append(f"try (named {name} {goal.text(part)})")
-            goal = inner
+        inner = goal.map(partial(_put, {part: letter}), {**goal.names, letter: name})
+        # A derivative is worth the time: without its letter it is carried out.
+        limit = _MILLISECONDS if part.is_Add else 4 * _MILLISECONDS
+        if inner.relations() == goal.relations() or needed(inner.relation, inner.known, limit) is None:
+            continue
+        if positive:
+            lines.append(f"try (assert (0 < {goal.text(part)}) by (first [ sign | lra ]))")
+        lines.append(f"try (named {name} {goal.text(part)})")
+        goal = inner
     return lines, goal
 
 
-def _put(part: sp.Basic, letter: sp.Symbol, expression: sp.Basic) -> sp.Basic:
-    """The expression with a letter for the part, but where something is bound."""
-    if expression == part:
-        return letter
+def _put(values: Mapping[sp.Basic, sp.Basic], expression: sp.Basic) -> sp.Basic:
+    """The expression with values for parts of it, but where something is bound: a value at one time has no rate."""
+    if expression in values:
+        return values[expression]
     if not expression.args or isinstance(expression, _BOUND):
         return expression
-    return expression.func(*(_put(part, letter, argument) for argument in expression.args))
+    return expression.func(*(_put(values, argument) for argument in expression.args))
 
 
 def hidden(goal: Goal) -> Goal:
@@ -57,14 +57,12 @@ def hidden(goal: Goal) -> Goal:
     parts = dict.fromkeys(part for side in sides for part in _free(side) if _is_composed(part))
     parts |= dict.fromkeys(part.base for side in sides for part in _free(side)
                            if isinstance(part, sp.Pow) and part.base.is_Add)  # fmt: skip
-    there = {}
-    for number, part in enumerate(parts):
-        kinds = {_KINDS[sign]: True for sign in _signs(goal, part)}
-        there[part] = sp.Symbol(f"hidden{number}", real=True, **kinds)
+    there = {part: sp.Symbol(f"hidden{number}", real=True, **_kinds(goal, part)) for number, part in enumerate(parts)}
 
     def change(side: sp.Basic) -> sp.Basic:
         return side.xreplace(there)
 
+    # Each of what is known is there, in its place.
     return Goal(goal.relation.map(change), tuple(item.map(change) for item in goal.known), goal.names)
 
 
@@ -90,26 +88,23 @@ def put_in(goal: Goal) -> tuple[list[str], Goal]:
         new = root.xreplace(there)
         if new != root and not isinstance(new, sp.Pow):
             lines.append(f"try (root_is {term(root.base, names)} {goal.text(new)})")
-    return lines, goal.map(lambda side: side.xreplace(there))
+    return lines, goal.map(partial(_put, there))
 
 
 def _stands_alone(part: sp.Basic) -> bool:
     return isinstance(part, AppliedUndef) or bool(part.is_Symbol and not part.is_nonnegative)
 
 
-def _signs(goal: Goal, part: sp.Basic) -> Iterator[str]:
-    for item in goal.known:
-        if item.right == 0 and item.left == part and item.sign in _KINDS:
-            yield item.sign
-        elif item.left == 0 and item.right == part and item.standard().sign in ("<", "<=") and item.sign != ">":
-            yield {"<": ">", "<=": ">="}[item.sign]
+def _kinds(goal: Goal, part: sp.Basic) -> dict[str, bool]:
+    """What is known of the part's sign, as SymPy says it of a symbol."""
+    known = {(item.left, item.sign) for item in goal.known if item.right == 0}
+    known |= {(item.right, _MIRROR[item.sign]) for item in goal.known if item.left == 0 and item.sign in _MIRROR}
+    return {word: True for sign, word in _KINDS.items() if (part, sign) in known}
 
 
 def _candidates(goal: Goal) -> Iterator[sp.Basic]:
     sides = [side for item in goal.relations() for side in (item.left, item.right)]
-    composed = [part for side in sides for part in _free(side)
-                if _is_composed(part)]  # fmt: skip
-    yield from dict.fromkeys(composed)
+    yield from dict.fromkeys(part for side in sides for part in _free(side) if _is_composed(part))
     seen = Counter(part for side in sides for part in _free(side) if part.is_Add)
     exponents = sp.Tuple(*_exponents(sides))
     yield from sorted(

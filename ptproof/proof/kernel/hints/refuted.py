@@ -6,6 +6,7 @@ z3 and a linear program say what to look at; Coq multiplies out what they point 
 from __future__ import annotations
 
 import contextlib
+import itertools
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
@@ -25,43 +26,47 @@ from ptproof.proof.kernel.hints.positivstellensatz import Product, Sign, contrad
 from ptproof.proof.kernel.hints.told import text_of
 from ptproof.proof.kernel.names import fresh
 from ptproof.proof.kernel.terms import NoTranslation, term
-from ptproof.proof.statement import Relation
+from ptproof.proof.statement import Relation, RelationSign
 
 _MOST_CASES = 2
+# Of the right side less the left one.
+_OF_GAPS: dict[str, RelationSign] = {"<=": ">=", "<": ">", "=": "="}
 
 
 def by_refutation(goal: Goal) -> Iterator[str]:
-    """The goal from what it needs alone, if that is found."""
+    """Tactics for the goal from what it needs alone, if that is found."""
     match goal.relation:
         case Relation(value, "!=", sp.S.Zero):
-            for way, item in (
-                ("Rgt_not_eq; red", Relation(sp.S.Zero, "<", value)),
-                ("Rlt_not_eq", Relation(value, "<", sp.S.Zero)),
-            ):
-                for line in by_refutation(replace(goal, relation=item)):
-                    yield f"apply {way}; {line}"
-                    return
-            return
-        case Relation(_, "=" | "!=", _):
-            return
+            signs = (
+                (Relation(sp.S.Zero, "<", value), "Rgt_not_eq; red"),
+                (Relation(value, "<", sp.S.Zero), "Rlt_not_eq"),
+            )
+            found = (
+                f"apply {way}; {line}"
+                for item, way in signs
+                for line in _refuted_from_few(replace(goal, relation=item))
+            )
+            yield from itertools.islice(found, 1)
         case Relation(left, "<=" | ">=", right) if left == right:
             yield "first [ apply Rle_refl | apply Rge_refl ]"
-            return
-    known = list(dict.fromkeys([*goal.known, *_domains(goal.relations())]))
-    core = _core(goal, known)
-    if core is None:
+        case Relation(_, "<=" | "<" | ">=" | ">", _):
+            yield from _refuted_from_few(goal)
+
+
+def _refuted_from_few(goal: Goal) -> Iterator[str]:
+    known = _with_domains(goal)
+    if (core := _core(goal, known)) is None:
         return
     facts = [*core, *_of_bases((goal.relation, *core), known)]
     for bottom in _bottoms((goal.relation, *core)):
-        facts += needed(Relation(sp.Integer(0), "<", bottom), known) or ()
-    focused = Goal(goal.relation, tuple(dict.fromkeys(facts)), goal.names)
-    lines: list[str] = []
+        facts += needed(Relation(sp.S.Zero, "<", bottom), known) or ()
+    facts = list(dict.fromkeys(facts))
+    focused, lines = Goal(goal.relation, tuple(facts), goal.names), []
     for step in (put_in, masked, _without_functions, masked, lettered):
         more, focused = step(focused)
         lines += more
-    inner = _by_cases(focused, _MOST_CASES)
-    if inner:
-        said = "".join(f"({text_of(item, goal.names)}) -> " for item in dict.fromkeys(facts))
+    if inner := _by_cases(focused, _MOST_CASES):
+        said = "".join(f"({text_of(item, goal.names)}) -> " for item in facts)
         yield "; ".join([f"only_from ({said}True)", *lines, inner])
 
 
@@ -69,10 +74,7 @@ def follows(goal: Goal) -> bool | None:
     """Whether z3 finds that the goal follows from what is known; None if it cannot be told."""
     if not can_be_told(goal.relation):
         return None
-    try:
-        return _core(goal, list(dict.fromkeys([*goal.known, *_domains(goal.relations())]))) is not None
-    except NotAlgebraic:
-        return None
+    return _core(goal, _with_domains(goal)) is not None
 
 
 def _core(goal: Goal, known: Sequence[Relation]) -> tuple[Relation, ...] | None:
@@ -83,12 +85,10 @@ def _core(goal: Goal, known: Sequence[Relation]) -> tuple[Relation, ...] | None:
     return needed(goal.relation, known)
 
 
-def _domains(relations: Iterable[Relation]) -> Iterator[Relation]:
-    """What holds where the relations are defined."""
-    for item in relations:
-        for need in domain_of(item):
-            if need.relation is not None and not need.settled and not need.given:
-                yield need.relation
+def _with_domains(goal: Goal) -> list[Relation]:
+    """What is known, and what holds where this and the goal are defined."""
+    needs = (need for item in goal.relations() for need in domain_of(item) if not need.settled and not need.given)
+    return list(dict.fromkeys([*goal.known, *(need.relation for need in needs if need.relation is not None)]))
 
 
 def _of_bases(relations: Iterable[Relation], known: Iterable[Relation]) -> Iterator[Relation]:
@@ -144,10 +144,11 @@ class _Written:
 
     top: sp.Expr
     bottom: sp.Expr
-    sign: str
+    sign: RelationSign
 
     def known(self) -> Sign:
-        return Sign(self.top, {"<=": ">=", "<": ">", "=": "="}[self.sign])  # type: ignore[arg-type]
+        """What is known of the polynomial, if the relation holds."""
+        return Sign(self.top, _OF_GAPS[self.sign])
 
 
 def _refuted(goal: Goal) -> str:
