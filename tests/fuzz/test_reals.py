@@ -61,7 +61,7 @@ def relations(draw: Any) -> Relation:
     a, b = draw(small), draw(small)
     try:
         left, right = draw(st.sampled_from(RULES))(a, b)
-    except ValueError:  # SymPy's Max of what is not real
+    except (ValueError, TypeError):  # SymPy's Max, or comparison, of what is not real
         left, right = a, b
     left, right = sp.sympify(left) * draw(scales), sp.sympify(right) * draw(scales)
     if not (trees.is_plain(left) and trees.is_plain(right)):
