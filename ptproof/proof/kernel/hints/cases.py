@@ -8,13 +8,16 @@ from ptproof.proof.kernel.hints.goals import Goal, is_shown
 from ptproof.proof.kernel.terms import DECIDED
 from ptproof.proof.statement import Relation
 
-_KINDS = (sp.Max, sp.Min, sp.Abs, sp.Piecewise)
+KINDS = (sp.Max, sp.Min, sp.Abs, sp.Piecewise)
 _WORDS = {sp.Max: "Rmax", sp.Min: "Rmin"}
 
 
-def split(goal: Goal) -> tuple[str, list[Goal]] | None:
-    """The line that splits the goal by one of its minima, maxima, absolute values or branches, and the two goals."""
-    found = next((part for part in goal.atoms(*_KINDS) if not _holds_bound(part)), None)
+def split(goal: Goal, *kinds: type[sp.Basic]) -> tuple[str, list[Goal]] | None:
+    """The line that splits the goal by one of its minima, maxima, absolute values or branches, and the two goals.
+
+    Of these ``kinds`` only, if there are any.
+    """
+    found = next((part for part in goal.atoms(*(kinds or KINDS)) if not _holds_bound(part)), None)
     if found is None:
         return None
     match found:
@@ -51,7 +54,7 @@ def factored(goal: Goal) -> tuple[list[str], Goal]:
     nonzero = {sp.factor(item.right - item.left) for item in goal.known if item.sign == "!="}
     nonzero |= {sp.expand(-item) for item in nonzero}
     for relation in goal.known:
-        if relation.sign != "=" or relation.right.has(*_KINDS) or relation.left.has(*_KINDS):
+        if relation.sign != "=" or relation.right.has(*KINDS) or relation.left.has(*KINDS):
             continue
         top, bottom = sp.fraction(sp.together(relation.right - relation.left))
         try:

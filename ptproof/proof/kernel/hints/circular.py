@@ -29,7 +29,7 @@ def by_circular_bounds(goal: Goal) -> Iterator[str]:
         (angle,) = call.args
         kind = "sin" if isinstance(call, sp.sin) else "cos"
         lines.append(f"bounds_of_{kind} {goal.text(angle)}; set ({symbol.name} := {goal.text(call)}) in *")
-        facts += _bounds(kind, symbol, angle)
+        facts += bounds(kind, symbol, angle)
     inner = Goal(relation, tuple(facts), names).map(lambda side: side.xreplace(stands))
     top = sp.expand(inner.relation.right - inner.relation.left)
     if not top.is_polynomial(*top.free_symbols):
@@ -46,7 +46,8 @@ def by_circular_bounds(goal: Goal) -> Iterator[str]:
     yield "; ".join([*lines, "linear"])
 
 
-def _bounds(kind: str, value: sp.Symbol, u: sp.Expr) -> list[Relation]:
+def bounds(kind: str, value: sp.Expr, u: sp.Expr) -> list[Relation]:
+    """What is known of ``value``, the sin or cos of u, for every u."""
     one = sp.Integer(1)
     if kind == "cos":
         below = [1 - u**2 / 2, -one]

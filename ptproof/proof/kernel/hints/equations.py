@@ -14,6 +14,8 @@ def by_equations(goal: Goal) -> Iterator[str]:
     """Tactics for an equation, each for the whole goal."""
     if goal.relation.has(sp.pi) and goal.relation.has(sp.sin, sp.cos) and _vanishes(_without_periods(goal)):
         yield "whole_periods; rational"
+    if goal.relation.has(sp.sin) and goal.relation.has(sp.cos) and _vanishes(_by_sines(goal)):
+        yield "squared_cosines; rational"
     if lines := list(_exponentials(goal)):
         yield "; ".join([*lines, "rational"])
     yield from _by_one(goal)
@@ -28,6 +30,18 @@ def _without_periods(goal: Goal) -> sp.Expr:
     """The difference of the sides, whose waves SymPy takes whole periods from once their arguments are sums."""
     gap = goal.relation.left - goal.relation.right
     return gap.replace(lambda part: isinstance(part, sp.sin | sp.cos), lambda part: part.func(sp.expand(part.args[0])))
+
+
+def _by_sines(goal: Goal) -> sp.Expr:
+    """The difference of the sides, with every square of a cosine by the one of the sine."""
+
+    def change(power: sp.Pow) -> sp.Expr:
+        even, odd = divmod(power.exp, 2)
+        return (1 - sp.sin(power.base.args[0]) ** 2) ** even * power.base**odd
+
+    gap = goal.relation.left - goal.relation.right
+    return gap.replace(lambda part: isinstance(part, sp.Pow) and isinstance(part.base, sp.cos) and part.exp.is_Integer
+                       and part.exp > 1, change)  # fmt: skip
 
 
 def _roots(goal: Goal) -> tuple[dict[sp.Expr, sp.Dummy], dict[sp.Basic, sp.Expr]]:

@@ -9,7 +9,7 @@ from functools import partial
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ptproof.proof.kernel.hints.goals import Goal
+from ptproof.proof.kernel.hints.goals import Goal, as_factors
 from ptproof.proof.kernel.hints.needed import needed
 from ptproof.proof.kernel.names import fresh
 from ptproof.proof.kernel.terms import term
@@ -30,32 +30,58 @@ def masked(goal: Goal) -> tuple[list[str], Goal]:
         positive = part.is_Add and needed(Relation(sp.S.Zero, "<", part), goal.known, _MILLISECONDS) is not None
         kinds = {"positive": True} if positive else _kinds(goal, part)
         letter = sp.Symbol(name, real=True, **kinds)
-        inner = goal.map(partial(_put, {part: letter}), {**goal.names, letter: name})
+        inner = goal.map(partial(put, {part: letter}), {**goal.names, letter: name})
         # A derivative is worth the time: without its letter it is carried out.
         limit = _MILLISECONDS if part.is_Add else 4 * _MILLISECONDS
+        line = f"try (named {name} {goal.text(part)})"
         if inner.relations() == goal.relations() or needed(inner.relation, inner.known, limit) is None:
-            continue
+            if (found := _solved(part, letter, goal)) is None:
+                continue
+            symbol, value = found
+            line = f"try (set ({name} := {goal.text(part)}) in *; moved {name} {goal.text(symbol)} {inner.text(value)})"
+            inner = inner.replaced(symbol, value)
         if positive:
-            lines.append(f"try (assert (0 < {goal.text(part)}) by (first [ sign | lra ]))")
-        lines.append(f"try (named {name} {goal.text(part)})")
+            written = goal.text(as_factors(part))
+            lines.append(f"try (assert (0 < {goal.text(part)}) by (first [ sign | lra | written_as {written}; sign ]))")
+        lines.append(line)
         goal = inner
     return lines, goal
 
 
-def _put(values: Mapping[sp.Basic, sp.Basic], expression: sp.Basic) -> sp.Basic:
+def _solved(part: sp.Basic, letter: sp.Symbol, goal: Goal) -> tuple[sp.Symbol, sp.Expr] | None:
+    """A symbol by the letter for a sum that stands below a line."""
+    if part not in bottoms(goal):
+        return None
+    for symbol in sorted(part.free_symbols, key=lambda item: item.name):
+        factor = sp.expand(part).coeff(symbol)
+        rest = sp.expand(part - factor * symbol)
+        if factor.is_Rational and factor != 0 and not rest.has(symbol) and symbol.is_nonnegative is None:
+            return symbol, (letter - rest) / factor
+    return None
+
+
+def bottoms(goal: Goal) -> Iterator[sp.Expr]:
+    """The sums below a line."""
+    for item in goal.relations():
+        for power in sp.Tuple(item.left, item.right).atoms(sp.Pow):
+            if power.exp.is_negative and power.base.is_Add:
+                yield power.base
+
+
+def put(values: Mapping[sp.Basic, sp.Basic], expression: sp.Basic) -> sp.Basic:
     """The expression with values for parts of it, but where something is bound: a value at one time has no rate."""
     if expression in values:
         return values[expression]
     if not expression.args or isinstance(expression, _BOUND):
         return expression
-    return expression.func(*(_put(values, argument) for argument in expression.args))
+    return expression.func(*(put(values, argument) for argument in expression.args))
 
 
 def hidden(goal: Goal) -> Goal:
     """The goal with letters for derivatives of what is composed and for sums below a line, whatever it needs."""
     sides = [side for item in goal.relations() for side in (item.left, item.right)]
-    parts = dict.fromkeys(part for side in sides for part in _free(side) if _is_composed(part))
-    parts |= dict.fromkeys(part.base for side in sides for part in _free(side)
+    parts = dict.fromkeys(part for side in sides for part in free_parts(side) if _is_composed(part))
+    parts |= dict.fromkeys(part.base for side in sides for part in free_parts(side)
                            if isinstance(part, sp.Pow) and part.base.is_Add)  # fmt: skip
     there = {part: sp.Symbol(f"hidden{number}", real=True, **_kinds(goal, part)) for number, part in enumerate(parts)}
 
@@ -67,6 +93,9 @@ def hidden(goal: Goal) -> Goal:
 
 
 def _is_composed(part: sp.Basic) -> bool:
+    """Whether more would be looked into than the value: the derivative of what is composed, or waves of a sum."""
+    if isinstance(part, sp.sin | sp.cos):
+        return not part.args[0].is_Symbol
     return isinstance(part, sp.Derivative) and not isinstance(part.expr, AppliedUndef)
 
 
@@ -88,7 +117,7 @@ def put_in(goal: Goal) -> tuple[list[str], Goal]:
         new = root.xreplace(there)
         if new != root and not isinstance(new, sp.Pow):
             lines.append(f"try (root_is {term(root.base, names)} {goal.text(new)})")
-    return lines, goal.map(partial(_put, there))
+    return lines, goal.map(partial(put, there))
 
 
 def _stands_alone(part: sp.Basic) -> bool:
@@ -104,21 +133,22 @@ def _kinds(goal: Goal, part: sp.Basic) -> dict[str, bool]:
 
 def _candidates(goal: Goal) -> Iterator[sp.Basic]:
     sides = [side for item in goal.relations() for side in (item.left, item.right)]
-    yield from dict.fromkeys(part for side in sides for part in _free(side) if _is_composed(part))
-    seen = Counter(part for side in sides for part in _free(side) if part.is_Add)
+    yield from dict.fromkeys(part for side in sides for part in free_parts(side) if _is_composed(part))
+    seen = Counter(part for side in sides for part in free_parts(side) if part.is_Add)
     exponents = sp.Tuple(*_exponents(sides))
+    below = set(bottoms(goal))
     yield from sorted(
-        (part for part, times in seen.items() if times > 1 and not exponents.has(part)),
+        (part for part, times in seen.items() if (times > 1 or part in below) and not exponents.has(part)),
         key=lambda part: (-sp.count_ops(part), sp.default_sort_key(part)),
     )
 
 
-def _free(expression: sp.Basic) -> Iterator[sp.Basic]:
+def free_parts(expression: sp.Basic) -> Iterator[sp.Basic]:
     """The parts in which nothing is bound outside of them, each as often as it stands there; not those of exponents."""
     yield expression
     if not isinstance(expression, (*_BOUND, sp.exp)):
         for part in expression.args[:1] if isinstance(expression, sp.Pow) else expression.args:
-            yield from _free(part)
+            yield from free_parts(part)
 
 
 def _exponents(sides: Sequence[sp.Basic]) -> Iterator[sp.Basic]:

@@ -16,14 +16,17 @@ from sympy.core.function import AppliedUndef
 from ptproof.proof.algebra import NotAlgebraic
 from ptproof.proof.definedness import domain_of
 from ptproof.proof.engines.reals import Problem
+from ptproof.proof.kernel.hints.aligned import aligned
 from ptproof.proof.kernel.hints.bases import by_zero, lettered
+from ptproof.proof.kernel.hints.bounded import bounded
 from ptproof.proof.kernel.hints.cases import split
 from ptproof.proof.kernel.hints.goals import Goal
 from ptproof.proof.kernel.hints.ground import Ground
-from ptproof.proof.kernel.hints.masks import hidden, masked, put_in
+from ptproof.proof.kernel.hints.masks import bottoms, hidden, masked, put_in
 from ptproof.proof.kernel.hints.needed import can_be_told, needed
 from ptproof.proof.kernel.hints.positivstellensatz import Product, Sign, contradiction
 from ptproof.proof.kernel.hints.told import text_of
+from ptproof.proof.kernel.hints.waves import of_waves
 from ptproof.proof.kernel.names import fresh
 from ptproof.proof.kernel.terms import NoTranslation, term
 from ptproof.proof.statement import Relation, RelationSign
@@ -54,20 +57,21 @@ def by_refutation(goal: Goal) -> Iterator[str]:
 
 
 def _refuted_from_few(goal: Goal) -> Iterator[str]:
-    known = _with_domains(goal)
-    if (core := _core(goal, known)) is None:
+    known, waves = _with_domains(goal), list[tuple[str, list[Relation]]]()
+    if (core := _core(goal, known)) is None and (waves := list(of_waves(goal))):
+        known += [item for _, facts in waves for item in facts]
+        core = _core(goal, known)
+    if core is None:
         return
     facts = [*core, *_of_bases((goal.relation, *core), known)]
-    for bottom in _bottoms((goal.relation, *core)):
-        facts += needed(Relation(sp.S.Zero, "<", bottom), known) or ()
+    for bottom in bottoms(Goal(goal.relation, core, goal.names)):
+        if not bottom.is_positive:
+            facts += needed(Relation(sp.S.Zero, "<", bottom), known) or ()
     facts = list(dict.fromkeys(facts))
-    focused, lines = Goal(goal.relation, tuple(facts), goal.names), []
-    for step in (put_in, masked, _without_functions, masked, lettered):
-        more, focused = step(focused)
-        lines += more
-    if inner := _by_cases(focused, _MOST_CASES):
+    if inner := _by_branches(Goal(goal.relation, tuple(facts), goal.names), _MOST_CASES):
         said = "".join(f"({text_of(item, goal.names)}) -> " for item in facts)
-        yield "; ".join([f"only_from ({said}True)", *lines, inner])
+        lines = [line for line, found in waves if any(item in facts for item in found)]
+        yield "; ".join([*lines, f"only_from ({said}True)", inner])
 
 
 def follows(goal: Goal) -> bool | None:
@@ -98,14 +102,6 @@ def _of_bases(relations: Iterable[Relation], known: Iterable[Relation]) -> Itera
     yield from (item for item in known if item.standard().left == 0 and item.standard().right in bases)
 
 
-def _bottoms(relations: Iterable[Relation]) -> Iterator[sp.Expr]:
-    """What stands below a line and has no plain sign."""
-    for item in relations:
-        for power in sp.Tuple(item.left, item.right).atoms(sp.Pow):
-            if power.exp.is_negative and power.base.is_Add and not power.base.is_positive:
-                yield power.base
-
-
 def _without_functions(goal: Goal) -> tuple[list[str], Goal]:
     """Values of unknown functions, and of their derivatives, as numbers."""
     if not any(item.has(AppliedUndef, sp.Derivative) for item in goal.relations()):
@@ -121,6 +117,27 @@ def _without_functions(goal: Goal) -> tuple[list[str], Goal]:
         *(f"try (assert ({text_of(item, inner.names)}) by found_as)" for item in again),
         f"try (shown_as {inner.text(relation.left)} {inner.text(relation.right)})",
     ], inner
+
+
+def _by_branches(goal: Goal, left: int) -> str:
+    """Without minima and the like if that will do; else one branch after the other, and each with as little in it as is needed; nothing if one fails.
+
+    So are minima, maxima and absolute values of what would be written in another way.
+    """
+    lines, goal = bounded(goal)
+    if lines:
+        inner = _by_branches(goal, left)
+        return "; ".join([*lines, inner]) if inner else ""
+    kinds = () if aligned(goal)[0] else (sp.Piecewise,)
+    if left and (found := split(goal, *kinds)) is not None:
+        line, goals = found
+        each = [_by_branches(case, left - 1) for case in goals]
+        return f"{line}; [> {' | '.join(f'facts; {tactic}' for tactic in each)} ]" if all(each) else ""
+    for step in (put_in, aligned, masked, _without_functions, masked, lettered):
+        more, goal = step(goal)
+        lines += more
+    inner = _by_cases(goal, left)
+    return "; ".join([*lines, inner]) if inner else ""
 
 
 def _by_cases(goal: Goal, left: int) -> str:
@@ -156,7 +173,7 @@ def _refuted(goal: Goal) -> str:
     letters = _Letters(goal, problem)
     wanted = _written(letters.seen(problem.conclusion))
     if wanted is None:
-        return "solve [ sign | lra ]"
+        return "solve [ sign | lra | apply Req_le; rational | apply Req_ge; rational ]"
     told = [fact.conclusion for fact in problem.told if not fact.hypotheses and fact.conclusion.sign != "!="]
     told += [Relation(polynomial, "=", sp.S.Zero) for _, polynomial in problem.generators.relations]
     known = {item.known(): item for item in map(_written, map(letters.seen, told)) if item is not None}

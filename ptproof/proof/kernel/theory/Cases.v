@@ -9,7 +9,13 @@ Lemma Rabs_case_of : forall a, (0 <= a /\ Rabs a = a) \/ (a <= 0 /\ Rabs a = - a
 Proof. intro a. destruct (Rle_dec 0 a); [left | right]; split; try lra; [apply Rabs_pos_eq | apply Rabs_left1]; lra. Qed.
 Ltac one_of d := let L := fresh in let E := fresh in destruct d as [[L E] | [L E]]; rewrite ?E in *; clear E.
 (* The two cases of a decision: its proposition or the other one is a fact then. *)
-Ltac branch_of d := destruct d.
+Ltac branch_of d := destruct d;
+  repeat match goal with
+  | H : ~ (_ <= _) |- _ => apply Rnot_le_lt in H
+  | H : ~ (_ < _) |- _ => apply Rnot_lt_le in H
+  | H : ~ (_ >= _) |- _ => apply Rnot_ge_lt in H
+  | H : ~ (_ > _) |- _ => apply Rnot_gt_le in H
+  end.
 
 (* A product that is 0, and a quotient. *)
 Lemma quotient_zero : forall a b, b <> 0 -> a / b = 0 -> a = 0.

@@ -14,6 +14,20 @@ Ltac whole_periods :=
       match goal with |- context [cos ?b] => assert_fails (constr_eq a b); some_periods cos a b cos_period end
   end.
 
+(* Every square of a cosine by the one of the sine. *)
+Lemma cos_power : forall x k r, cos x ^ (2 * k + r) = (1 - sin x ^ 2) ^ k * cos x ^ r.
+Proof.
+  intros x k r. rewrite pow_add, pow_mult. f_equal. f_equal.
+  pose proof (sin2_cos2 x). unfold Rsqr in *. lra.
+Qed.
+Ltac squared_cosines :=
+  repeat match goal with
+  | |- context [cos ?x ^ S (S ?n)] =>
+      let k := eval compute in (Nat.div2 (S (S n))) in
+      let r := eval compute in (S (S n) - 2 * k)%nat in
+      change (cos x ^ S (S n)) with (cos x ^ (2 * k + r)); rewrite (cos_power x k r)
+  end.
+
 (* The difference of the two sides is e, in which every square of a root less what it is of is 0. *)
 Ltac zero_as e :=
   as_reals; apply Rminus_diag_uniq;

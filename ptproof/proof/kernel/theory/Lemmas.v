@@ -89,6 +89,8 @@ Proof. intro e. rewrite rpow_Rpower by lra. unfold Rpower. rewrite ln_1, Rmult_0
 Ltac simple_values := repeat match goal with
   | |- context [sqrt ?x] => let E := fresh in assert (E : x = 1) by rational; rewrite E, sqrt_1; clear E
   | |- context [sqrt ?x] => let E := fresh in assert (E : x = 0) by rational; rewrite E, sqrt_0; clear E
+  | |- context [cos (IZR (Zneg ?n))] => change (IZR (Zneg n)) with (- IZR (Zpos n)); rewrite cos_neg
+  | |- context [sin (IZR (Zneg ?n))] => change (IZR (Zneg n)) with (- IZR (Zpos n)); rewrite sin_neg
   | |- context [exp ?x] => let E := fresh in assert (E : x = 0) by rational; rewrite E, exp_0; clear E
   | |- context [rpow ?x ?e] => let E := fresh in assert (E : x = 1) by rational; rewrite E, rpow_of_one; clear E
   end.
@@ -167,3 +169,20 @@ Ltac value_at old new := replace old with new by
   (first [ rational | rewrite <- exp_0; f_equal; rational | unfold Rpower; rewrite <- exp_0; f_equal; rational ]).
 (* A product of exponentials as one, and equal exponents. *)
 Ltac exponents_agree := repeat rewrite Rmult_assoc; rewrite <- ?exp_plus; first [ rational | f_equal; f_equal; rational | same_values; rational ].
+(* A sum as a product with another one. *)
+Ltac same_sum old new := let E := fresh in assert (E : old = new) by (field; sides); rewrite ?E in *; clear E.
+(* A variable by a letter for a sum in which it stands. *)
+Ltac moved w v value := let E := fresh in assert (E : v = value) by (unfold w; rational); clearbody w; subst v.
+(* A minimum, maximum or absolute value as a letter with its bounds. *)
+Lemma Rabs_bounds : forall a, a <= Rabs a /\ - a <= Rabs a /\ 0 <= Rabs a.
+Proof. intro a. split; [apply Rle_abs|]. split; [rewrite <- Rabs_Ropp; apply Rle_abs | apply Rabs_pos]. Qed.
+Ltac bounded_as w e :=
+  lazymatch e with
+  | Rmax ?a ?b => pose proof (Rmax_l a b); pose proof (Rmax_r a b)
+  | Rmin ?a ?b => pose proof (Rmin_l a b); pose proof (Rmin_r a b)
+  | Rabs ?a => pose proof (Rabs_bounds a); facts
+  end;
+  try (assert (0 < e) by (first [ sign | lra ])); try (assert (0 <= e) by (first [ sign | lra ]));
+  named w e.
+(* A value between numbers. *)
+Ltac between_numbers low e high := assert (low <= e) by interval; assert (e <= high) by interval.

@@ -1,0 +1,48 @@
+"""Bounds of sin and cos of what a goal speaks of: polynomials for every angle, and numbers where the angle has bounds."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+
+import sympy as sp
+from mpmath import iv, mp
+from sympy.core.function import AppliedUndef
+
+from ptproof.proof.kernel.hints.circular import bounds
+from ptproof.proof.kernel.hints.goals import Goal
+from ptproof.proof.statement import Relation
+
+_PARTS = 1000  # of 1, to which bounds are rounded
+_MOST = 4
+
+
+def of_waves(goal: Goal) -> Iterator[tuple[str, list[Relation]]]:
+    """For each sin and cos a line for Coq, and what holds after it."""
+    sides = sp.Tuple(*(side for item in goal.relations() for side in (item.left, item.right)))
+    calls = sorted(sides.atoms(sp.sin, sp.cos), key=sp.default_sort_key)
+    for call in calls if len(calls) <= _MOST else ():
+        (angle,) = call.args
+        if angle.has(AppliedUndef, sp.Derivative) or not angle.free_symbols:
+            continue
+        kind = "sin" if isinstance(call, sp.sin) else "cos"
+        yield f"try (bounds_of_{kind} {goal.text(angle)})", bounds(kind, call, angle)
+        if angle.is_Symbol and (ends := _ends(angle, goal.known)) is not None:
+            low, high = _range(kind, *ends)
+            line = f"try (between_numbers {goal.text(low)} {goal.text(call)} {goal.text(high)})"
+            yield line, [Relation(low, "<=", call), Relation(call, "<=", high)]
+
+
+def _ends(angle: sp.Symbol, known: Sequence[Relation]) -> tuple[sp.Rational, sp.Rational] | None:
+    """Numbers between which the angle is known to lie."""
+    items = [item.standard() for item in known if item.sign not in ("=", "!=")]
+    below = [item.left for item in items if item.right == angle and item.left.is_Rational]
+    above = [item.right for item in items if item.left == angle and item.right.is_Rational]
+    return (max(below), min(above)) if below and above and max(below) <= min(above) else None
+
+
+def _range(kind: str, low: sp.Rational, high: sp.Rational) -> tuple[sp.Rational, sp.Rational]:
+    """Between which numbers its values lie, rounded outwards."""
+    found = getattr(iv, kind)(iv.mpf([iv.mpf(low.p) / low.q, iv.mpf(high.p) / high.q]))
+    ends = math.floor(_PARTS * mp.mpf(found.a)), math.ceil(_PARTS * mp.mpf(found.b))
+    return sp.Rational(ends[0], _PARTS), sp.Rational(ends[1], _PARTS)
