@@ -1,6 +1,9 @@
-"""Minima, maxima and absolute values as letters with what bounds them, where no more of them is needed."""
+"""Minima, maxima and absolute values out of a goal: as what they are known to be, or as letters with their bounds."""
 
 from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
 
 import sympy as sp
 
@@ -10,6 +13,25 @@ from ptproof.proof.kernel.names import fresh
 from ptproof.proof.statement import Relation
 
 _MILLISECONDS = 500
+
+
+def settled(goal: Goal, shown: Callable[[Goal], str]) -> tuple[list[str], Goal]:
+    """The goal in which a minimum or maximum is the one of its arguments that it is known to be, if that is ``shown``."""
+    lines: list[str] = []
+    for part in goal.atoms(sp.Max, sp.Min):
+        if len(part.args) != 2:
+            continue
+        first, last = sorted(part.args, key=sp.default_sort_key)  # as they are written
+        for value, other in ((first, last), (last, first)):
+            wanted = Relation(other, "<=", value) if isinstance(part, sp.Max) else Relation(value, "<=", other)
+            if needed(wanted, goal.known, _MILLISECONDS) is None or not (tactic := shown(replace(goal, relation=wanted))):
+                continue
+            word = f"{'Rmax' if isinstance(part, sp.Max) else 'Rmin'}_{'left' if value == first else 'right'}"
+            sides = f"{goal.text(first)} {goal.text(last)}"
+            lines.append(f"rewrite ({word} {sides}) in * by (solve [ {tactic} ])")
+            goal = goal.replaced(part, value)
+            break
+    return lines, goal
 
 
 def bounded(goal: Goal) -> tuple[list[str], Goal]:

@@ -281,7 +281,7 @@ def _bernoulli_from(
         lemma = f"(bernoulli_decay_as {U} {p} {q} {rate.write(c)} {rate.write(r)} {rate.write(w)} {tail})"
         return _asserted(rate, end, decayed * w, lemma, steps, f"({power})")
     balance = rate.as_said((level / c) ** (1 / r))
-    pair = f"{rate.write(balance.base)} {rate.write(balance.exp)}"
+    pair = " ".join(map(rate.write, balance.as_base_exp()))
     steps = ["bound", "sign", *grows, "rational", "rational", *closing]
     words = " ".join(map(rate.write, (level, c, r, w)))
     lemma = f"(bernoulli_bound_as {U} {p} {q} {words} {pair} {tail})"

@@ -15,14 +15,22 @@ from ptproof.proof.statement import Relation, RelationSign
 _BOTH: tuple[RelationSign, ...] = ("<=", ">=")
 
 
+def by_two_inequalities(goal: Goal) -> Iterator[str]:
+    """An equation from what bounds each side by the other one."""
+    shown = []
+    for sign in _BOTH:
+        tactic = next(by_refutation(replace(goal, relation=replace(goal.relation, sign=sign))), "")
+        if not tactic:
+            return
+        shown.append(tactic)
+    yield f"apply Rle_antisym; [> {shown[0]} | apply Rge_le; {shown[1]} ]"
+
+
 def by_equal_pieces(goal: Goal) -> Iterator[str]:
     """One piece is the other one, or what the equation says that it is; else in each of the branches that there are."""
     for one, value in _equal(goal):
-        shown = [list(by_refutation(replace(goal, relation=Relation(one, sign, value)))) for sign in _BOTH]
-        if all(shown):
-            below, above = (tactics[0] for tactics in shown)
-            proof = f"symmetry; apply Rle_antisym; [> {below} | apply Rge_le; {above} ]"
-            yield f"replace {goal.text(one)} with {goal.text(value)} by ({proof}); rational"
+        for proof in by_two_inequalities(replace(goal, relation=Relation(one, "=", value))):
+            yield f"replace {goal.text(one)} with {goal.text(value)} by (symmetry; {proof}); rational"
             return
     if goal.relation.has(sp.Piecewise) and (found := split(replace(goal, known=()), sp.Piecewise)) is not None:
         line, cases = found

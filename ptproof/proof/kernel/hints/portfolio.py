@@ -25,7 +25,7 @@ from ptproof.proof.kernel.hints.instances import Instance, instances
 from ptproof.proof.kernel.hints.instances import lines as instance_lines
 from ptproof.proof.kernel.hints.integrals import integrals
 from ptproof.proof.kernel.hints.limits import near
-from ptproof.proof.kernel.hints.pieces import by_equal_pieces
+from ptproof.proof.kernel.hints.pieces import by_equal_pieces, by_two_inequalities
 from ptproof.proof.kernel.hints.reduced import reduced_relation
 from ptproof.proof.kernel.hints.refuted import by_refutation
 from ptproof.proof.kernel.hints.replay import Replay
@@ -292,6 +292,8 @@ def _equal(goal: Goal, sought: _Sought) -> str:
     with contextlib.suppress(NoTranslation, sp.PolynomialError):
         quick += by_equations(goal)
         quick += by_equal_pieces(goal)
+        if sought.chains:
+            quick += by_two_inequalities(replace(goal, known=sought.every or sought.known))
     if sought.thorough:
         quick += _thoroughly(goal, sought)
     return f"cbv beta; {_tried(*quick, 'progress simple_values; rational')}"

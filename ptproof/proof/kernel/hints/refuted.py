@@ -9,6 +9,7 @@ import contextlib
 import itertools
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -18,7 +19,7 @@ from ptproof.proof.definedness import domain_of
 from ptproof.proof.engines.reals import Problem
 from ptproof.proof.kernel.hints.aligned import aligned
 from ptproof.proof.kernel.hints.bases import by_zero, lettered
-from ptproof.proof.kernel.hints.bounded import bounded
+from ptproof.proof.kernel.hints.bounded import bounded, settled
 from ptproof.proof.kernel.hints.cases import split
 from ptproof.proof.kernel.hints.goals import Goal
 from ptproof.proof.kernel.hints.ground import Ground
@@ -124,10 +125,12 @@ def _by_branches(goal: Goal, left: int) -> str:
 
     So are minima, maxima and absolute values of what would be written in another way.
     """
-    lines, goal = bounded(goal)
-    if lines:
-        inner = _by_branches(goal, left)
-        return "; ".join([*lines, inner]) if inner else ""
+    for step in (partial(settled, shown=lambda inner: next(by_refutation(inner), "")), bounded):
+        lines, goal = step(goal)
+        if lines:
+            inner = _by_branches(goal, left)
+            return "; ".join([*lines, inner]) if inner else ""
+    lines = []
     kinds = () if aligned(goal)[0] else (sp.Piecewise,)
     if left and (found := split(goal, *kinds)) is not None:
         line, goals = found
