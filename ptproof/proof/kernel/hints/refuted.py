@@ -58,6 +58,7 @@ def by_refutation(goal: Goal) -> Iterator[str]:
 
 
 def _refuted_from_few(goal: Goal) -> Iterator[str]:
+    goal, equal = _with_equations(goal)
     known, waves = _with_domains(goal), list[tuple[str, list[Relation]]]()
     if (core := _core(goal, known)) is None and (waves := list(of_waves(goal))):
         known += [item for _, facts in waves for item in facts]
@@ -72,7 +73,22 @@ def _refuted_from_few(goal: Goal) -> Iterator[str]:
     if inner := _by_branches(Goal(goal.relation, tuple(facts), goal.names), _MOST_CASES):
         said = "".join(f"({text_of(item, goal.names)}) -> " for item in facts)
         lines = [line for line, found in waves if any(item in facts for item in found)]
+        lines += [f"assert ({text_of(item, goal.names)}) by lra" for item in equal if item in facts]
         yield "; ".join([*lines, f"only_from ({said}True)", inner])
+
+
+def _with_equations(goal: Goal) -> tuple[Goal, list[Relation]]:
+    """The goal with an equation in the place of two inequalities, and these equations."""
+    known = [item.standard() for item in goal.known]
+    found: dict[Relation, Relation] = {}
+    for item in known:
+        if item.sign == "<=":
+            for other in (Relation(item.right, "<=", item.left), Relation(-item.left, "<=", -item.right)):
+                if other in known and other not in found:
+                    found |= {item: Relation(item.left, "=", item.right)} | ({} if other == item else {other: item})
+    equal = [item for item in found.values() if item.sign == "="]
+    kept = (item for item, standard in zip(goal.known, known, strict=True) if standard not in found)
+    return replace(goal, known=(*kept, *equal)), equal
 
 
 def follows(goal: Goal) -> bool | None:

@@ -186,3 +186,17 @@ Ltac bounded_as w e :=
   named w e.
 (* A value between numbers. *)
 Ltac between_numbers low e high := assert (low <= e) by interval; assert (e <= high) by interval.
+(* Powers of exponentials as exponentials. *)
+Lemma exp_power : forall a n, exp a ^ n = exp (IZR (Z.of_nat n) * a).
+Proof.
+  intros a n. rewrite <- INR_IZR_INZ. induction n as [|n H].
+  - simpl. rewrite Rmult_0_l, exp_0. reflexivity.
+  - rewrite S_INR. change (exp a ^ S n) with (exp a * exp a ^ n). rewrite H, <- exp_plus. f_equal. ring.
+Qed.
+Ltac powers_of_exponentials :=
+  rewrite ?Rpow_mult_distr;
+  repeat match goal with |- context [exp ?a ^ ?n] => let z := eval compute in (Z.of_nat n) in
+    rewrite (exp_power a n); change (Z.of_nat n) with z end.
+Ltac alike ::= as_reals; first
+  [ reflexivity | ring | field; sides | solve [ same_heads; first [ reflexivity | ring | field; sides ] ]
+  | solve [ progress powers_of_exponentials; same_heads; first [ ring | field; sides ] ] ].
