@@ -67,8 +67,16 @@ Ltac same_exponents f x a := match goal with
   end.
 Lemma Rpower_of_root : forall x e, 0 < x -> Rpower (sqrt x) e = Rpower x (e / 2).
 Proof. intros x e P. rewrite <- Rpower_sqrt by exact P. rewrite Rpower_mult. f_equal. field. Qed.
+(* The root of a product of squares. *)
+Ltac root_of x := lazymatch x with
+  | ?a * ?b => let r := root_of a in let s := root_of b in constr:(r * s)
+  | ?a / ?b => let r := root_of a in let s := root_of b in constr:(r / s)
+  | ?a ^ 2 => a
+  | IZR ?z => let r := eval compute in (Z.sqrt z) in constr:(IZR r)
+  end.
 Ltac simple_powers :=
   repeat match goal with
+  | |- context [sqrt ?x] => let r := root_of x in rewrite (root_value x r) in * by (first [ sign | rational ])
   | |- context [sqrt ?x ^ 2] => rewrite (pow2_sqrt x) in * by sign
   | |- context [rpow ?x ?e] => rewrite (rpow_Rpower x e) in * by (first [ assumption | lra ])
   | |- context [Rpower (Rpower ?x ?a) ?b] => rewrite (Rpower_mult x a b) in *
