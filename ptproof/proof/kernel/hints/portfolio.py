@@ -202,7 +202,7 @@ def _leaf(part: Part, sought: _Sought) -> str:
         return _tried("everywhere", "derivable") if sought.thorough else _tried()
     goal = sought.goal(part.relation)
     if part.relation.sign == "=":
-        return _equal(goal, sought)
+        return _equal(goal, sought, "sqrt" in part.text)
     tries: list[str] = []
     # Before what looks at all that is known: it has less to look at.
     focused = ""
@@ -276,7 +276,7 @@ def _by_steps(goal: Goal, said: Proposition) -> Iterator[str]:
     return by_steps(goal.with_known(*(item for item in given if item is not None and item.sign == "!=")), [directly])
 
 
-def _equal(goal: Goal, sought: _Sought) -> str:
+def _equal(goal: Goal, sought: _Sought, roots: bool) -> str:
     """Powers of one base by each other, and angles at the ends of integrals, before anything else is tried."""
     relation = goal.relation
     atoms = Atoms.over(goal.names)
@@ -296,4 +296,5 @@ def _equal(goal: Goal, sought: _Sought) -> str:
             quick += by_two_inequalities(replace(goal, known=sought.every or sought.known))
     if sought.thorough:
         quick += _thoroughly(goal, sought)
-    return f"cbv beta; {_tried(*quick, 'progress simple_values; rational')}"
+    last = ["derivatives; by_squares_of_roots"] if roots else []
+    return f"cbv beta; {_tried(*quick, 'progress simple_values; rational', *last)}"
