@@ -198,7 +198,7 @@ def _leaf(part: Part, sought: _Sought) -> str:
         base, exponent = (_leaf(Part("", sign), sought) for sign in signs)
         return _tried(f"cbv beta; apply rpow_defined_as; [> {base} | {exponent} ]")
     if part.relation is None or _trivial(part.relation):
-        return _tried("everywhere", "derivable") if sought.thorough else _tried()
+        return _tried("everywhere", "derivable") if sought.thorough else _tried(*["derivable"] * sought.chains)
     goal = sought.goal(part.relation)
     if part.relation.sign == "=":
         return _equal(goal, sought)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import contextlib
 import itertools
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import sympy as sp
@@ -18,6 +18,7 @@ from ptproof.proof.definedness import domain_of
 from ptproof.proof.engines.reals import Problem
 from ptproof.proof.kernel.hints.bases import by_zero, lettered
 from ptproof.proof.kernel.hints.cases import split
+from ptproof.proof.kernel.hints.forms import forms
 from ptproof.proof.kernel.hints.goals import Goal
 from ptproof.proof.kernel.hints.ground import Ground
 from ptproof.proof.kernel.hints.masks import hidden, masked, put_in
@@ -53,15 +54,21 @@ def by_refutation(goal: Goal) -> Iterator[str]:
             yield from _refuted_from_few(goal)
 
 
-def _refuted_from_few(goal: Goal) -> Iterator[str]:
+def _refuted_from_few(goal: Goal, deeper: bool = True) -> Iterator[str]:
+    """Tactics for the goal, ``deeper`` also for that what stands below a line is positive."""
     known = _with_domains(goal)
     if (core := _core(goal, known)) is None:
         return
-    facts = [*core, *_of_bases((goal.relation, *core), known)]
-    for bottom in _bottoms((goal.relation, *core)):
-        facts += needed(Relation(sp.S.Zero, "<", bottom), known) or ()
+    facts, lines = [*core, *_of_bases((goal.relation, *core), known)], list[str]()
+    for bottom in dict.fromkeys(_bottoms((goal.relation, *core))):
+        positive = Relation(sp.S.Zero, "<", bottom)
+        reasons = needed(positive, known) or ()
+        if deeper and not all(map(_is_linear, reasons)):
+            lines += [f"assert ({text_of(positive, goal.names)}) by (solve [ {line} ])"
+                      for line in _refuted_from_few(replace(goal, relation=positive, known=reasons), deeper=False)]  # fmt: skip
+        facts += reasons
     facts = list(dict.fromkeys(facts))
-    focused, lines = Goal(goal.relation, tuple(facts), goal.names), []
+    focused = Goal(goal.relation, tuple(facts), goal.names)
     for step in (put_in, masked, _without_functions, masked, lettered):
         more, focused = step(focused)
         lines += more
@@ -96,6 +103,13 @@ def _of_bases(relations: Iterable[Relation], known: Iterable[Relation]) -> Itera
     sides = sp.Tuple(*(side for item in relations for side in (item.left, item.right)))
     bases = {power.base for power in sides.atoms(sp.Pow) if not power.exp.is_Integer and not power.base.is_nonnegative}
     yield from (item for item in known if item.standard().left == 0 and item.standard().right in bases)
+
+
+def _is_linear(item: Relation) -> bool:
+    """Whether the relation is between sums of multiples of letters: Coq puts such together by itself."""
+    gap = sp.expand(item.left - item.right)
+    letters = gap.free_symbols
+    return not letters or bool(gap.is_polynomial() and sp.Poly(gap, *letters).total_degree() <= 1)
 
 
 def _bottoms(relations: Iterable[Relation]) -> Iterator[sp.Expr]:
@@ -160,24 +174,37 @@ def _refuted(goal: Goal) -> str:
     told = [fact.conclusion for fact in problem.told if not fact.hypotheses and fact.conclusion.sign != "!="]
     told += [Relation(polynomial, "=", sp.S.Zero) for _, polynomial in problem.generators.relations]
     known = {item.known(): item for item in map(_written, map(letters.seen, told)) if item is not None}
-    symbols = wanted.top.free_symbols.union(*(sign.polynomial.free_symbols for sign in known))
-    whole = [Sign(symbol - 1, ">=") for symbol in symbols if symbol.is_integer and symbol.is_positive]
-    denied = Sign(sp.expand(-wanted.top), ">" if wanted.sign == "<=" else ">=")
-    found = contradiction([*known, *whole], denied)
-    if found is None:
+    closing = _closing(wanted.top, wanted.sign, known, letters) or _by_form(wanted, known, letters)
+    if not closing:
         return ""
-    lines = [
-        *letters.lines(),
-        f"top_of {letters.text(wanted.top)} {letters.text(wanted.bottom)}",
-        f"deny {letters.text(denied.polynomial)}",
-    ]
-    for sign in dict.fromkeys(factor for product in found for factor in product.factors):
-        if (item := known.get(sign)) is not None:
-            name = "equation_from" if sign.sign == "=" else "fact_from"
+    return "; ".join([*letters.lines(), f"top_of {letters.text(wanted.top)} {letters.text(wanted.bottom)}", closing])
+
+
+def _closing(top: sp.Expr, sign: RelationSign, known: Mapping[Sign, _Written], letters: _Letters) -> str:
+    """The lines by which a polynomial has its sign; nothing if none are found."""
+    symbols = top.free_symbols.union(*(item.polynomial.free_symbols for item in known))
+    whole = [Sign(symbol - 1, ">=") for symbol in symbols if symbol.is_integer and symbol.is_positive]
+    denied = Sign(sp.expand(-top), ">" if sign == "<=" else ">=")
+    if (found := contradiction([*known, *whole], denied)) is None:
+        return ""
+    lines = [f"deny {letters.text(denied.polynomial)}"]
+    for factor in dict.fromkeys(factor for product in found for factor in product.factors):
+        if (item := known.get(factor)) is not None:
+            name = "equation_from" if factor.sign == "=" else "fact_from"
             lines.append(f"{name} {letters.text(item.bottom)} {letters.text(item.top)}")
     there = {(), *((sign,) for sign in (denied, *known))}
     lines += [letters.product(item) for item in found if item.symbols or item.factors not in there]
     return "; ".join([*lines, "lra"])
+
+
+def _by_form(wanted: _Written, known: Mapping[Sign, _Written], letters: _Letters) -> str:
+    """The lines by which a form of degree two in two letters is not negative: both its ends, and its determinant."""
+    for form in forms(wanted.top) if wanted.sign == "<=" else ():
+        a, b, c, *_ = form
+        parts = [_closing(sp.expand(part), "<=", known, letters) for part in (a, c, a * c - b**2)]
+        if all(parts):
+            return f"form_from {' '.join(map(letters.text, form))}; [> {' | '.join(parts)} ]"
+    return ""
 
 
 def _written(relation: Relation) -> _Written | None:
