@@ -23,7 +23,8 @@ from ptproof.proof.kernel.hints.goals import Goal
 from ptproof.proof.kernel.hints.ground import Ground
 from ptproof.proof.kernel.hints.masks import hidden, masked, put_in
 from ptproof.proof.kernel.hints.needed import can_be_told, needed
-from ptproof.proof.kernel.hints.positivstellensatz import Product, Sign, contradiction
+from ptproof.proof.kernel.hints.positivstellensatz import SECONDS, Product, Sign, contradiction
+from ptproof.proof.kernel.hints.slack import slackened
 from ptproof.proof.kernel.hints.told import text_of
 from ptproof.proof.kernel.names import fresh
 from ptproof.proof.kernel.terms import NoTranslation, term
@@ -72,9 +73,13 @@ def _refuted_from_few(goal: Goal, deeper: bool = True) -> Iterator[str]:
     for step in (put_in, masked, _without_functions, masked, lettered):
         more, focused = step(focused)
         lines += more
-    if inner := _by_cases(focused, _MOST_CASES):
-        said = "".join(f"({text_of(item, goal.names)}) -> " for item in facts)
-        yield "; ".join([f"only_from ({said}True)", *lines, inner])
+    said = "".join(f"({text_of(item, goal.names)}) -> " for item in facts)
+    more, loose = slackened(focused)
+    ways = ([], focused, SECONDS / 3 if more else SECONDS), (more, loose, SECONDS)
+    for before, there, seconds in ways if more else ways[:1]:
+        if inner := _by_cases(there, _MOST_CASES, seconds):
+            yield "; ".join([f"only_from ({said}True)", *lines, *before, inner])
+            return
 
 
 def follows(goal: Goal) -> bool | None:
@@ -137,18 +142,18 @@ def _without_functions(goal: Goal) -> tuple[list[str], Goal]:
     ], inner
 
 
-def _by_cases(goal: Goal, left: int) -> str:
+def _by_cases(goal: Goal, left: int, seconds: float) -> str:
     """Bases of powers that may be 0, minima, maxima and absolute values one after the other; nothing if one fails."""
     if left and (sides := by_zero(goal)) is not None:
         line, zero, positive = sides
-        both = [_by_cases(each, left - 1) for each in (zero, positive)]
+        both = [_by_cases(each, left - 1, seconds) for each in (zero, positive)]
         return f"{line}; [> zero_powers; {both[0]} | positive_powers; {both[1]} ]" if all(both) else ""
     if left and (found := split(goal)) is not None:
         line, goals = found
-        each = [_by_cases(case, left - 1) for case in goals]
+        each = [_by_cases(case, left - 1, seconds) for case in goals]
         return f"{line}; [> {' | '.join(f'facts; {tactic}' for tactic in each)} ]" if all(each) else ""
     with contextlib.suppress(NoTranslation, NotAlgebraic, sp.PolynomialError):
-        return _refuted(goal)
+        return _refuted(goal, seconds)
     return ""
 
 
@@ -165,7 +170,7 @@ class _Written:
         return Sign(self.top, _OF_GAPS[self.sign])
 
 
-def _refuted(goal: Goal) -> str:
+def _refuted(goal: Goal, seconds: float) -> str:
     problem = Problem(goal.relation, [item for item in goal.known if item.sign != "!="], ())
     letters = _Letters(goal, problem)
     wanted = _written(letters.seen(problem.conclusion))
@@ -174,18 +179,20 @@ def _refuted(goal: Goal) -> str:
     told = [fact.conclusion for fact in problem.told if not fact.hypotheses and fact.conclusion.sign != "!="]
     told += [Relation(polynomial, "=", sp.S.Zero) for _, polynomial in problem.generators.relations]
     known = {item.known(): item for item in map(_written, map(letters.seen, told)) if item is not None}
-    closing = _closing(wanted.top, wanted.sign, known, letters) or _by_form(wanted, known, letters)
+    closing = _closing(wanted.top, wanted.sign, known, letters, seconds) or _by_form(wanted, known, letters, seconds)
     if not closing:
         return ""
     return "; ".join([*letters.lines(), f"top_of {letters.text(wanted.top)} {letters.text(wanted.bottom)}", closing])
 
 
-def _closing(top: sp.Expr, sign: RelationSign, known: Mapping[Sign, _Written], letters: _Letters) -> str:
+def _closing(
+    top: sp.Expr, sign: RelationSign, known: Mapping[Sign, _Written], letters: _Letters, seconds: float
+) -> str:  # fmt: skip
     """The lines by which a polynomial has its sign; nothing if none are found."""
     symbols = top.free_symbols.union(*(item.polynomial.free_symbols for item in known))
     whole = [Sign(symbol - 1, ">=") for symbol in symbols if symbol.is_integer and symbol.is_positive]
     denied = Sign(sp.expand(-top), ">" if sign == "<=" else ">=")
-    if (found := contradiction([*known, *whole], denied)) is None:
+    if (found := contradiction([*known, *whole], denied, seconds)) is None:
         return ""
     lines = [f"deny {letters.text(denied.polynomial)}"]
     for factor in dict.fromkeys(factor for product in found for factor in product.factors):
@@ -197,11 +204,11 @@ def _closing(top: sp.Expr, sign: RelationSign, known: Mapping[Sign, _Written], l
     return "; ".join([*lines, "lra"])
 
 
-def _by_form(wanted: _Written, known: Mapping[Sign, _Written], letters: _Letters) -> str:
+def _by_form(wanted: _Written, known: Mapping[Sign, _Written], letters: _Letters, seconds: float) -> str:
     """The lines by which a form of degree two in two letters is not negative: both its ends, and its determinant."""
     for form in forms(wanted.top) if wanted.sign == "<=" else ():
         a, b, c, *_ = form
-        parts = [_closing(sp.expand(part), "<=", known, letters) for part in (a, c, a * c - b**2)]
+        parts = [_closing(sp.expand(part), "<=", known, letters, seconds) for part in (a, c, a * c - b**2)]
         if all(parts):
             return f"form_from {' '.join(map(letters.text, form))}; [> {' | '.join(parts)} ]"
     return ""
