@@ -65,8 +65,8 @@ def _refuted_from_few(goal: Goal, deeper: bool = True) -> Iterator[str]:
         positive = Relation(sp.S.Zero, "<", bottom)
         reasons = needed(positive, known) or ()
         if deeper and not all(map(_is_linear, reasons)):
-            lines += [f"assert ({text_of(positive, goal.names)}) by (solve [ {line} ])"
-                      for line in _refuted_from_few(replace(goal, relation=positive, known=reasons), deeper=False)]  # fmt: skip
+            below = _refuted_from_few(replace(goal, relation=positive, known=reasons), deeper=False)
+            lines += [f"assert ({text_of(positive, goal.names)}) by (solve [ {line} ])" for line in below]
         facts += reasons
     facts = list(dict.fromkeys(facts))
     focused = Goal(goal.relation, tuple(facts), goal.names)

@@ -1,4 +1,4 @@
-"""Letters for how far what is known is from equality: a variable is a bound and what is above it, and bounds are signs."""
+"""Letters for what variables are above their lower bounds: what is known of a bound is then the sign of a letter."""
 
 from __future__ import annotations
 

@@ -167,3 +167,6 @@ Ltac value_at old new := replace old with new by
   (first [ rational | rewrite <- exp_0; f_equal; rational | unfold Rpower; rewrite <- exp_0; f_equal; rational ]).
 (* A product of exponentials as one, and equal exponents. *)
 Ltac exponents_agree := repeat rewrite Rmult_assoc; rewrite <- ?exp_plus; first [ rational | f_equal; f_equal; rational | same_values; rational ].
+(* What is known to be positive at all times is so at q. *)
+Ltac positive_at q := match goal with H : forall _ : R, _ |- _ =>
+  solve [ let K := fresh in pose proof (H q) as K; premises_of K; facts; found_as ] end.
