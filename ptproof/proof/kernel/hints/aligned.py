@@ -12,7 +12,7 @@ from ptproof.proof.kernel.hints.masks import free_parts, put
 
 
 def aligned(goal: Goal) -> tuple[list[str], Goal]:
-    """The goal in which sums are the negative of another one, and bases of powers a product with one, where they are."""
+    """The goal in which sums are the negative of another one, and bases of powers a product with one, if they are."""
     lines: list[str] = []
     chosen: list[sp.Expr] = []
     sums = dict.fromkeys(_sums(goal))

@@ -16,7 +16,7 @@ _MILLISECONDS = 500
 
 
 def settled(goal: Goal, shown: Callable[[Goal], str]) -> tuple[list[str], Goal]:
-    """The goal in which a minimum or maximum is the one of its arguments that it is known to be, if that is ``shown``."""
+    """The goal in which a minimum or maximum is the argument that it is known to be, if that is ``shown``."""
     lines: list[str] = []
     for part in goal.atoms(sp.Max, sp.Min):
         if len(part.args) != 2:
@@ -24,7 +24,8 @@ def settled(goal: Goal, shown: Callable[[Goal], str]) -> tuple[list[str], Goal]:
         first, last = sorted(part.args, key=sp.default_sort_key)  # as they are written
         for value, other in ((first, last), (last, first)):
             wanted = Relation(other, "<=", value) if isinstance(part, sp.Max) else Relation(value, "<=", other)
-            if needed(wanted, goal.known, _MILLISECONDS) is None or not (tactic := shown(replace(goal, relation=wanted))):
+            found = needed(wanted, goal.known, _MILLISECONDS)
+            if found is None or not (tactic := shown(replace(goal, relation=wanted, known=found))):
                 continue
             word = f"{'Rmax' if isinstance(part, sp.Max) else 'Rmin'}_{'left' if value == first else 'right'}"
             sides = f"{goal.text(first)} {goal.text(last)}"

@@ -7,7 +7,7 @@ p <= q of the domain at which the claim speaks of U.
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import sympy as sp
@@ -66,11 +66,17 @@ class Rate:
         return expression
 
 
-def compared(claim: Claim, known: Sequence[Relation], names: Names) -> Iterator[Compared]:
-    """The bounds, each with the line by which Coq finds it."""
+# Bounds from a rate between two times.
+Comparing = Callable[[Rate, sp.Expr, sp.Expr], Iterator[Compared]]
+
+
+def compared(
+    claim: Claim, known: Sequence[Relation], names: Names, others: Sequence[Comparing] = ()
+) -> Iterator[Compared]:  # fmt: skip
+    """The bounds, each with the line by which Coq finds it; by ``others`` than those of this module, too."""
     for rate, _ in rates(claim, known, names):
         for start, end in _times(rate):
-            for way in (_integral, _decay, _bernoulli):
+            for way in (_integral, _decay, *others):
                 with contextlib.suppress(NoTranslation, sp.PolynomialError):
                     yield from way(rate, start, end)
 
@@ -134,7 +140,7 @@ def _linear(rate: Rate) -> tuple[sp.Expr, sp.Expr]:
     return a, expression.xreplace({value: sp.Integer(0)})
 
 
-def _primitive(rate: Rate, function: sp.Expr) -> sp.Expr:
+def primitive_of(rate: Rate, function: sp.Expr) -> sp.Expr:
     """An antiderivative in the rate's time.
 
     Raises
@@ -152,13 +158,13 @@ def _primitive(rate: Rate, function: sp.Expr) -> sp.Expr:
     return found
 
 
-def _in_order(rate: Rate, start: sp.Expr, end: sp.Expr) -> str:
+def in_order(rate: Rate, start: sp.Expr, end: sp.Expr) -> str:
     """Tactics for that the start comes first."""
     ways = [f"solve [ {line} ]" for line in by_refutation(Goal(Relation(start, "<=", end), rate.plain, rate.names))]
     return f"first [ {' | '.join(['bound', *ways])} ]"
 
 
-def _asserted(rate: Rate, end: sp.Expr, bound: sp.Expr, lemma: str, steps: Sequence[str], exact: str) -> Compared:
+def asserted(rate: Rate, end: sp.Expr, bound: sp.Expr, lemma: str, steps: Sequence[str], exact: str) -> Compared:
     """The bound at the end, by a lemma of which the conclusion says ``exact``."""
     left = rate.at(end)
     line = (f"assert ({rate.write(left)} <= {rate.write(bound)}); [ apply Rle_trans with {exact}; "
@@ -172,9 +178,9 @@ def _integral(rate: Rate, start: sp.Expr, end: sp.Expr) -> Iterator[Compared]:
         bound, exact, word, arguments, closing = found
         lemma = f"({'integral' if word == '+' else 'exponential'}_bound {arguments})"
         name = rate.names[rate.time]
-        order = _in_order(rate, start, end)
+        order = in_order(rate, start, end)
         steps = [order, f"cbv beta; rate_is {rate.names[rate.function.func]} {name} ltac:(same)", closing]
-        yield _asserted(rate, end, bound, lemma, steps, exact)
+        yield asserted(rate, end, bound, lemma, steps, exact)
 
 
 def _solution(rate: Rate, start: sp.Expr, end: sp.Expr) -> Iterator[Compared]:
@@ -184,7 +190,7 @@ def _solution(rate: Rate, start: sp.Expr, end: sp.Expr) -> Iterator[Compared]:
         lemma = f"({'is_integral' if word == '+' else 'is_exponential'} {arguments})"
         left = rate.at(end)
         rated = f"cbv beta; rate_equals {rate.names[rate.function.func]} {rate.names[rate.time]}"
-        steps = f"{_in_order(rate, start, end)} | {rated} | {closing}"
+        steps = f"{in_order(rate, start, end)} | {rated} | {closing}"
         line = (f"assert ({rate.write(left)} = {rate.write(bound)}) by (apply eq_trans with {exact}; "
                 f"[ apply {lemma}; [ {steps} ] | first [ rational | same_values; rational ] ])")  # fmt: skip
         yield Relation(left, "=", bound), line
@@ -196,7 +202,7 @@ def _integrated(rate: Rate, start: sp.Expr, end: sp.Expr) -> tuple[sp.Expr, str,
     slope, rest = (rate.rate, sp.S.Zero) if alone else _linear(rate)
     if rest != 0:
         return None
-    primitive, name, first = _primitive(rate, slope), rate.names[rate.time], rate.at(start)
+    primitive, name, first = primitive_of(rate, slope), rate.names[rate.time], rate.at(start)
     F, f = (f"(fun {name} : R => {rate.write(item)})" for item in (primitive, slope))
     p, q, U = rate.write(start), rate.write(end), rate.names[rate.function.func]
     grown = primitive.subs(rate.time, end) - primitive.subs(rate.time, start)
@@ -211,17 +217,17 @@ def _decay(rate: Rate, start: sp.Expr, end: sp.Expr) -> Iterator[Compared]:
     c = -a
     if not c.is_positive or c.has(rate.time) or b == 0:
         return
-    level, tactic = _greatest(rate, b, c, start, end)
+    level, tactic = greatest(rate, b, c, start, end)
     bound = rate.as_said(level / c + rate.at(start) * sp.exp(sp.expand(-c * (end - start))))
     p, q, U, name = rate.write(start), rate.write(end), rate.names[rate.function.func], rate.names[rate.time]
     words = " ".join(map(rate.write, (level, c, rate.at(start))))
     steps = ["bound", "sign", "sign", "bound", f"rate_is {U} {name} ltac:({tactic})"]
     exact = (f"({rate.write(level)} / {rate.write(c)} + {rate.write(rate.at(start))} * "
              f"exp (- ({rate.write(c)} * ({q} - {p}))))")  # fmt: skip
-    yield _asserted(rate, end, bound, f"(decay_bound {U} {p} {q} {words})", steps, exact)
+    yield asserted(rate, end, bound, f"(decay_bound {U} {p} {q} {words})", steps, exact)
 
 
-def _greatest(
+def greatest(
     rate: Rate, b: sp.Expr, taken: sp.Expr, start: sp.Expr, end: sp.Expr, of: sp.Expr | None = None
 ) -> tuple[sp.Expr, str]:
     """A bound of b between the times, and how Coq sees that the rate is below ``bound - taken U``, or a power of U.
@@ -241,48 +247,3 @@ def _greatest(
     for text in certificate(goal, known, rate.names):
         return level, text
     raise NoTranslation("the rate is not seen to be greatest at the start")
-
-
-def _bernoulli(rate: Rate, start: sp.Expr, end: sp.Expr) -> Iterator[Compared]:
-    """The level at which the rate b - c U^r balances, and what U(p), or a bound of it, decays to without b."""
-    found = {part for part in rate.rate.atoms(sp.Pow) if part.base == rate.function}
-    if len(found) != 1:
-        return
-    power = found.pop()
-    value, r = sp.Dummy("v", real=True), power.exp
-    expression = rate.rate.xreplace({power: value})
-    a, b = sp.diff(expression, value), expression.xreplace({value: sp.Integer(0)})
-    if a.has(value) or a.has(rate.time) or not (-a).is_positive or expression.has(rate.function):
-        return
-    level, tactic = _greatest(rate, b, -a, start, end, power)
-    bounds = [
-        item.right for item in map(Relation.standard, rate.known) if item.left == rate.at(start) and item.sign != "="
-    ]
-    for w in (*bounds, rate.at(start)):
-        yield _bernoulli_from(rate, start, end, (level, -a, r, w), tactic)
-
-
-def _bernoulli_from(
-    rate: Rate, start: sp.Expr, end: sp.Expr, values: tuple[sp.Expr, sp.Expr, sp.Expr, sp.Expr], tactic: str
-) -> Compared:
-    level, c, r, w = values
-    less = sp.factor(sp.together(r - 1))
-    v = rate.as_said(w**less)
-    base = 1 + c * less * v * (end - start)
-    decayed = rate.as_said(base ** (-1 / less))
-    p, q, U, name = rate.write(start), rate.write(end), rate.names[rate.function.func], rate.names[rate.time]
-    rated = f"rate_is {U} {name} ltac:({'same_rate' if tactic == 'same' else tactic})"
-    tail = f"{rate.write(v)} {rate.write(decayed.base)} {rate.write(decayed.exp)}"
-    power = f"rpow {rate.write(decayed.base)} {rate.write(decayed.exp)} * {rate.write(w)}"
-    grows = ["sign", f"first [ lra | difference_as {rate.write(less)} ]", "sign", "bound", rated]
-    closing = ["same_power", "rational", "rational"]
-    if level == 0:
-        steps = ["bound", *grows, *closing]
-        lemma = f"(bernoulli_decay_as {U} {p} {q} {rate.write(c)} {rate.write(r)} {rate.write(w)} {tail})"
-        return _asserted(rate, end, decayed * w, lemma, steps, f"({power})")
-    balance = rate.as_said((level / c) ** (1 / r))
-    pair = " ".join(map(rate.write, balance.as_base_exp()))
-    steps = ["bound", "sign", *grows, "rational", "rational", *closing]
-    words = " ".join(map(rate.write, (level, c, r, w)))
-    lemma = f"(bernoulli_bound_as {U} {p} {q} {words} {pair} {tail})"
-    return _asserted(rate, end, balance + decayed * w, lemma, steps, f"(rpow {pair} + {power})")

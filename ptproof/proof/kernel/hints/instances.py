@@ -45,12 +45,13 @@ def instances(said: Proposition, known: Sequence[Relation]) -> list[Instance]:
     """Those at the calls of unknown functions in the conclusions, in what is known, and in other instances."""
     every = [(part, part.for_all) for part in said.premises if part.for_all is not None]
     spoken = [part.relation for part in said.conclusions if part.relation is not None]
+    bases = [Relation(part.base, ">", sp.S.Zero) for part in said.conclusions if part.base is not None]
     targets = list(dict.fromkeys(_called([*spoken, *known])))
     found: dict[tuple[str, tuple[sp.Expr, ...]], Instance] = {}
     for _ in range(_ROUNDS):
         before = len(found)
         for part, for_all in every:
-            for values in _matches(for_all, targets):
+            for values in (*_matches(for_all, targets), *_said_at(for_all, [*spoken, *bases])):
                 key = part.text, tuple(values.values())
                 if key in found or sum(text == part.text for text, _ in found) >= _MOST_OF_ONE or len(found) >= _MOST:
                     continue
@@ -120,6 +121,17 @@ def _matches(for_all: ForAll, targets: Sequence[Called]) -> Iterator[dict[sp.Sym
         if (key := tuple(ordered.values())) not in seen:
             seen.add(key)
             yield ordered
+
+
+def _said_at(for_all: ForAll, wanted: Sequence[Relation]) -> Iterator[dict[sp.Symbol, sp.Expr]]:
+    """Values at which the assumption says what is wanted."""
+    (variable, *others), (said, *more) = for_all.variables, for_all.relation.components()
+    if others or more:
+        return
+    for item in wanted:
+        for symbol in sorted(item.free_symbols, key=lambda symbol: symbol.name):
+            if said.map(lambda side, symbol=symbol: side.xreplace({variable: symbol})) == item:  # type: ignore[misc]
+                yield {variable: symbol}
 
 
 def _unified(

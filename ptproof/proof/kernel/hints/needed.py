@@ -47,7 +47,8 @@ def can_be_told(item: Relation) -> bool:
 def _core(problem: Problem, known: Sequence[Relation], milliseconds: int) -> tuple[Relation, ...] | None:
     """Without what is known of roots first: often it is not needed, and the problem is much simpler."""
     for opaque in (True, False) if problem.generators.relations else (False,):
-        if (found := _core_of(list(problem.assertions(opaque)), len(known), milliseconds)) is not None:
+        said = list(problem.assertions(opaque))
+        if (found := _core_of(said, len(known), milliseconds)) is not None:
             return tuple(known[number] for number in found)
     return None
 
@@ -58,8 +59,11 @@ def _core_of(said: Sequence[Any], count: int, milliseconds: int) -> list[int] | 
     marks = [z3.Bool(f"needed!{number}") for number in range(len(said))]
     solver.add(*(z3.Implies(mark, item) for mark, item in zip(marks, said, strict=True)))
     solver.set("timeout", milliseconds)
-    if solver.check(*marks) != z3.unsat:
-        return None
+    match solver.check(*marks):
+        case z3.sat:
+            return None
+        case z3.unknown:
+            return _few_of(said, count, milliseconds)
 
     def core() -> list[int]:
         found = {mark.decl().name() for mark in solver.unsat_core()}
@@ -72,4 +76,23 @@ def _core_of(said: Sequence[Any], count: int, milliseconds: int) -> list[int] | 
         fewer = [other for other in left if other != number]
         if number in left and solver.check(*(marks[other] for other in fewer)) == z3.unsat:
             left = core()
+    return [number for number in left if number < count]
+
+
+def _few_of(said: Sequence[Any], count: int, milliseconds: int) -> list[int] | None:
+    """The same by the strategy for polynomials, which knows no cores: one after the other is left out."""
+
+    def contradicts(numbers: Sequence[int], most: int) -> bool:
+        solver = solver_by("qfnra-nlsat")
+        solver.set("timeout", most)
+        solver.add(*(said[number] for number in numbers))
+        return bool(solver.check() == library().unsat)
+
+    left = list(range(len(said)))
+    if not contradicts(left, milliseconds):
+        return None
+    for number in reversed(range(count)):
+        fewer = [other for other in left if other != number]
+        if contradicts(fewer, min(milliseconds, _MILLISECONDS_TO_SPARE)):
+            left = fewer
     return [number for number in left if number < count]

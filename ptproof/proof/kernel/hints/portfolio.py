@@ -195,11 +195,13 @@ def _leaf(part: Part, sought: _Sought) -> str:
     if part.exists is not None and sought.thorough and (hint := _witnessed(part, sought)):
         return _tried(hint)
     if part.base is not None and part.exponent is not None and (sought.thorough or sought.chains):
+        if part.exponent.is_negative:
+            return _tried(f"cbv beta; left; {_leaf(Part('', Relation(sp.S.Zero, '<', part.base)), sought)}")
         signs = Relation(part.base, ">=", sp.Integer(0)), Relation(part.exponent, ">", sp.Integer(0))
         base, exponent = (_leaf(Part("", sign), sought) for sign in signs)
         return _tried(f"cbv beta; apply rpow_defined_as; [> {base} | {exponent} ]")
     if part.relation is None or _trivial(part.relation):
-        return _tried("everywhere", "derivable") if sought.thorough else _tried()
+        return _tried("everywhere", "derivable") if sought.thorough else _tried(*["derivable"] * sought.chains)
     goal = sought.goal(part.relation)
     if part.relation.sign == "=":
         return _equal(goal, sought, "sqrt" in part.text)

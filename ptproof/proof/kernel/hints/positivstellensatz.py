@@ -18,7 +18,7 @@ from ptproof.proof.statement import RelationSign
 _MOST_COLUMNS = 6000
 _MOST_ROWS = 6000
 _ROUNDS = 3
-_SECONDS = 8.0
+SECONDS = 8.0
 _SECONDS_A_PROGRAM = 3.0
 _WEIGHTS = (1, -1, 2, -2, sp.Rational(1, 2), -sp.Rational(1, 2))
 Powers = tuple[int, ...]
@@ -57,7 +57,7 @@ class _Base:
     polynomial: Polynomial
 
 
-def contradiction(known: Sequence[Sign], denied: Sign) -> tuple[Product, ...] | None:
+def contradiction(known: Sequence[Sign], denied: Sign, seconds: float = SECONDS) -> tuple[Product, ...] | None:
     """Products by which what is ``known``, and what is ``denied``, cannot hold together; None if none are found.
 
     A symbol with a declared sign may stand in a product. A sum of the products with positive weights (of any sign
@@ -68,7 +68,7 @@ def contradiction(known: Sequence[Sign], denied: Sign) -> tuple[Product, ...] | 
     if not symbols:
         return None
     bases = list(_bases(every, symbols))
-    until = time.monotonic() + _SECONDS
+    until = time.monotonic() + seconds
     alone = [base for base in bases if len(base.factors) < 2]
     for start, some in itertools.product(_starts(bases[1].polynomial, bases, symbols), (alone, bases)):
         if (found := _from(start, some, symbols, until)) is not None:

@@ -8,7 +8,7 @@ from __future__ import annotations
 import contextlib
 import itertools
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 
 import sympy as sp
@@ -16,25 +16,23 @@ from sympy.core.function import AppliedUndef
 
 from ptproof.proof.algebra import NotAlgebraic
 from ptproof.proof.definedness import domain_of
-from ptproof.proof.engines.reals import Problem
 from ptproof.proof.kernel.hints.aligned import aligned
 from ptproof.proof.kernel.hints.bases import by_zero, lettered
 from ptproof.proof.kernel.hints.bounded import bounded, settled
 from ptproof.proof.kernel.hints.cases import split
+from ptproof.proof.kernel.hints.contradictions import refuted
 from ptproof.proof.kernel.hints.goals import Goal
 from ptproof.proof.kernel.hints.ground import Ground
 from ptproof.proof.kernel.hints.masks import bottoms, hidden, masked, put_in
 from ptproof.proof.kernel.hints.needed import can_be_told, needed
-from ptproof.proof.kernel.hints.positivstellensatz import Product, Sign, contradiction
+from ptproof.proof.kernel.hints.positivstellensatz import SECONDS
+from ptproof.proof.kernel.hints.slack import slackened
 from ptproof.proof.kernel.hints.told import text_of
 from ptproof.proof.kernel.hints.waves import of_waves
-from ptproof.proof.kernel.names import fresh
-from ptproof.proof.kernel.terms import NoTranslation, term
-from ptproof.proof.statement import Relation, RelationSign
+from ptproof.proof.kernel.terms import NoTranslation
+from ptproof.proof.statement import Relation
 
 _MOST_CASES = 2
-# Of the right side less the left one.
-_OF_GAPS: dict[str, RelationSign] = {"<=": ">=", "<": ">", "=": "="}
 
 
 def by_refutation(goal: Goal) -> Iterator[str]:
@@ -57,7 +55,8 @@ def by_refutation(goal: Goal) -> Iterator[str]:
             yield from _refuted_from_few(goal)
 
 
-def _refuted_from_few(goal: Goal) -> Iterator[str]:
+def _refuted_from_few(goal: Goal, deeper: bool = True) -> Iterator[str]:
+    """Tactics for the goal, ``deeper`` also for that what stands below a line is positive."""
     goal, equal = _with_equations(goal)
     known, waves = _with_domains(goal), list[tuple[str, list[Relation]]]()
     if (core := _core(goal, known)) is None and (waves := list(of_waves(goal))):
@@ -65,16 +64,22 @@ def _refuted_from_few(goal: Goal) -> Iterator[str]:
         core = _core(goal, known)
     if core is None:
         return
-    facts = [*core, *_of_bases((goal.relation, *core), known)]
-    for bottom in bottoms(Goal(goal.relation, core, goal.names)):
-        if not bottom.is_positive:
-            facts += needed(Relation(sp.S.Zero, "<", bottom), known) or ()
+    facts, below = [*core, *_of_bases((goal.relation, *core), known)], list[str]()
+    for bottom in dict.fromkeys(bottoms(Goal(goal.relation, core, goal.names))):
+        if bottom.is_positive:
+            continue
+        positive = Relation(sp.S.Zero, "<", bottom)
+        reasons = needed(positive, known) or ()
+        if deeper and not all(map(_is_linear, reasons)):
+            found = _refuted_from_few(replace(goal, relation=positive, known=reasons), deeper=False)
+            below += [f"assert ({text_of(positive, goal.names)}) by (solve [ {line} ])" for line in found]
+        facts += reasons
     facts = list(dict.fromkeys(facts))
     if inner := _by_branches(Goal(goal.relation, tuple(facts), goal.names), _MOST_CASES):
         said = "".join(f"({text_of(item, goal.names)}) -> " for item in facts)
         lines = [line for line, found in waves if any(item in facts for item in found)]
         lines += [f"assert ({text_of(item, goal.names)}) by lra" for item in equal if item in facts]
-        yield "; ".join([*lines, f"only_from ({said}True)", inner])
+        yield "; ".join([*lines, f"only_from ({said}True)", *below, inner])
 
 
 def _with_equations(goal: Goal) -> tuple[Goal, list[Relation]]:
@@ -119,6 +124,13 @@ def _of_bases(relations: Iterable[Relation], known: Iterable[Relation]) -> Itera
     yield from (item for item in known if item.standard().left == 0 and item.standard().right in bases)
 
 
+def _is_linear(item: Relation) -> bool:
+    """Whether the relation is between sums of multiples of letters: Coq puts such together by itself."""
+    gap = sp.expand(item.left - item.right)
+    letters = gap.free_symbols
+    return not letters or bool(gap.is_polynomial() and sp.Poly(gap, *letters).total_degree() <= 1)
+
+
 def _without_functions(goal: Goal) -> tuple[list[str], Goal]:
     """Values of unknown functions, and of their derivatives, as numbers."""
     if not any(item.has(AppliedUndef, sp.Derivative) for item in goal.relations()):
@@ -137,7 +149,7 @@ def _without_functions(goal: Goal) -> tuple[list[str], Goal]:
 
 
 def _by_branches(goal: Goal, left: int) -> str:
-    """Without minima and the like if that will do; else one branch after the other, and each with as little in it as is needed; nothing if one fails.
+    """Without minima and the like if that will do; else one branch after the other; nothing if one fails.
 
     So are minima, maxima and absolute values of what would be written in another way.
     """
@@ -155,134 +167,24 @@ def _by_branches(goal: Goal, left: int) -> str:
     for step in (put_in, aligned, masked, _without_functions, masked, lettered):
         more, goal = step(goal)
         lines += more
-    inner = _by_cases(goal, left)
-    return "; ".join([*lines, inner]) if inner else ""
-
-
-def _by_cases(goal: Goal, left: int) -> str:
-    """Bases of powers that may be 0, minima, maxima and absolute values one after the other; nothing if one fails."""
-    if left and (sides := by_zero(goal)) is not None:
-        line, zero, positive = sides
-        both = [_by_cases(each, left - 1) for each in (zero, positive)]
-        return f"{line}; [> zero_powers; {both[0]} | positive_powers; {both[1]} ]" if all(both) else ""
-    if left and (found := split(goal)) is not None:
-        line, goals = found
-        each = [_by_cases(case, left - 1) for case in goals]
-        return f"{line}; [> {' | '.join(f'facts; {tactic}' for tactic in each)} ]" if all(each) else ""
-    with contextlib.suppress(NoTranslation, NotAlgebraic, sp.PolynomialError):
-        return _refuted(goal)
+    more, loose = slackened(goal)
+    ways = ([], goal, SECONDS / 3 if more else SECONDS), (more, loose, SECONDS)
+    for before, there, seconds in ways if more else ways[:1]:
+        if inner := _by_cases(there, left, seconds):
+            return "; ".join([*lines, *before, inner])
     return ""
 
 
-@dataclass
-class _Written:
-    """A relation between polynomials: ``top`` sign 0, once the positive ``bottom`` is multiplied away."""
-
-    top: sp.Expr
-    bottom: sp.Expr
-    sign: RelationSign
-
-    def known(self) -> Sign:
-        """What is known of the polynomial, if the relation holds."""
-        return Sign(self.top, _OF_GAPS[self.sign])
-
-
-def _refuted(goal: Goal) -> str:
-    problem = Problem(goal.relation, [item for item in goal.known if item.sign != "!="], ())
-    letters = _Letters(goal, problem)
-    wanted = _written(letters.seen(problem.conclusion))
-    if wanted is None:
-        return "solve [ sign | lra | apply Req_le; rational | apply Req_ge; rational ]"
-    told = [fact.conclusion for fact in problem.told if not fact.hypotheses and fact.conclusion.sign != "!="]
-    told += [Relation(polynomial, "=", sp.S.Zero) for _, polynomial in problem.generators.relations]
-    known = {item.known(): item for item in map(_written, map(letters.seen, told)) if item is not None}
-    symbols = wanted.top.free_symbols.union(*(sign.polynomial.free_symbols for sign in known))
-    whole = [Sign(symbol - 1, ">=") for symbol in symbols if symbol.is_integer and symbol.is_positive]
-    denied = Sign(sp.expand(-wanted.top), ">" if wanted.sign == "<=" else ">=")
-    found = contradiction([*known, *whole], denied)
-    if found is None:
-        return ""
-    lines = [
-        *letters.lines(),
-        f"top_of {letters.text(wanted.top)} {letters.text(wanted.bottom)}",
-        f"deny {letters.text(denied.polynomial)}",
-    ]
-    for sign in dict.fromkeys(factor for product in found for factor in product.factors):
-        if (item := known.get(sign)) is not None:
-            name = "equation_from" if sign.sign == "=" else "fact_from"
-            lines.append(f"{name} {letters.text(item.bottom)} {letters.text(item.top)}")
-    there = {(), *((sign,) for sign in (denied, *known))}
-    lines += [letters.product(item) for item in found if item.symbols or item.factors not in there]
-    return "; ".join([*lines, "lra"])
-
-
-def _written(relation: Relation) -> _Written | None:
-    item = relation.standard()
-    top, bottom = sp.fraction(sp.together(item.right - item.left))
-    top = sp.expand(top)
-    if not top.free_symbols or (top.is_Symbol and top.is_nonnegative):
-        return None
-    return _Written(top, bottom, item.sign)
-
-
-def _upright(node: sp.Basic) -> sp.Basic:
-    """The power that Coq has below the line, where it stands there."""
-    below = isinstance(node, sp.Pow) and node.base.is_positive and node.exp.could_extract_minus_sign()
-    return node.base**-node.exp if below else node
-
-
-class _Letters:
-    """The generators of a problem for Coq: powers written by them, what is known of them, and then a letter each."""
-
-    def __init__(self, goal: Goal, problem: Problem) -> None:
-        self._goal = goal
-        self._generators = problem.generators
-        self._names = dict(goal.names)
-        self._full = dict(goal.names)
-        self._letters: dict[sp.Symbol, sp.Symbol] = {}
-        meanings = self._generators.meaning
-        for letter, meaning in sorted(meanings.items(), key=lambda item: (-sp.count_ops(item[1]), item[0].name)):
-            name = fresh(f"g{len(self._letters)}", self._names)
-            root = isinstance(meaning, sp.Pow) and not meaning.exp.is_Integer
-            own = "positive" if meaning.is_positive else "nonnegative" if root or meaning.is_nonnegative else "real"
-            symbol = sp.Symbol(name, **{"real": True, own: True})
-            self._letters[letter] = symbol
-            self._names[symbol] = self._names[name] = name
-            self._full[letter] = term(meaning, goal.names)
-
-    def seen(self, relation: Relation) -> Relation:
-        """The relation with the letters for generators that Coq will have."""
-        return relation.map(lambda side: side.xreplace(self._letters))
-
-    def text(self, expression: sp.Expr) -> str:
-        """A polynomial for Coq."""
-        return term(expression, self._names)
-
-    def product(self, product: Product) -> str:
-        """The line for a product."""
-        powers = (symbol ** product.symbols.count(symbol) for symbol in dict.fromkeys(product.symbols))
-        text = " * ".join(map(self.text, (*powers, *(item.polynomial for item in product.factors))))
-        return f"no_product ({text})" if product.sign == "=" else f"product ({text})"
-
-    def lines(self) -> Iterator[str]:
-        """Powers by generators, what is known of these, and the letters: the outer ones first, as they hold others."""
-        sides = [side for item in self._goal.relations() for side in (item.left, item.right)]
-        nodes = {_upright(node) for side in sides for node in side.atoms(sp.Pow, sp.exp)
-                 if isinstance(node, sp.exp) or not node.exp.is_Integer}  # fmt: skip
-        for node in sorted(nodes, key=lambda node: (-sp.count_ops(node), sp.default_sort_key(node))):
-            (prepared,) = self._generators.read([node])
-            old, new = term(node, self._goal.names), term(self._generators.rational(prepared), self._full)
-            if old != new:
-                yield f"try (power_as {old} {new})"
-        split = [(base, product) for base, product in self._generators.split_bases()
-                 if base.is_Symbol and product not in self._letters]  # fmt: skip
-        for base, product in split:
-            yield f"try (assert ({self._full[base]} = {term(product, self._full)}) by by_powers)"
-        for letter, polynomial in self._generators.relations:
-            power = letter ** sp.degree(polynomial, letter)
-            value = term(sp.expand(power - polynomial), self._full)
-            yield f"try (assert ({term(power, self._full)} = {value}) by power_known)"
-        for letter, symbol in self._letters.items():
-            yield f"try (atom {symbol.name} {self._full[letter]})"
-        for base, _ in split:
-            yield f"try (subst {self._full[base]})"
+def _by_cases(goal: Goal, left: int, seconds: float) -> str:
+    """Bases of powers that may be 0, minima, maxima and absolute values one after the other; nothing if one fails."""
+    if left and (sides := by_zero(goal)) is not None:
+        line, zero, positive = sides
+        both = [_by_cases(each, left - 1, seconds) for each in (zero, positive)]
+        return f"{line}; [> zero_powers; {both[0]} | positive_powers; {both[1]} ]" if all(both) else ""
+    if left and (found := split(goal)) is not None:
+        line, goals = found
+        each = [_by_cases(case, left - 1, seconds) for case in goals]
+        return f"{line}; [> {' | '.join(f'facts; {tactic}' for tactic in each)} ]" if all(each) else ""
+    with contextlib.suppress(NoTranslation, NotAlgebraic, sp.PolynomialError):
+        return refuted(goal, seconds)
+    return ""

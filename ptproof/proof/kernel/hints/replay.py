@@ -189,6 +189,7 @@ class Replay:
         """A premise, first as the claim itself would say it."""
         if part.relation is None:
             return f"simple_powers; {self.leaf(part, told.known, told.names)}"
+        told.spoken(part.relation)
         return f"as_claimed ({text_of(part.relation, told.names)}) ltac:({self._leaf(part.relation, told)})"
 
     def _leaf(self, relation: Relation, told: Told) -> str:
@@ -284,7 +285,7 @@ class Replay:
         for name, part in zip(names, parts, strict=True):
             if part.relation not in spoken or part.relation is None or part.limit is not None:
                 continue
-            said = values.relation(part.relation)
+            said = told.spoken(values.relation(part.relation))
             told.known.append(said)
             told.lines.append(f"as_known ({text_of(said, told.names)}) {name}")
 

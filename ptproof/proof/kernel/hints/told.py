@@ -10,7 +10,7 @@ from typing import Any
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ptproof.proof.kernel.names import Names, fresh
+from ptproof.proof.kernel.names import Names, as_identifier, fresh
 from ptproof.proof.kernel.terms import SIGNS, term
 from ptproof.proof.statement import Relation
 
@@ -32,6 +32,13 @@ class Told:
         found = fresh(name, self.names)
         self.names[found] = found
         return found
+
+    def spoken(self, relation: Relation) -> Relation:
+        """The relation, once letters that are bound in it have names: putting in values makes new ones."""
+        letters = sp.Tuple(relation.left, relation.right).atoms(sp.Symbol) - relation.free_symbols
+        for letter in sorted(letters - set(self.names), key=str):
+            self.names[letter] = fresh(as_identifier(letter.name), self.names)
+        return relation
 
 
 def relevant(wanted: Relation, known: Iterable[Relation]) -> list[Relation]:

@@ -1,4 +1,4 @@
-"""Bounds of sin and cos of what a goal speaks of: polynomials for every angle, and numbers where the angle has bounds."""
+"""Bounds of sin and cos in a goal: polynomials for every angle, and numbers where the angle has bounds."""
 
 from __future__ import annotations
 

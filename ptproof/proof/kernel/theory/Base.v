@@ -247,6 +247,7 @@ Ltac unknown f := idtac;
 Ltac derivative_sides := repeat match goal with
   | |- _ /\ _ => split
   | |- True => exact I
+  | H : forall _, _ |- ex_derive _ _ => solve [ apply H; first [ assumption | lra ] ]
   | H : forall _, _ |- ex_derive _ _ => apply H
   | |- ex_derive _ _ => eassumption
   end; try first [ sign | assumption ].

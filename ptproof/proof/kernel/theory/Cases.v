@@ -91,6 +91,15 @@ Proof.
   replace (a * (a * x ^ 2 + 2 * b * x * y + c * y ^ 2)) with ((a * x + b * y) ^ 2 + (a * c - b ^ 2) * y ^ 2) by ring.
   apply Rplus_le_le_0_compat; [apply pow2_ge_0 | apply Rmult_le_pos; [exact D | apply pow2_ge_0]].
 Qed.
+Lemma form_semidefinite : forall a b c x y, 0 <= a -> 0 <= c -> 0 <= a * c - b ^ 2 ->
+  0 <= a * x ^ 2 + 2 * b * x * y + c * y ^ 2.
+Proof.
+  intros a b c x y [A | A] C D; [apply form_nonneg; assumption|].
+  assert (b = 0) by (subst a; nra). subst. assert (0 <= c * y ^ 2) by (apply Rmult_le_pos; [exact C | apply pow2_ge_0]). lra.
+Qed.
+Ltac form_from a b c x y := lazymatch goal with
+  | |- 0 <= ?d => replace d with (a * x ^ 2 + 2 * b * x * y + c * y ^ 2) by rational; apply form_semidefinite
+  end.
 Ltac from_fact := first
   [ assumption | lra | sign
   | match goal with

@@ -294,6 +294,103 @@ Proof.
   replace ((r - 1) * (- (1 / (r - 1)) * l + x)) with (- l + (r - 1) * x) by (field; lra). lra.
 Qed.
 
+(* The same where U may be 0: it does not rise from there. *)
+Lemma no_rise_from_0 : forall (U F a : R -> R) m q r, m < q -> 1 < r -> U m <= 0 ->
+  (forall s, m < s <= q -> 0 < U s) ->
+  (forall s, m <= s <= q -> ex_derive U s /\ Derive U s <= a s * rpow (U s) r) ->
+  (forall s, m <= s <= q -> is_derive F s (a s)) -> False.
+Proof.
+  intros U F a m q r L R1 Z P A B.
+  assert (Uq : 0 < U q) by (apply P; lra).
+  set (M := Rmax 1 (F q - F m + 1)). assert (M1 : 1 <= M) by apply Rmax_l.
+  assert (M2 : F q - F m + 1 <= M) by apply Rmax_r. clearbody M.
+  set (C := Rpower (1 / 2) (- (1 / (r - 1)))). assert (C0 : 0 < C) by apply exp_pos.
+  set (x := 1 / (2 * (r - 1) * M)). assert (x0 : 0 < x) by (apply Rdiv_lt_0_compat; [lra | nra]).
+  set (d := Rmin (Rpower x (1 / (r - 1))) (U q / (2 * C))).
+  assert (D1 : d <= Rpower x (1 / (r - 1))) by apply Rmin_l. assert (D2 : d <= U q / (2 * C)) by apply Rmin_r.
+  assert (D0 : 0 < d) by (apply Rmin_pos; [apply exp_pos | apply Rdiv_lt_0_compat; lra]). clearbody d.
+  assert (N1 : locally m (fun s => 0 < d - U s)).
+  { apply (near_positive (fun s => d - U s)); [|lra].
+    apply (ex_derive_minus (fun _ => d) U); [apply ex_derive_const | apply A; lra]. }
+  assert (N2 : locally m (fun s => 0 < F s - (F m - 1))).
+  { apply (near_positive (fun s => F s - (F m - 1))); [|lra].
+    apply (ex_derive_minus F (fun _ => F m - 1)); [exists (a m); apply B; lra | apply ex_derive_const]. }
+  destruct (filter_and _ _ N1 N2) as [e H].
+  set (s := m + Rmin (e / 2) ((q - m) / 2)). pose proof (cond_pos e) as E0.
+  assert (S0 : 0 < Rmin (e / 2) ((q - m) / 2)) by (apply Rmin_pos; lra).
+  assert (S1 : Rmin (e / 2) ((q - m) / 2) <= e / 2) by apply Rmin_l.
+  assert (S2 : Rmin (e / 2) ((q - m) / 2) <= (q - m) / 2) by apply Rmin_r.
+  assert (S : m < s < q) by (unfold s; lra).
+  destruct (H s) as [K1 K2].
+  { unfold ball; simpl; unfold AbsRing_ball, abs, minus, plus, opp; simpl. unfold s. rewrite Rabs_pos_eq; lra. }
+  clearbody s. assert (Us : 0 < U s) by (apply P; lra).
+  assert (X : Rpower (U s) (r - 1) <= x).
+  { replace x with (Rpower (Rpower x (1 / (r - 1))) (r - 1)).
+    - apply Rle_Rpower_l; lra.
+    - rewrite Rpower_mult. replace (1 / (r - 1) * (r - 1)) with 1 by (field; lra). apply Rpower_1, x0. }
+  assert (V : 0 < Rpower (U s) (r - 1)) by apply exp_pos.
+  assert (Y : (r - 1) * (F q - F s) * Rpower (U s) (r - 1) <= 1 / 2).
+  { apply Rle_trans with ((r - 1) * M * x); [|right; unfold x; field; lra].
+    apply Rle_trans with ((r - 1) * M * Rpower (U s) (r - 1)).
+    - apply Rmult_le_compat_r; [lra|]. apply Rmult_le_compat_l; lra.
+    - apply Rmult_le_compat_l; [|exact X]. apply Rmult_le_pos; lra. }
+  assert (W : U q <= Rpower (1 - (r - 1) * (F q - F s) * Rpower (U s) (r - 1)) (- (1 / (r - 1))) * U s).
+  { apply (bernoulli_rate U F a s q r); try lra.
+    - intros u Q. apply P. lra.
+    - intros u Q. rewrite <- rpow_Rpower by (apply P; lra). apply A. lra.
+    - intros u Q. apply B. lra. }
+  assert (T : Rpower (1 - (r - 1) * (F q - F s) * Rpower (U s) (r - 1)) (- (1 / (r - 1))) <= C).
+  { unfold C. rewrite !Rpower_Ropp. apply Rinv_le_contravar; [apply exp_pos|].
+    apply Rle_Rpower_l; [left; apply Rdiv_lt_0_compat; lra | lra]. }
+  assert (U q <= C * (U q / (2 * C))).
+  { apply Rle_trans with (1 := W). apply Rmult_le_compat; [left; apply exp_pos | lra | exact T | lra]. }
+  assert (C * (U q / (2 * C)) = U q / 2) by (field; lra). lra.
+Qed.
+
+(* U' <= a U^r, with U >= 0 and r > 1, as long as the bound exists. *)
+Lemma bernoulli_any_rate : forall (U F a : R -> R) p q r, p <= q -> 1 < r ->
+  (forall s, p <= s <= q -> 0 <= U s) ->
+  (forall s, p <= s <= q -> ex_derive U s /\ Derive U s <= a s * rpow (U s) r) ->
+  (forall s, p <= s <= q -> is_derive F s (a s)) ->
+  0 < 1 - (r - 1) * (F q - F p) * rpow (U p) (r - 1) ->
+  U q <= rpow (1 - (r - 1) * (F q - F p) * rpow (U p) (r - 1)) (- (1 / (r - 1))) * U p.
+Proof.
+  intros U F a p q r L R1 N A B D.
+  destruct (Rle_lt_dec (U q) 0) as [Z | Uq].
+  { apply Rle_trans with (1 := Z). apply Rmult_le_pos; [apply rpow_nonneg | apply N; lra]. }
+  set (E := fun s => s = p \/ (p <= s <= q /\ U s <= 0)).
+  destruct (completeness E) as [m [M1 M2]].
+  { exists q. intros s [S | [S _]]; lra. }
+  { exists p. left. reflexivity. }
+  assert (P1 : p <= m) by (apply M1; left; reflexivity).
+  assert (P2 : m <= q) by (apply M2; intros s [S | [S _]]; lra).
+  assert (Above : forall s, m < s <= q -> 0 < U s).
+  { intros s S. destruct (Rle_lt_dec (U s) 0) as [X | X]; [|exact X]. exfalso.
+    assert (s <= m); [|lra]. apply M1. right. split; [lra | exact X]. }
+  destruct (Rle_lt_dec (U m) 0) as [Z | Um].
+  - exfalso. assert (m < q) by (destruct P2 as [X | X]; [exact X | subst; lra]).
+    apply (no_rise_from_0 U F a m q r); try assumption.
+    + intros s S. apply A. lra.
+    + intros s S. apply B. lra.
+  - assert (m = p) as E0.
+    { destruct P1 as [X | X]; [exfalso | lra].
+      destruct (near_positive U m (proj1 (A m (conj (Rlt_le _ _ X) P2))) Um) as [e H]. pose proof (cond_pos e) as E1.
+      set (t := m - Rmin (e / 2) ((m - p) / 2)).
+      assert (0 < Rmin (e / 2) ((m - p) / 2)) by (apply Rmin_pos; lra).
+      assert (Rmin (e / 2) ((m - p) / 2) <= e / 2) by apply Rmin_l.
+      assert (Rmin (e / 2) ((m - p) / 2) <= (m - p) / 2) by apply Rmin_r.
+      assert (m <= t); [|unfold t in *; lra]. apply M2. intros s [S | [S Y]]; [unfold t; lra|].
+      destruct (Rle_lt_dec s t) as [Q | Q]; [exact Q | exfalso].
+      assert (s <= m) by (apply M1; right; split; assumption).
+      assert (0 < U s); [|lra]. apply H. unfold ball; simpl; unfold AbsRing_ball, abs, minus, plus, opp; simpl.
+      unfold t in Q. rewrite Rabs_left1; lra. }
+    subst m. assert (P : forall s, p <= s <= q -> 0 < U s).
+    { intros s [[S | S] T]; [apply Above; lra | subst; exact Um]. }
+    rewrite (rpow_Rpower (U p)) in * by exact Um. rewrite rpow_Rpower by exact D.
+    apply (bernoulli_rate U F a p q r); try assumption.
+    intros s S. rewrite <- rpow_Rpower by (apply P, S). apply A, S.
+Qed.
+
 (* The rate of U at s, by an assumption for all s. *)
 Ltac bound := first [ assumption | lra ].
 Ltac premises_of H :=
@@ -342,6 +439,17 @@ Proof.
   rewrite (rpow_zero (0 / c) (/ r)), Rplus_0_l in K; [ | unfold Rdiv; ring | apply Rinv_0_lt_compat; lra].
   apply K. intros s S. destruct (H s S). split; [assumption | lra].
 Qed.
+Lemma bernoulli_any_rate_as : forall (U F a : R -> R) p q r v B e, p <= q -> 1 < r ->
+  (forall s, p <= s <= q -> 0 <= U s) ->
+  (forall s, p <= s <= q -> ex_derive U s /\ Derive U s <= a s * rpow (U s) r) ->
+  (forall s, p <= s <= q -> is_derive F s (a s)) ->
+  v = rpow (U p) (r - 1) -> B = 1 - (r - 1) * (F q - F p) * v -> e = - (1 / (r - 1)) -> 0 < B ->
+  U q <= rpow B e * U p.
+Proof.
+  intros U F a p q r v B e L R1 N A D Ev EB Ee P. subst v B e. apply (bernoulli_any_rate U F a); assumption.
+Qed.
+Ltac never_negative := intros ? ?; facts; cbv beta;
+  first [ sign | apply Rge_le; match goal with H : forall _, _ |- _ => solve [ apply H; first [ assumption | lra ] ] end ].
 Ltac positive_powers := repeat (rewrite rpow_Rpower by sign).
 Ltac same_power := first [ rational | f_equal; rational | positive_powers; first [ rational | f_equal; rational ] ].
 Ltac same_rate := first [ same | positive_powers; same ].
