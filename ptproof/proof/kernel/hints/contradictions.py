@@ -9,7 +9,7 @@ import sympy as sp
 
 from ptproof.proof.engines.reals import Problem
 from ptproof.proof.kernel.hints.forms import forms
-from ptproof.proof.kernel.hints.goals import Goal
+from ptproof.proof.kernel.hints.goals import Goal, as_factors
 from ptproof.proof.kernel.hints.positivstellensatz import Product, Sign, contradiction
 from ptproof.proof.kernel.names import fresh
 from ptproof.proof.kernel.terms import term
@@ -106,16 +106,19 @@ class _Letters:
         self._generators = problem.generators
         self._names = dict(goal.names)
         self._full = dict(goal.names)
-        self._letters: dict[sp.Symbol, sp.Symbol] = {}
+        self._letters: dict[sp.Symbol, sp.Expr] = {}  # a sum stands for itself
         meanings = self._generators.meaning
         for letter, meaning in sorted(meanings.items(), key=lambda item: (-sp.count_ops(item[1]), item[0].name)):
+            self._full[letter] = term(meaning, goal.names)
+            if meaning.is_Add and meaning.is_polynomial():
+                self._letters[letter] = meaning
+                continue
             name = fresh(f"g{len(self._letters)}", self._names)
             root = isinstance(meaning, sp.Pow) and not meaning.exp.is_Integer
             own = "positive" if meaning.is_positive else "nonnegative" if root or meaning.is_nonnegative else "real"
             symbol = sp.Symbol(name, **{"real": True, own: True})
             self._letters[letter] = symbol
             self._names[symbol] = self._names[name] = name
-            self._full[letter] = term(meaning, goal.names)
 
     def seen(self, relation: Relation) -> Relation:
         """The relation with the letters for generators that Coq will have."""
@@ -138,6 +141,10 @@ class _Letters:
                  if isinstance(node, sp.exp) or not node.exp.is_Integer}  # fmt: skip
         for node in sorted(nodes, key=lambda node: (-sp.count_ops(node), sp.default_sort_key(node))):
             (prepared,) = self._generators.read([node])
+            base = node.base if isinstance(node, sp.Pow) else sp.S.One
+            if base.is_Add and not base.is_polynomial() and (whole := as_factors(base)) != base:
+                yield f"try (same_sum {term(base, self._goal.names)} {term(whole, self._goal.names)})"
+                node = sp.Pow(whole, node.exp, evaluate=False)
             old, new = term(node, self._goal.names), term(self._generators.rational(prepared), self._full)
             if old != new:
                 yield f"try (power_as {old} {new})"
@@ -148,8 +155,10 @@ class _Letters:
         for letter, polynomial in self._generators.relations:
             power = letter ** sp.degree(polynomial, letter)
             value = term(sp.expand(power - polynomial), self._full)
-            yield f"try (assert ({term(power, self._full)} = {value}) by power_known)"
+            if value != self._full.get(letter):
+                yield f"try (assert ({term(power, self._full)} = {value}) by power_known)"
         for letter, symbol in self._letters.items():
-            yield f"try (atom {symbol.name} {self._full[letter]})"
+            if symbol.is_Symbol:
+                yield f"try (atom {symbol.name} {self._full[letter]})"
         for base, _ in split:
             yield f"try (subst {self._full[base]})"

@@ -21,6 +21,7 @@ from ptproof.proof.kernel.hints.bases import by_zero, lettered
 from ptproof.proof.kernel.hints.bounded import bounded, settled
 from ptproof.proof.kernel.hints.cases import split
 from ptproof.proof.kernel.hints.contradictions import refuted
+from ptproof.proof.kernel.hints.enclosed import of_powers, of_waves
 from ptproof.proof.kernel.hints.goals import Goal
 from ptproof.proof.kernel.hints.ground import Ground
 from ptproof.proof.kernel.hints.masks import bottoms, hidden, masked, put_in
@@ -28,7 +29,6 @@ from ptproof.proof.kernel.hints.needed import can_be_told, needed
 from ptproof.proof.kernel.hints.positivstellensatz import SECONDS
 from ptproof.proof.kernel.hints.slack import slackened
 from ptproof.proof.kernel.hints.told import text_of
-from ptproof.proof.kernel.hints.waves import of_waves
 from ptproof.proof.kernel.terms import NoTranslation
 from ptproof.proof.statement import Relation
 
@@ -58,9 +58,9 @@ def by_refutation(goal: Goal) -> Iterator[str]:
 def _refuted_from_few(goal: Goal, deeper: bool = True) -> Iterator[str]:
     """Tactics for the goal, ``deeper`` also for that what stands below a line is positive."""
     goal, equal = _with_equations(goal)
-    known, waves = _with_domains(goal), list[tuple[str, list[Relation]]]()
-    if (core := _core(goal, known)) is None and (waves := list(of_waves(goal))):
-        known += [item for _, facts in waves for item in facts]
+    known, bounds = _with_domains(goal), list[tuple[str, list[Relation]]]()
+    if (core := _core(goal, known)) is None and (bounds := [*of_waves(goal), *of_powers(goal)]):
+        known += [item for _, facts in bounds for item in facts]
         core = _core(goal, known)
     if core is None:
         return
@@ -77,7 +77,7 @@ def _refuted_from_few(goal: Goal, deeper: bool = True) -> Iterator[str]:
     facts = list(dict.fromkeys(facts))
     if inner := _by_branches(Goal(goal.relation, tuple(facts), goal.names), _MOST_CASES):
         said = "".join(f"({text_of(item, goal.names)}) -> " for item in facts)
-        lines = [line for line, found in waves if any(item in facts for item in found)]
+        lines = [line for line, found in bounds if any(item in facts for item in found)]
         lines += [f"assert ({text_of(item, goal.names)}) by lra" for item in equal if item in facts]
         yield "; ".join([*lines, f"only_from ({said}True)", *below, inner])
 

@@ -211,3 +211,12 @@ Ltac alike ::= as_reals; first
 (* What is known to be positive at all times is so at q. *)
 Ltac positive_at q := match goal with H : forall _ : R, _ |- _ =>
   solve [ let K := fresh in pose proof (H q) as K; premises_of K; facts; found_as ] end.
+Ltac sign_above := match goal with |- 1 <= 1 + ?x => cut (0 <= x); [ lra | sign ] end.
+(* A power of what is at least 1 by one of a smaller whole exponent. *)
+Lemma Rpower_at_least : forall b e n, 1 <= b -> INR n <= e -> b ^ n <= Rpower b e.
+Proof.
+  intros b e n B E. rewrite <- Rpower_pow by lra. unfold Rpower. apply exp_le_exp.
+  apply Rmult_le_compat_r; [|exact E]. rewrite <- ln_1. destruct B as [B | B]; [left; apply ln_increasing; lra | rewrite B; lra].
+Qed.
+Ltac power_at_least b e n :=
+  assert (b ^ n <= Rpower b e) by (apply Rpower_at_least; [ first [ lra | sign_above ] | simpl INR; first [ lra | nra ] ]).

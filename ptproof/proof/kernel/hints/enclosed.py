@@ -1,4 +1,4 @@
-"""Bounds of sin and cos in a goal: polynomials for every angle, and numbers where the angle has bounds."""
+"""What bounds values of functions in a goal: polynomials for waves and powers, numbers where an angle has bounds."""
 
 from __future__ import annotations
 
@@ -11,10 +11,12 @@ from sympy.core.function import AppliedUndef
 
 from ptproof.proof.kernel.hints.circular import bounds
 from ptproof.proof.kernel.hints.goals import Goal
+from ptproof.proof.kernel.hints.needed import needed
 from ptproof.proof.statement import Relation
 
 _PARTS = 1000  # of 1, to which bounds are rounded
 _MOST = 4
+_MILLISECONDS = 500
 
 
 def of_waves(goal: Goal) -> Iterator[tuple[str, list[Relation]]]:
@@ -46,3 +48,21 @@ def _range(kind: str, low: sp.Rational, high: sp.Rational) -> tuple[sp.Rational,
     found = getattr(iv, kind)(iv.mpf([iv.mpf(low.p) / low.q, iv.mpf(high.p) / high.q]))
     ends = math.floor(_PARTS * mp.mpf(found.a)), math.ceil(_PARTS * mp.mpf(found.b))
     return sp.Rational(ends[0], _PARTS), sp.Rational(ends[1], _PARTS)
+
+
+def of_powers(goal: Goal) -> Iterator[tuple[str, list[Relation]]]:
+    """For each power of unknown exponent n, where that is seen to be at least a whole number, the power of that one."""
+    sides = sp.Tuple(*(side for item in goal.relations() for side in (item.left, item.right)))
+    powers = sorted((p for p in sides.atoms(sp.Pow) if p.exp.free_symbols), key=sp.default_sort_key)
+    whole = (symbol for symbol in sides.free_symbols if symbol.is_integer and symbol.is_positive)
+    known = (*goal.known, *(Relation(sp.S.One, "<=", symbol) for symbol in whole))
+
+    def is_known(least: int, value: sp.Expr) -> bool:
+        return needed(Relation(sp.Integer(least), "<=", value), known, _MILLISECONDS) is not None
+
+    for power in powers if len(powers) <= _MOST else ():
+        base, exponent = (power.base, -power.exp) if power.exp.could_extract_minus_sign() else power.args
+        if base.is_positive and is_known(1, base):
+            least = next((n for n in (4, 3, 2, 1) if is_known(n, exponent)), 0)
+            line = f"try (power_at_least {goal.text(base)} {goal.text(exponent)} {least}%nat)"
+            yield line, [Relation(base**least, "<=", base**exponent)]
