@@ -30,7 +30,7 @@ def masked(goal: Goal) -> tuple[list[str], Goal]:
         positive = part.is_Add and needed(Relation(sp.S.Zero, "<", part), goal.known, _MILLISECONDS) is not None
         kinds = {"positive": True} if positive else _kinds(goal, part)
         letter = sp.Symbol(name, real=True, **kinds)
-        inner = goal.map(partial(_put, {part: letter}), {**goal.names, letter: name})
+        inner = goal.map(partial(put, {part: letter}), {**goal.names, letter: name})
         # A derivative is worth the time: without its letter it is carried out.
         limit = _MILLISECONDS if part.is_Add else 4 * _MILLISECONDS
         if inner.relations() == goal.relations() or needed(inner.relation, inner.known, limit) is None:
@@ -42,13 +42,13 @@ def masked(goal: Goal) -> tuple[list[str], Goal]:
     return lines, goal
 
 
-def _put(values: Mapping[sp.Basic, sp.Basic], expression: sp.Basic) -> sp.Basic:
+def put(values: Mapping[sp.Basic, sp.Basic], expression: sp.Basic) -> sp.Basic:
     """The expression with values for parts of it, but where something is bound: a value at one time has no rate."""
     if expression in values:
         return values[expression]
     if not expression.args or isinstance(expression, _BOUND):
         return expression
-    return expression.func(*(_put(values, argument) for argument in expression.args))
+    return expression.func(*(put(values, argument) for argument in expression.args))
 
 
 def hidden(goal: Goal) -> Goal:
@@ -88,7 +88,7 @@ def put_in(goal: Goal) -> tuple[list[str], Goal]:
         new = root.xreplace(there)
         if new != root and not isinstance(new, sp.Pow):
             lines.append(f"try (root_is {term(root.base, names)} {goal.text(new)})")
-    return lines, goal.map(partial(_put, there))
+    return lines, goal.map(partial(put, there))
 
 
 def _stands_alone(part: sp.Basic) -> bool:

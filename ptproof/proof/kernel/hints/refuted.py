@@ -16,13 +16,15 @@ from sympy.core.function import AppliedUndef
 from ptproof.proof.algebra import NotAlgebraic
 from ptproof.proof.definedness import domain_of
 from ptproof.proof.engines.reals import Problem
-from ptproof.proof.kernel.hints.bases import by_zero, lettered
+from ptproof.proof.kernel.hints.bases import by_zero, lettered, signs_of_bases
 from ptproof.proof.kernel.hints.cases import split
+from ptproof.proof.kernel.hints.exponents import by_one_power
 from ptproof.proof.kernel.hints.forms import forms
 from ptproof.proof.kernel.hints.goals import Goal
 from ptproof.proof.kernel.hints.ground import Ground
 from ptproof.proof.kernel.hints.masks import hidden, masked, put_in
 from ptproof.proof.kernel.hints.needed import can_be_told, needed
+from ptproof.proof.kernel.hints.ordered import ordered
 from ptproof.proof.kernel.hints.positivstellensatz import SECONDS, Product, Sign, contradiction
 from ptproof.proof.kernel.hints.slack import slackened
 from ptproof.proof.kernel.hints.told import text_of
@@ -60,7 +62,7 @@ def _refuted_from_few(goal: Goal, deeper: bool = True) -> Iterator[str]:
     known = _with_domains(goal)
     if (core := _core(goal, known)) is None:
         return
-    facts, lines = [*core, *_of_bases((goal.relation, *core), known)], list[str]()
+    facts, lines = [*core, *signs_of_bases((goal.relation, *core), known)], list[str]()
     for bottom in dict.fromkeys(_bottoms((goal.relation, *core))):
         positive = Relation(sp.S.Zero, "<", bottom)
         reasons = needed(positive, known) or ()
@@ -69,17 +71,30 @@ def _refuted_from_few(goal: Goal, deeper: bool = True) -> Iterator[str]:
             lines += [f"assert ({text_of(positive, goal.names)}) by (solve [ {line} ])" for line in below]
         facts += reasons
     facts = list(dict.fromkeys(facts))
-    focused = Goal(goal.relation, tuple(facts), goal.names)
-    for step in (put_in, masked, _without_functions, masked, lettered):
-        more, focused = step(focused)
-        lines += more
     said = "".join(f"({text_of(item, goal.names)}) -> " for item in facts)
-    more, loose = slackened(focused)
-    ways = ([], focused, SECONDS / 3 if more else SECONDS), (more, loose, SECONDS)
-    for before, there, seconds in ways if more else ways[:1]:
+    more, focused = put_in(Goal(goal.relation, tuple(facts), goal.names))
+    for before, there, seconds in _ways(focused):
         if inner := _by_cases(there, _MOST_CASES, seconds):
-            yield "; ".join([f"only_from ({said}True)", *lines, *before, inner])
+            yield "; ".join([f"only_from ({said}True)", *lines, *more, *before, inner])
             return
+
+
+def _ways(goal: Goal) -> Iterator[tuple[list[str], Goal, float]]:
+    """The goal in letters, in one way after the other, with the lines for these and how long to try."""
+    if (found := ordered(goal, by_refutation)) is not None:
+        yield *_in_letters(*found), SECONDS
+    lines, plain = _in_letters([], goal)
+    more, loose = slackened(plain)
+    yield lines, plain, SECONDS / 3 if more else SECONDS
+    if more:
+        yield [*lines, *more], loose, SECONDS
+
+
+def _in_letters(lines: list[str], goal: Goal) -> tuple[list[str], Goal]:
+    for step in (masked, _without_functions, masked, by_one_power, lettered):
+        more, goal = step(goal)
+        lines = [*lines, *more]
+    return lines, goal
 
 
 def follows(goal: Goal) -> bool | None:
@@ -101,13 +116,6 @@ def _with_domains(goal: Goal) -> list[Relation]:
     """What is known, and what holds where this and the goal are defined."""
     needs = (need for item in goal.relations() for need in domain_of(item) if not need.settled and not need.given)
     return list(dict.fromkeys([*goal.known, *(need.relation for need in needs if need.relation is not None)]))
-
-
-def _of_bases(relations: Iterable[Relation], known: Iterable[Relation]) -> Iterator[Relation]:
-    """What is known of the signs of the bases of powers."""
-    sides = sp.Tuple(*(side for item in relations for side in (item.left, item.right)))
-    bases = {power.base for power in sides.atoms(sp.Pow) if not power.exp.is_Integer and not power.base.is_nonnegative}
-    yield from (item for item in known if item.standard().left == 0 and item.standard().right in bases)
 
 
 def _is_linear(item: Relation) -> bool:
@@ -218,7 +226,7 @@ def _written(relation: Relation) -> _Written | None:
     item = relation.standard()
     top, bottom = sp.fraction(sp.together(item.right - item.left))
     top = sp.expand(top)
-    if not top.free_symbols or (top.is_Symbol and top.is_nonnegative):
+    if not top.free_symbols or (top.is_Symbol and top.is_nonnegative) or (item.sign == "<=" and top.is_nonnegative):
         return None
     return _Written(top, bottom, item.sign)
 
@@ -247,10 +255,14 @@ class _Letters:
             self._letters[letter] = symbol
             self._names[symbol] = self._names[name] = name
             self._full[letter] = term(meaning, goal.names)
+        # A letter of the goal as the power of its root.
+        self._roots = {power - polynomial: power.xreplace(self._letters) for letter, polynomial
+                       in self._generators.relations for power in [letter ** sp.degree(polynomial, letter)]
+                       if (power - polynomial).is_Symbol and power - polynomial not in self._letters}  # fmt: skip
 
     def seen(self, relation: Relation) -> Relation:
         """The relation with the letters for generators that Coq will have."""
-        return relation.map(lambda side: side.xreplace(self._letters))
+        return relation.map(lambda side: side.xreplace(self._letters).xreplace(self._roots))
 
     def text(self, expression: sp.Expr) -> str:
         """A polynomial for Coq."""
@@ -282,5 +294,5 @@ class _Letters:
             yield f"try (assert ({term(power, self._full)} = {value}) by power_known)"
         for letter, symbol in self._letters.items():
             yield f"try (atom {symbol.name} {self._full[letter]})"
-        for base, _ in split:
+        for base in (*(base for base, _ in split), *self._roots):
             yield f"try (subst {self._full[base]})"

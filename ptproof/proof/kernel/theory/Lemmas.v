@@ -170,3 +170,17 @@ Ltac exponents_agree := repeat rewrite Rmult_assoc; rewrite <- ?exp_plus; first 
 (* What is known to be positive at all times is so at q. *)
 Ltac positive_at q := match goal with H : forall _ : R, _ |- _ =>
   solve [ let K := fresh in pose proof (H q) as K; premises_of K; facts; found_as ] end.
+(* A power whose exponent is a whole multiple of that of another one. *)
+Lemma Rpower_whole : forall x e f n, f = INR n * e -> Rpower x f = Rpower x e ^ n.
+Proof. intros x e f n E. rewrite <- Rpower_pow by apply exp_pos. rewrite Rpower_mult, E. f_equal. ring. Qed.
+Lemma rpow_whole : forall x e f n, f = INR n * e -> 0 <= x -> 0 < e -> (0 < n)%nat -> rpow x f = rpow x e ^ n.
+Proof.
+  intros x e f n E [X | X] P N.
+  - rewrite !rpow_Rpower by exact X. apply Rpower_whole, E.
+  - assert (0 < INR n) by (apply lt_0_INR, N). subst x f. rewrite !rpow_zero by nra. symmetry. apply pow_i, N.
+Qed.
+Ltac whole_power old new n := let E := fresh in
+  assert (E : old = new ^ n) by (first
+    [ apply Rpower_whole; cbn [INR]; rational
+    | apply rpow_whole; [ cbn [INR]; rational | first [ assumption | lra | sign ] | exponent_sign | lia ] ]);
+  rewrite ?E in *; clear E.
