@@ -9,6 +9,7 @@ import contextlib
 import itertools
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -73,15 +74,15 @@ def _refuted_from_few(goal: Goal, deeper: bool = True) -> Iterator[str]:
     facts = list(dict.fromkeys(facts))
     said = "".join(f"({text_of(item, goal.names)}) -> " for item in facts)
     more, focused = put_in(Goal(goal.relation, tuple(facts), goal.names))
-    for before, there, seconds in _ways(focused):
+    for before, there, seconds in _ways(focused, deeper):
         if inner := _by_cases(there, _MOST_CASES, seconds):
             yield "; ".join([f"only_from ({said}True)", *lines, *more, *before, inner])
             return
 
 
-def _ways(goal: Goal) -> Iterator[tuple[list[str], Goal, float]]:
+def _ways(goal: Goal, deeper: bool) -> Iterator[tuple[list[str], Goal, float]]:
     """The goal in letters, in one way after the other, with the lines for these and how long to try."""
-    if (found := ordered(goal, by_refutation)) is not None:
+    if deeper and (found := ordered(goal, partial(_refuted_from_few, deeper=False))) is not None:
         yield *_in_letters(*found), SECONDS
     lines, plain = _in_letters([], goal)
     more, loose = slackened(plain)

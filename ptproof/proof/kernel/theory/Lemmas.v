@@ -116,6 +116,7 @@ Ltac said_by_powers H := lazymatch type of H with
 Ltac in_words H := first
   [ exact H | timeout 10 (as_said H) | lra
   | solve [ revert H; progress simple_powers; intro H; first [ exact H | timeout 10 (as_said H) ] ]
+  | solve [ progress (repeat match goal with |- context [sqrt ?x] => is_var x; by_root x end); timeout 10 (as_said H) ]
   | solve [ timeout 12 (said_by_powers H) ] ].
 Ltac as_claimed P t := let H := fresh in assert (H : P) by (first [ assumption | t ]); in_words H.
 Ltac as_known P H := first [ assert P by assumption; clear H | assert P by (timeout 25 (in_words H)); clear H | idtac ].
