@@ -187,7 +187,8 @@ def _refuted(goal: Goal, seconds: float) -> str:
         return "solve [ sign | lra ]"
     told = [fact.conclusion for fact in problem.told if not fact.hypotheses and fact.conclusion.sign != "!="]
     told += [Relation(polynomial, "=", sp.S.Zero) for _, polynomial in problem.generators.relations]
-    known = {item.known(): item for item in map(_written, map(letters.seen, told)) if item is not None}
+    said = (item for item in map(_written, map(letters.seen, told)) if item is not None)
+    known = {item.known(): item for item in said if item.sign != "<=" or not item.top.is_nonnegative}
     closing = _closing(wanted.top, wanted.sign, known, letters, seconds) or _by_form(wanted, known, letters, seconds)
     if not closing:
         return ""
@@ -227,7 +228,7 @@ def _written(relation: Relation) -> _Written | None:
     item = relation.standard()
     top, bottom = sp.fraction(sp.together(item.right - item.left))
     top = sp.expand(top)
-    if not top.free_symbols or (top.is_Symbol and top.is_nonnegative) or (item.sign == "<=" and top.is_nonnegative):
+    if not top.free_symbols or (top.is_Symbol and top.is_nonnegative):
         return None
     return _Written(top, bottom, item.sign)
 
