@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 import sympy as sp
 
 from ptproof.proof.kernel.hints.goals import Goal, is_shown
 from ptproof.proof.kernel.names import fresh
+from ptproof.proof.statement import Relation
 
 
 def lettered(goal: Goal) -> tuple[list[str], Goal]:
@@ -36,6 +37,13 @@ def by_zero(goal: Goal) -> tuple[str, Goal, Goal] | None:
         zero.replaced(base, sp.Integer(0)),
         goal.replaced(base, positive, {**goal.names, positive: name}),
     )
+
+
+def signs_of_bases(relations: Iterable[Relation], known: Iterable[Relation]) -> Iterator[Relation]:
+    """What is known of the signs of the bases of powers."""
+    sides = sp.Tuple(*(side for item in relations for side in (item.left, item.right)))
+    bases = {power.base for power in sides.atoms(sp.Pow) if not power.exp.is_Integer and not power.base.is_nonnegative}
+    yield from (item for item in known if item.standard().left == 0 and item.standard().right in bases)
 
 
 def _nothing(power: sp.Pow) -> sp.Expr:

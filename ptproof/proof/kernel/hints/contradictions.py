@@ -47,7 +47,8 @@ def refuted(goal: Goal, seconds: float) -> str:
         return "solve [ sign | lra | apply Req_le; rational | apply Req_ge; rational ]"
     told = [fact.conclusion for fact in problem.told if not fact.hypotheses and fact.conclusion.sign != "!="]
     told += [Relation(polynomial, "=", sp.S.Zero) for _, polynomial in problem.generators.relations]
-    known = {item.known(): item for item in map(_written, map(letters.seen, told)) if item is not None}
+    said = (item for item in map(_written, map(letters.seen, told)) if item is not None)
+    known = {item.known(): item for item in said if item.sign != "<=" or not item.top.is_nonnegative}
     closing = _closing(wanted.top, wanted.sign, known, letters, seconds) or _by_form(wanted, known, letters, seconds)
     if not closing:
         return ""
@@ -119,10 +120,14 @@ class _Letters:
             symbol = sp.Symbol(name, **{"real": True, own: True})
             self._letters[letter] = symbol
             self._names[symbol] = self._names[name] = name
+        # A letter of the goal as the power of its root.
+        self._roots = {power - polynomial: power.xreplace(self._letters) for letter, polynomial
+                       in self._generators.relations for power in [letter ** sp.degree(polynomial, letter)]
+                       if (power - polynomial).is_Symbol and power - polynomial not in self._letters}  # fmt: skip
 
     def seen(self, relation: Relation) -> Relation:
         """The relation with the letters for generators that Coq will have."""
-        return relation.map(lambda side: side.xreplace(self._letters))
+        return relation.map(lambda side: side.xreplace(self._letters).xreplace(self._roots))
 
     def text(self, expression: sp.Expr) -> str:
         """A polynomial for Coq."""
@@ -160,5 +165,5 @@ class _Letters:
         for letter, symbol in self._letters.items():
             if symbol.is_Symbol:
                 yield f"try (atom {symbol.name} {self._full[letter]})"
-        for base, _ in split:
+        for base in (*(base for base, _ in split), *self._roots):
             yield f"try (subst {self._full[base]})"

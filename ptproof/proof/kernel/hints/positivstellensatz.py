@@ -58,7 +58,7 @@ class _Base:
 
 
 def contradiction(known: Sequence[Sign], denied: Sign, seconds: float = SECONDS) -> tuple[Product, ...] | None:
-    """Products by which what is ``known``, and what is ``denied``, cannot hold together; None if none are found.
+    """Products by which what is ``known``, and what is ``denied``, cannot hold together, if they are found in time.
 
     A symbol with a declared sign may stand in a product. A sum of the products with positive weights (of any sign
     where they are 0) vanishes, and one of them is positive.
@@ -68,9 +68,11 @@ def contradiction(known: Sequence[Sign], denied: Sign, seconds: float = SECONDS)
     if not symbols:
         return None
     bases = list(_bases(every, symbols))
-    until = time.monotonic() + seconds
+    until = time.thread_time() + seconds
+    given = set(every)
     alone = [base for base in bases if len(base.factors) < 2]
-    for start, some in itertools.product(_starts(bases[1].polynomial, bases, symbols), (alone, bases)):
+    pairs = [base for base in bases if len(base.factors) < 3 and given.issuperset(base.factors)]
+    for start, some in itertools.product(_starts(bases[1].polynomial, bases, symbols), (alone, pairs, bases)):
         if (found := _from(start, some, symbols, until)) is not None:
             return found
     return None
@@ -85,7 +87,7 @@ def _from(
         before = len(seen)
         for key in _matching(rows, bases, symbols):
             seen.setdefault(key)
-            if len(seen) > _MOST_COLUMNS or time.monotonic() > until:
+            if len(seen) > _MOST_COLUMNS or time.thread_time() > until:
                 return None
         if len(seen) == before:
             return None
@@ -112,6 +114,17 @@ def _starts(goal: Polynomial, bases: Sequence[_Base], symbols: Sequence[sp.Symbo
     }  # fmt: skip
     yield {_plus(row, powers) for row in own for powers in multipliers} | own
     yield {_plus(one, other) for one in own for other in own}
+    # What has no sign has to cancel: the least common multiple of two monomials in which it stands.
+    open_ = [number for number, symbol in enumerate(symbols) if not symbol.is_nonnegative]
+    multipliers = {
+        powers
+        for base in bases if len(base.factors) == 1
+        for row in base.polynomial
+        for other in own if any(row[number] and row[number] == other[number] for number in open_)
+        for powers in (tuple(max(r, o) - o for r, o in zip(row, other, strict=True)),)
+        if _is_nonnegative(powers, symbols)
+    }  # fmt: skip
+    yield {_plus(row, powers) for row in own for powers in multipliers} | own
 
 
 def _is_nonnegative(powers: Powers, symbols: Sequence[sp.Symbol]) -> bool:

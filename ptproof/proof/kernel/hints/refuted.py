@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import contextlib
 import itertools
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -17,15 +17,17 @@ from sympy.core.function import AppliedUndef
 from ptproof.proof.algebra import NotAlgebraic
 from ptproof.proof.definedness import domain_of
 from ptproof.proof.kernel.hints.aligned import aligned
-from ptproof.proof.kernel.hints.bases import by_zero, lettered
+from ptproof.proof.kernel.hints.bases import by_zero, lettered, signs_of_bases
 from ptproof.proof.kernel.hints.bounded import bounded, settled
 from ptproof.proof.kernel.hints.cases import split
 from ptproof.proof.kernel.hints.contradictions import refuted
 from ptproof.proof.kernel.hints.enclosed import of_powers, of_waves
+from ptproof.proof.kernel.hints.exponents import by_one_power
 from ptproof.proof.kernel.hints.goals import Goal
 from ptproof.proof.kernel.hints.ground import Ground
 from ptproof.proof.kernel.hints.masks import bottoms, hidden, masked, put_in
 from ptproof.proof.kernel.hints.needed import can_be_told, needed
+from ptproof.proof.kernel.hints.ordered import ordered
 from ptproof.proof.kernel.hints.positivstellensatz import SECONDS
 from ptproof.proof.kernel.hints.slack import slackened
 from ptproof.proof.kernel.hints.told import text_of
@@ -64,7 +66,7 @@ def _refuted_from_few(goal: Goal, deeper: bool = True) -> Iterator[str]:
         core = _core(goal, known)
     if core is None:
         return
-    facts, below = [*core, *_of_bases((goal.relation, *core), known)], list[str]()
+    facts, below = [*core, *signs_of_bases((goal.relation, *core), known)], list[str]()
     for bottom in dict.fromkeys(bottoms(Goal(goal.relation, core, goal.names))):
         if bottom.is_positive:
             continue
@@ -75,7 +77,7 @@ def _refuted_from_few(goal: Goal, deeper: bool = True) -> Iterator[str]:
             below += [f"assert ({text_of(positive, goal.names)}) by (solve [ {line} ])" for line in found]
         facts += reasons
     facts = list(dict.fromkeys(facts))
-    if inner := _by_branches(Goal(goal.relation, tuple(facts), goal.names), _MOST_CASES):
+    if inner := _by_branches(Goal(goal.relation, tuple(facts), goal.names), _MOST_CASES, deeper):
         said = "".join(f"({text_of(item, goal.names)}) -> " for item in facts)
         lines = [line for line, found in bounds if any(item in facts for item in found)]
         lines += [f"assert ({text_of(item, goal.names)}) by lra" for item in equal if item in facts]
@@ -94,6 +96,24 @@ def _with_equations(goal: Goal) -> tuple[Goal, list[Relation]]:
     equal = [item for item in found.values() if item.sign == "="]
     kept = (item for item, standard in zip(goal.known, known, strict=True) if standard not in found)
     return replace(goal, known=(*kept, *equal)), equal
+
+
+def _ways(goal: Goal, deeper: bool) -> Iterator[tuple[list[str], Goal, float]]:
+    """The goal in letters, in one way after the other, with the lines for these and how long to try."""
+    if deeper and (found := ordered(goal, partial(_refuted_from_few, deeper=False))) is not None:
+        yield *_in_letters(*found), SECONDS
+    lines, plain = _in_letters([], goal)
+    more, loose = slackened(plain)
+    yield lines, plain, SECONDS / 2 if more else SECONDS
+    if more:
+        yield [*lines, *more], loose, SECONDS
+
+
+def _in_letters(lines: list[str], goal: Goal) -> tuple[list[str], Goal]:
+    for step in (aligned, masked, _without_functions, masked, by_one_power, lettered):
+        more, goal = step(goal)
+        lines = [*lines, *more]
+    return lines, goal
 
 
 def follows(goal: Goal) -> bool | None:
@@ -115,13 +135,6 @@ def _with_domains(goal: Goal) -> list[Relation]:
     """What is known, and what holds where this and the goal are defined."""
     needs = (need for item in goal.relations() for need in domain_of(item) if not need.settled and not need.given)
     return list(dict.fromkeys([*goal.known, *(need.relation for need in needs if need.relation is not None)]))
-
-
-def _of_bases(relations: Iterable[Relation], known: Iterable[Relation]) -> Iterator[Relation]:
-    """What is known of the signs of the bases of powers."""
-    sides = sp.Tuple(*(side for item in relations for side in (item.left, item.right)))
-    bases = {power.base for power in sides.atoms(sp.Pow) if not power.exp.is_Integer and not power.base.is_nonnegative}
-    yield from (item for item in known if item.standard().left == 0 and item.standard().right in bases)
 
 
 def _is_linear(item: Relation) -> bool:
@@ -148,7 +161,7 @@ def _without_functions(goal: Goal) -> tuple[list[str], Goal]:
     ], inner
 
 
-def _by_branches(goal: Goal, left: int) -> str:
+def _by_branches(goal: Goal, left: int, deeper: bool) -> str:
     """Without minima and the like if that will do; else one branch after the other; nothing if one fails.
 
     So are minima, maxima and absolute values of what would be written in another way.
@@ -156,20 +169,15 @@ def _by_branches(goal: Goal, left: int) -> str:
     for step in (partial(settled, shown=lambda inner: next(by_refutation(inner), "")), bounded):
         lines, goal = step(goal)
         if lines:
-            inner = _by_branches(goal, left)
+            inner = _by_branches(goal, left, deeper)
             return "; ".join([*lines, inner]) if inner else ""
-    lines = []
     kinds = () if aligned(goal)[0] else (sp.Piecewise,)
     if left and (found := split(goal, *kinds)) is not None:
         line, goals = found
-        each = [_by_branches(case, left - 1) for case in goals]
+        each = [_by_branches(case, left - 1, deeper) for case in goals]
         return f"{line}; [> {' | '.join(f'facts; {tactic}' for tactic in each)} ]" if all(each) else ""
-    for step in (put_in, aligned, masked, _without_functions, masked, lettered):
-        more, goal = step(goal)
-        lines += more
-    more, loose = slackened(goal)
-    ways = ([], goal, SECONDS / 3 if more else SECONDS), (more, loose, SECONDS)
-    for before, there, seconds in ways if more else ways[:1]:
+    lines, goal = put_in(goal)
+    for before, there, seconds in _ways(goal, deeper):
         if inner := _by_cases(there, left, seconds):
             return "; ".join([*lines, *before, inner])
     return ""

@@ -82,6 +82,11 @@ Proof.
   intros f x D N. apply (filter_imp (fun y => 0 < f y)); [intros; lra | apply near_positive; assumption].
 Qed.
 
+Lemma even_power : forall x n, Nat.even n = true -> 0 <= x ^ n.
+Proof.
+  intros x n E. apply Nat.even_spec in E. destruct E as [m E]. rewrite E, pow_mult. apply pow_le, pow2_ge_0.
+Qed.
+
 (* Hypotheses taken apart, and what is known of integers. *)
 Ltac facts :=
   repeat match goal with
@@ -129,7 +134,7 @@ with sign_nonneg :=
     | |- 0 <= _ / _ => apply Rdiv_le_0_compat; [sign_nonneg | sign_pos]
     | |- 0 <= / _ => left; apply Rinv_0_lt_compat; sign_pos
     | |- 0 <= _ ^ 2 => apply pow2_ge_0
-    | |- 0 <= _ ^ _ => apply pow_le; sign_nonneg
+    | |- 0 <= _ ^ _ => first [ apply even_power; reflexivity | apply pow_le; sign_nonneg ]
     | |- 0 <= sqrt _ => apply sqrt_pos
     | |- 0 <= rpow _ _ => apply rpow_nonneg
     | |- 0 <= Rabs _ => apply Rabs_pos

@@ -126,6 +126,7 @@ Ltac said_by_powers H := lazymatch type of H with
 Ltac in_words H := first
   [ exact H | timeout 10 (as_said H) | lra
   | solve [ revert H; progress simple_powers; intro H; first [ exact H | timeout 10 (as_said H) ] ]
+  | solve [ progress (repeat match goal with |- context [sqrt ?x] => is_var x; by_root x end); timeout 10 (as_said H) ]
   | solve [ timeout 12 (said_by_powers H) ] ].
 Ltac as_claimed P t := let H := fresh in assert (H : P) by (first [ assumption | t ]); in_words H.
 Ltac as_known P H := first [ assert P by assumption; clear H | assert P by (timeout 25 (in_words H)); clear H | idtac ].
@@ -220,3 +221,17 @@ Proof.
 Qed.
 Ltac power_at_least b e n :=
   assert (b ^ n <= Rpower b e) by (apply Rpower_at_least; [ first [ lra | sign_above ] | simpl INR; first [ lra | nra ] ]).
+(* A power whose exponent is a whole multiple of that of another one. *)
+Lemma Rpower_whole : forall x e f n, f = INR n * e -> Rpower x f = Rpower x e ^ n.
+Proof. intros x e f n E. rewrite <- Rpower_pow by apply exp_pos. rewrite Rpower_mult, E. f_equal. ring. Qed.
+Lemma rpow_whole : forall x e f n, f = INR n * e -> 0 <= x -> 0 < e -> (0 < n)%nat -> rpow x f = rpow x e ^ n.
+Proof.
+  intros x e f n E [X | X] P N.
+  - rewrite !rpow_Rpower by exact X. apply Rpower_whole, E.
+  - assert (0 < INR n) by (apply lt_0_INR, N). subst x f. rewrite !rpow_zero by nra. symmetry. apply pow_i, N.
+Qed.
+Ltac whole_power old new n := let E := fresh in
+  assert (E : old = new ^ n) by (first
+    [ apply Rpower_whole; cbn [INR]; rational
+    | apply rpow_whole; [ cbn [INR]; rational | first [ assumption | lra | sign ] | exponent_sign | lia ] ]);
+  rewrite ?E in *; clear E.
