@@ -43,7 +43,14 @@ class Lemma:
     says: Any
 
 
-Step: TypeAlias = Put | At | Lemma
+@dataclass(frozen=True)
+class Chosen:
+    """Values that are shown to exist: an expression for each letter."""
+
+    values: tuple[tuple[Any, Any], ...]
+
+
+Step: TypeAlias = Put | At | Lemma | Chosen
 _noted: ContextVar[list[Any] | None] = ContextVar("noted", default=None)
 
 

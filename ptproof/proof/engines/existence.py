@@ -9,6 +9,7 @@ from typing import Any
 
 import sympy as sp
 
+from ptproof.proof import steps
 from ptproof.proof.claim import Goal, engine
 from ptproof.proof.engines.quantified import shown_sign
 from ptproof.proof.engines.reals import are_met, follows, reals
@@ -26,6 +27,7 @@ def exists_by(goal: Goal, choice: Mapping[sp.Symbol, Any], *lemmas: Fact) -> Evi
     statement = goal.statement
     if not isinstance(statement, Exists) or set(choice) != set(statement.variables):
         return undecided("the values given are not for the variables that exist")
+    steps.note(steps.Chosen(tuple((symbol, sp.sympify(value)) for symbol, value in choice.items())))
     later = {*statement.over, *statement.variables}
     for symbol, value in choice.items():
         if sp.sympify(value).free_symbols & later:

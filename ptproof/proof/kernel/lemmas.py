@@ -13,7 +13,7 @@ from ptproof.proof.kernel.remembered import Confirmation
 from ptproof.proof.kernel.terms import NoTranslation
 from ptproof.proof.kernel.theorem import Proposition, proposition
 from ptproof.proof.load import homes_of
-from ptproof.proof.statement import ForAll
+from ptproof.proof.statement import Exists, ForAll
 from ptproof.proof.steps import Step, noting
 from ptproof.reading.limits import Answered, Workers
 
@@ -47,8 +47,9 @@ def settled(answers: Mapping[str, Confirmation]) -> dict[str, Confirmation]:
 
 
 def has_steps(claim: Claim) -> bool:
-    """Whether the proof may put something to use: a claim, or what is assumed for all values."""
-    return bool(claim.uses) or any(isinstance(item, ForAll) for item in claim.assumptions)
+    """Whether the proof may put something to use, a claim or what is assumed for all values; or chooses a value."""
+    chooses = isinstance(claim.statement, Exists)
+    return chooses or bool(claim.uses) or any(isinstance(item, ForAll) for item in claim.assumptions)
 
 
 class Noted:

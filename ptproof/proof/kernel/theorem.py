@@ -70,9 +70,9 @@ def proposition(claim: Claim) -> Proposition:
         premises += smooth.of_derivatives(derivatives, names)
     else:
         premises += smooth.premises(claim.statement, functions, names)
-    for item in claim.assumptions:
+    for item in outside(claim):
         premises += given(item, names)
-    conclusions, domain = _said(claim.statement, names)
+    conclusions, domain = _said(claim, names)
     if claim.where_defined:
         premises += domain
     else:
@@ -96,13 +96,13 @@ def _text(
 
 
 def _free(claim: Claim) -> set[sp.Symbol]:
-    free: set[sp.Symbol] = set()
-    for item in (claim.statement, *claim.assumptions):
+    free = free_symbols(inside(claim))
+    for item in (claim.statement, *outside(claim)):
         match item:
             case ForAll(variables=variables):
                 free |= free_symbols([item]) - set(variables)
             case Exists(variables=variables, over=over):
-                free |= free_symbols([item]) - {*variables, *over}
+                free = (free | free_symbols([item])) - {*variables, *over}
             case Smooth(variables=variables):
                 free |= free_symbols([item]) | set(variables)
             case Relation() | All():
@@ -210,10 +210,11 @@ def _improper(integral: sp.Integral, value: sp.Basic, names: Names) -> tuple[tup
     return domain, Part(said)
 
 
-def _said(statement: Statement, names: Names) -> tuple[list[Part], list[Part]]:
+def _said(claim: Claim, names: Names) -> tuple[list[Part], list[Part]]:
     """The conclusions, and what has to be defined for them."""
+    statement = claim.statement
     if isinstance(statement, Exists):
-        return [_exists(statement, names)], []
+        return [_exists(statement, inside(claim), names)], []
     if isinstance(statement, Smooth):
         return smooth.conclusions(statement, names), []
     if not isinstance(statement, Relation | All):
@@ -222,11 +223,26 @@ def _said(statement: Statement, names: Names) -> tuple[list[Part], list[Part]]:
     return [text for _, text in said], list(dict.fromkeys(part for domain, _ in said for part in domain))
 
 
-def _exists(statement: Exists, names: Names) -> Part:
+def inside(claim: Claim) -> tuple[Assumption, ...]:
+    """What is assumed of letters that come after those which exist: it says which of their values count."""
+    if not isinstance(claim.statement, Exists):
+        return ()
+    later = claim.statement.over
+    return tuple(item for item in claim.assumptions if not free_symbols([item]).isdisjoint(later))
+
+
+def outside(claim: Claim) -> tuple[Assumption, ...]:
+    """What is assumed before the statement."""
+    later = inside(claim)
+    return tuple(item for item in claim.assumptions if item not in later)
+
+
+def _exists(statement: Exists, assumed: Sequence[Assumption], names: Names) -> Part:
     body = {part.text: part for given in plain(statement.body) for part in _relation(given, names)}
     text = _conjunction(body.values())
     if statement.over:
-        text = declared.for_all(statement.over, f"({text})", names)
+        premises = (part.text for item in assumed for part in given(item, names))
+        text = declared.for_all(statement.over, f"({text})", names, premises)
     for symbol in reversed(statement.variables):
         text = " /\\ ".join([*declared.of_symbol(symbol, names[symbol]), text])
         text = f"(exists {names[symbol]} : R, {text})"

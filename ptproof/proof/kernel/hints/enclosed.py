@@ -50,6 +50,16 @@ def _range(kind: str, low: sp.Rational, high: sp.Rational) -> tuple[sp.Rational,
     return sp.Rational(ends[0], _PARTS), sp.Rational(ends[1], _PARTS)
 
 
+def of_exponentials(goal: Goal) -> Iterator[tuple[str, list[Relation]]]:
+    """For each exponential that it is above its tangent at 0."""
+    sides = sp.Tuple(*(side for item in goal.relations() for side in (item.left, item.right)))
+    exponents = {part.args[0] for part in sides.atoms(sp.exp)}
+    upright = {-item if item.could_extract_minus_sign() else item for item in exponents}
+    for exponent in sorted(upright, key=sp.default_sort_key) if len(upright) <= _MOST else ():
+        if not exponent.has(AppliedUndef, sp.Derivative):
+            yield f"pose proof (exp_above {goal.text(exponent)})", [Relation(1 + exponent, "<=", sp.exp(exponent))]
+
+
 def of_powers(goal: Goal) -> Iterator[tuple[str, list[Relation]]]:
     """For each power of unknown exponent n, where that is seen to be at least a whole number, the power of that one."""
     sides = sp.Tuple(*(side for item in goal.relations() for side in (item.left, item.right)))

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -37,9 +37,9 @@ from ptproof.proof.kernel.names import Names, fresh
 from ptproof.proof.kernel.obligations import Part
 from ptproof.proof.kernel.smooth import script as smoothness
 from ptproof.proof.kernel.terms import NoTranslation, term
-from ptproof.proof.kernel.theorem import Proposition
+from ptproof.proof.kernel.theorem import Proposition, inside
 from ptproof.proof.statement import Relation
-from ptproof.proof.steps import Step
+from ptproof.proof.steps import Chosen, Step
 
 
 def script(
@@ -123,7 +123,8 @@ def _replayed(
     told = Told(dict(said.names), known, [])
     named = {content: (told.new(f"used_{number}"), lemma) for number, (content, lemma) in enumerate(lemmas.items())}
     told.lines += _begun(said, given, (name for name, _ in named.values()))
-    sought = _Sought(said, (), (), (), False, chains=True)
+    chosen = {symbol: value for step in steps if isinstance(step, Chosen) for symbol, value in step.values}
+    sought = _Sought(said, (), (), (), False, chains=True, chosen=chosen)
     more = tuple(derived(known, said))
     # What has to be defined is shown while little is known: Coq looks at all of it for each step of arithmetic.
     alone = replace(sought, known=tuple(known))
@@ -180,6 +181,7 @@ class _Sought:
     thorough: bool
     chains: bool = False
     every: tuple[Relation, ...] = ()  # what is known before it was narrowed
+    chosen: Mapping[sp.Basic, sp.Expr] = field(default_factory=dict)  # values that are shown to exist
 
     def narrowed(self, part: Part) -> _Sought:
         """With less to look at, where much is known by lemmas."""
@@ -192,7 +194,7 @@ class _Sought:
 
 
 def _leaf(part: Part, sought: _Sought) -> str:
-    if part.exists is not None and sought.thorough and (hint := _witnessed(part, sought)):
+    if part.exists is not None and (sought.thorough or sought.chosen) and (hint := _witnessed(part, sought)):
         return _tried(hint)
     if part.base is not None and part.exponent is not None and (sought.thorough or sought.chains):
         if part.exponent.is_negative:
@@ -256,18 +258,20 @@ def _by_values(goal: Goal, sought: _Sought) -> Iterator[str]:
 def _witnessed(part: Part, sought: _Sought) -> str:
     """The witnesses one after the other, and then the body for them."""
     said, known = sought.said, sought.known
-    values = witnesses(part.exists, known) if part.exists else None
-    if part.exists is None or values is None:
+    values = sought.chosen or (witnesses(part.exists, known) if part.exists else None)
+    if part.exists is None or not values or not set(part.exists.variables) <= set(values):
         return ""
     steps: list[str] = []
     for symbol in part.exists.variables:
-        positive = sought.goal(Relation(sp.Integer(0), "<", values[symbol]))
-        ways = " | ".join(f"solve [ {hint} ]" for hint in _by_steps(positive, said)) or "fail"
+        positive = Relation(sp.Integer(0), "<", values[symbol])
+        ways = _leaf(Part("", positive), replace(sought, more=()))
         kinds = f"; split; [> solve [ first [ sign | {ways} ] ] | ]" * len(of_symbol(symbol, said.names[symbol]))
         steps.append(f"exists {term(values[symbol], said.names)}{kinds}")
     put = (item.relation and item.relation.map(lambda side: side.xreplace(values)) for item in part.body)
     body = [replace(item, relation=relation) for item, relation in zip(part.body, put, strict=True)]
-    leaves = [_leaf(item, replace(sought, more=())) for item in body]
+    later = [item for item in inside(said.claim) if isinstance(item, Relation)]
+    sought = replace(sought, known=(*known, *later), every=(*(sought.every or known), *later), more=())
+    leaves = [_leaf(item, sought) for item in body]
     intro = f"intros {' '.join(said.names[symbol] for symbol in part.exists.over)}; " if part.exists.over else ""
     return f"{'; '.join(steps)}; {intro}intros; facts; pieces; [> {' | '.join(leaves)} ]"
 

@@ -21,7 +21,7 @@ from ptproof.proof.kernel.hints.bases import by_zero, lettered, signs_of_bases
 from ptproof.proof.kernel.hints.bounded import bounded, settled
 from ptproof.proof.kernel.hints.cases import split
 from ptproof.proof.kernel.hints.contradictions import refuted
-from ptproof.proof.kernel.hints.enclosed import of_powers, of_waves
+from ptproof.proof.kernel.hints.enclosed import of_exponentials, of_powers, of_waves
 from ptproof.proof.kernel.hints.exponents import by_one_power
 from ptproof.proof.kernel.hints.goals import Goal
 from ptproof.proof.kernel.hints.ground import Ground
@@ -61,7 +61,7 @@ def _refuted_from_few(goal: Goal, deeper: bool = True) -> Iterator[str]:
     """Tactics for the goal, ``deeper`` also for that what stands below a line is positive."""
     goal, equal = _with_equations(goal)
     known, bounds = _with_domains(goal), list[tuple[str, list[Relation]]]()
-    if (core := _core(goal, known)) is None and (bounds := [*of_waves(goal), *of_powers(goal)]):
+    if (core := _core(goal, known)) is None and (bounds := [*of_waves(goal), *of_powers(goal), *of_exponentials(goal)]):
         known += [item for _, facts in bounds for item in facts]
         core = _core(goal, known)
     if core is None:

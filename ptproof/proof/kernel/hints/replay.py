@@ -22,7 +22,7 @@ from ptproof.proof.kernel.hints.told import Told, alike, sides_of, text_of
 from ptproof.proof.kernel.names import Names, fresh
 from ptproof.proof.kernel.obligations import Part
 from ptproof.proof.kernel.terms import NoTranslation, term
-from ptproof.proof.kernel.theorem import Proposition, everywhere, given
+from ptproof.proof.kernel.theorem import Proposition, everywhere, given, outside
 from ptproof.proof.statement import (
     ForAll,
     Implication,
@@ -155,14 +155,14 @@ class Replay:
             for text in declared.of_symbol(symbol, "x"):
                 count += 1
                 yield self._kind(text, values.into(symbol), told)
-        own = [given(item, used.names) for item in used.claim.assumptions]
+        own = [given(item, used.names) for item in outside(used.claim)]
         behind = sum(map(len, own))
         rest = len(used.premises) - behind
         if used.claim.where_defined:
             raise NoTranslation("only where it is defined")
         for _ in used.premises[count:rest]:
             yield "function_premise"
-        for item, parts in zip(used.claim.assumptions, own, strict=True):
+        for item, parts in zip(outside(used.claim), own, strict=True):
             if isinstance(item, ForAll):
                 yield self._quantified(item, used.names, values, next(anywhere, Anywhere()), told)
                 continue
@@ -228,10 +228,8 @@ class Replay:
 
     def _at(self, point: tuple[Any, ...], told: Told) -> None:
         """The claim's own quantified assumptions at a point, those that can be taken there."""
-        position = len(self.said.premises) - sum(
-            len(given(item, self.said.names)) for item in self.said.claim.assumptions
-        )
-        for item in self.said.claim.assumptions:
+        position = len(self.said.premises) - sum(len(given(item, self.said.names)) for item in outside(self.said.claim))
+        for item in outside(self.said.claim):
             if isinstance(item, ForAll) and len(item.variables) == len(point):
                 here = Told(told.names, list(told.known), [])
                 with suppress(NoTranslation, InputError):
