@@ -273,7 +273,7 @@ def _witnessed(part: Part, sought: _Sought) -> str:
     sought = replace(sought, known=(*known, *later), every=(*(sought.every or known), *later), more=())
     leaves = [_leaf(item, sought) for item in body]
     intro = f"intros {' '.join(said.names[symbol] for symbol in part.exists.over)}; " if part.exists.over else ""
-    return f"{'; '.join(steps)}; {intro}intros; facts; pieces; [> {' | '.join(leaves)} ]"
+    return f"{'; '.join(steps)}; {intro}intros; facts; simple_values; pieces; [> {' | '.join(leaves)} ]"
 
 
 def _by_steps(goal: Goal, said: Proposition) -> Iterator[str]:

@@ -82,6 +82,8 @@ Proof.
   intros f x D N. apply (filter_imp (fun y => 0 < f y)); [intros; lra | apply near_positive; assumption].
 Qed.
 
+Lemma ln_of_more : forall x, 0 < x -> 0 < ln (x + 1).
+Proof. intros x P. rewrite <- ln_1. apply ln_increasing; lra. Qed.
 Lemma even_power : forall x n, Nat.even n = true -> 0 <= x ^ n.
 Proof.
   intros x n E. apply Nat.even_spec in E. destruct E as [m E]. rewrite E, pow_mult. apply pow_le, pow2_ge_0.
@@ -116,6 +118,7 @@ with sign_pos :=
     | |- 0 < _ ^ _ => first [ apply pow_lt; sign_pos | apply pow2_gt_0; sign ]
     | |- 0 < sqrt _ => apply sqrt_lt_R0; sign_pos
     | |- 0 < exp _ => apply exp_pos
+    | |- 0 < ln (_ + 1) => apply ln_of_more; sign_pos
     | |- 0 < Rpower _ _ => apply exp_pos
     | |- 0 < rpow _ _ => rewrite rpow_Rpower by sign_pos; apply exp_pos
     | |- 0 < PI => exact PI_RGT_0

@@ -95,6 +95,9 @@ Ltac simple_powers :=
 Lemma rpow_of_one : forall e, rpow 1 e = 1.
 Proof. intro e. rewrite rpow_Rpower by lra. unfold Rpower. rewrite ln_1, Rmult_0_r. apply exp_0. Qed.
 Ltac simple_values := repeat match goal with
+  | |- context [exp ?x] => lazymatch x with context [ln ?u] => let E := fresh in first
+      [ assert (E : x = ln u) by rational; rewrite E, (exp_ln u) by sign; clear E
+      | assert (E : x = - ln u) by rational; rewrite E, exp_Ropp, (exp_ln u) by sign; clear E ] end
   | |- context [sqrt ?x] => let E := fresh in assert (E : x = 1) by rational; rewrite E, sqrt_1; clear E
   | |- context [sqrt ?x] => let E := fresh in assert (E : x = 0) by rational; rewrite E, sqrt_0; clear E
   | |- context [cos (IZR (Zneg ?n))] => change (IZR (Zneg n)) with (- IZR (Zpos n)); rewrite cos_neg
