@@ -136,10 +136,12 @@ Proof. intros x y Y L. rewrite <- (sqrt_pow2 y Y). apply sqrt_le_1_alt, L. Qed.
 Ltac by_square_of_root :=
   first [ apply below_root; [ sign | ] | apply root_below; [ sign | ] ];
   rewrite ?Rpow_mult_distr; repeat rewrite pow2_sqrt by sign; found_as.
+Ltac by_squares_of_sides := match goal with H : ?x <= ?y |- ?a <= ?y ^ 2 =>
+  apply Rle_trans with (x ^ 2); [ right; squares_of_factors; alike | apply pow_incr; split; [ first [ assumption | sign ] | exact H ] ] end.
 Ltac library_lemma := first
   [ assumption | lra | solve [ sign ] | apply rpow_nonneg
   | apply exp_le_exp; lra | apply exp_above
-  | solve [ by_square_of_root ]
+  | solve [ by_square_of_root ] | solve [ by_squares_of_sides ]
   | apply rpow_mono; first [ assumption | lra | sign ]
   | timeout 3 inequality ].
 
