@@ -95,3 +95,63 @@ def _decaying_from(
     words = " ".join(map(rate.write, (level, c, r, w)))
     lemma = f"(bernoulli_bound_as {U} {p} {q} {words} {pair} {tail})"
     return asserted(rate, end, balance + decayed * w, lemma, steps, f"(rpow {pair} + {power})")
+
+
+def rooted(rate: Rate, start: sp.Expr, end: sp.Expr) -> Iterator[Compared]:
+    """At a rate b V^q - c V^(2q), the power K of what the root V^(1 - q) falls to, where K = 1 / (1 - q)."""
+    b, c, small, large = _two_powers(rate)
+    K = sp.factor(sp.together(1 / (1 - small)))
+    r = sp.expand(K - 1)
+    less = sp.expand(r - 1)
+    if not c.is_positive or not b.is_nonnegative or not less.is_positive:
+        return
+    first = rate.at(start)
+    v, root = rate.as_said(first ** (less / K)), rate.as_said(first ** (1 / K))
+    decayed = rate.as_said((1 + c / K * less * v * (end - start)) ** (-1 / less))
+    level = rate.as_said((b / c) ** (1 / r)) if b != 0 else sp.S.Zero
+    bound = rate.as_said((decayed * root + level) ** K)
+    p, q, U, name = rate.write(start), rate.write(end), rate.names[rate.function.func], rate.names[rate.time]
+    order = in_order(rate, start, end)
+    exponents = ["rational", "rational"] if b != 0 else ["rational"]
+    steps = [
+        order, "sign", *(["sign"] if b != 0 else []), f"difference_as {rate.write(less)}", "rational", "never_negative",
+        f"cbv beta; rate_is {U} {name} ltac:(same_rate)", *exponents, "same_power", "rational", "rational", "rational",
+        *exponents[1:] * 2,
+    ]  # fmt: skip
+    powers = [large] if b == 0 else [small, large]
+    given = [*([b] if b != 0 else []), c, K, r, *powers, v, decayed.base, decayed.exp, root.exp]
+    given += [] if b == 0 else [level.base, level.exp]
+    word = "root_decay_as" if b == 0 else "root_bound_as"
+    lemma = f"({word} {U} {p} {q} {' '.join(map(rate.write, given))})"
+    falls = (
+        f"rpow {rate.write(decayed.base)} {rate.write(decayed.exp)} * rpow {rate.write(first)} {rate.write(root.exp)}"
+    )
+    above = "" if b == 0 else f" + rpow {rate.write(level.base)} {rate.write(level.exp)}"
+    exact = f"(rpow ({falls}{above}) {rate.write(K)})"
+    yield asserted(rate, end, bound, lemma, steps, exact, "right; alike")
+
+
+def _two_powers(rate: Rate) -> tuple[sp.Expr, sp.Expr, sp.Expr, sp.Expr]:
+    """b, c, q and 2q of the rate b V^q - c V^(2q), where b may be 0.
+
+    Raises
+    ------
+    NoTranslation
+        If it is not of this form.
+    """
+    found = {part for part in rate.rate.atoms(sp.Pow) if part.base == rate.function}
+    large = max(found, key=lambda part: float(part.exp.subs(dict.fromkeys(part.exp.free_symbols, 2))), default=None)
+    rest = found - {large}
+    if large is None or len(rest) > 1:
+        raise NoTranslation("no powers")
+    values = {part: sp.Dummy("v", real=True) for part in (large, *rest)}
+    expression = sp.expand(rate.rate.xreplace(values))
+    a, *others = (sp.diff(expression, value) for value in values.values())
+    b = others[0] if others else sp.S.Zero
+    small = next(iter(rest)).exp if rest else large.exp / 2
+    linear = expression - a * values[large] - sum(b * values[part] for part in rest)
+    if sp.expand(linear) != 0 or (a + b).has(rate.time, rate.function, *values.values()):
+        raise NoTranslation("not a sum of multiples of two powers")
+    if sp.simplify(2 * small - large.exp) != 0:
+        raise NoTranslation("not a power and its square")
+    return b, -a, small, large.exp

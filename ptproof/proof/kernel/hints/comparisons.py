@@ -164,11 +164,13 @@ def in_order(rate: Rate, start: sp.Expr, end: sp.Expr) -> str:
     return f"first [ {' | '.join(['bound', *ways])} ]"
 
 
-def asserted(rate: Rate, end: sp.Expr, bound: sp.Expr, lemma: str, steps: Sequence[str], exact: str) -> Compared:
+def asserted(
+    rate: Rate, end: sp.Expr, bound: sp.Expr, lemma: str, steps: Sequence[str], exact: str, same: str = "same"
+) -> Compared:  # fmt: skip
     """The bound at the end, by a lemma of which the conclusion says ``exact``."""
     left = rate.at(end)
     line = (f"assert ({rate.write(left)} <= {rate.write(bound)}); [ apply Rle_trans with {exact}; "
-            f"[ apply {lemma}; [ {' | '.join(steps)} ] | same ] | ]")  # fmt: skip
+            f"[ apply {lemma}; [ {' | '.join(steps)} ] | {same} ] | ]")  # fmt: skip
     return Relation(left, "<=", bound), line
 
 

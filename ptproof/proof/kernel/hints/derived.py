@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 
 import sympy as sp
 
-from ptproof.proof.kernel.hints.bernoulli import decaying, rated
+from ptproof.proof.kernel.hints.bernoulli import decaying, rated, rooted
 from ptproof.proof.kernel.hints.comparisons import compared
 from ptproof.proof.kernel.hints.supersolutions import never_above, weakened
 from ptproof.proof.kernel.names import Names
@@ -24,7 +24,7 @@ def derived(known: Sequence[Relation], said: Proposition) -> list[Derived]:
     for item in known:
         with contextlib.suppress(NoTranslation):
             found += _raised(item.standard(), said.names)
-    bounds = list(compared(said.claim, known, said.names, (decaying, rated)))
+    bounds = list(compared(said.claim, known, said.names, (decaying, rated, rooted)))
     found += [*bounds, *(more for bound in bounds for more in weakened(said, bound, list(known)))]
     with contextlib.suppress(NoTranslation, sp.PolynomialError):
         found += never_above(said, list(known))

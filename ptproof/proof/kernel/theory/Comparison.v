@@ -391,6 +391,71 @@ Proof.
     intros s S. rewrite <- rpow_Rpower by (apply P, S). apply A, S.
 Qed.
 
+(* V' <= b V^q - c V^(2q), with V >= 0, c > 0, b >= 0 and 1/2 < q < 1: the root U = V^(1 - q) falls below the sum of its
+   decay and of the level at which b and c balance. Here K = 1 / (1 - q) and r = K - 1; at V = 0 the root has no rate. *)
+Lemma root_bound : forall (V : R -> R) p q b c K r, p <= q -> 0 < c -> 0 <= b -> 1 < r -> K = r + 1 ->
+  (forall s, p <= s <= q -> 0 <= V s) ->
+  (forall s, p <= s <= q -> ex_derive V s /\ Derive V s <= b * rpow (V s) (r / K) - c * rpow (V s) (2 * r / K)) ->
+  V q <= rpow (rpow (b / c) (/ r) + bernoulli_solution (rpow (V p) (/ K)) (c / K) r p q) K.
+Proof.
+  intros V p q b c K r L C B R1 EK N A.
+  assert (K0 : 0 < K) by lra. assert (I0 : 0 < / K) by (apply Rinv_0_lt_compat, K0).
+  assert (BC : 0 <= b / c) by (apply Rdiv_le_0_compat; lra).
+  set (l := rpow (b / c) (/ r)). assert (l0 : 0 <= l) by apply rpow_nonneg.
+  assert (El : rpow l r = b / c) by (unfold l; apply rpow_root; lra).
+  set (w := rpow (V p) (/ K)). assert (w0 : 0 <= w) by apply rpow_nonneg.
+  assert (Ew : rpow w K = V p) by (unfold w; apply rpow_root; [exact K0 | apply N; lra]).
+  assert (CK : 0 < c / K) by (apply Rdiv_lt_0_compat; assumption).
+  clearbody l w. set (y := bernoulli_solution w (c / K) r p).
+  destruct (Rle_lt_dec (l + w) 0) as [Z | P].
+  { assert (l = 0) by lra. assert (w = 0) by lra. subst l w. rewrite rpow_zero in El, Ew by lra.
+    assert (b = 0) by (replace b with (b / c * c) by (field; lra); rewrite <- El; ring).
+    apply Rle_trans with (V p); [|rewrite <- Ew; apply rpow_nonneg].
+    apply (does_not_grow V (Derive V) p q L).
+    - intros s S. apply Derive_correct, A, S.
+    - intros s S. destruct (A s S) as [_ Q]. subst b. pose proof (rpow_nonneg (V s) (2 * r / K)). nra. }
+  assert (Y0 : forall s, p <= s <= q -> 0 <= y s /\ is_derive y s (- (c / K) * rpow (y s) r)).
+  { intros s S. apply bernoulli_solves; lra. }
+  assert (Y1 : forall s, p <= s <= q -> 0 < l + y s).
+  { intros s S. destruct (Y0 s S) as [Q _]. destruct w0 as [W | W]; [|lra].
+    assert (0 < y s); [|lra]. unfold y, bernoulli_solution. apply Rmult_lt_0_compat; [|exact W]. rewrite rpow_Rpower; [apply exp_pos|].
+    assert (0 <= c / K * (r - 1) * rpow w (r - 1) * (s - p)); [|lra].
+    repeat apply Rmult_le_pos; try lra. apply rpow_nonneg. }
+  assert (Yp : y p = w) by apply bernoulli_start.
+  rewrite (rpow_Rpower (l + y q)) by (apply Y1; lra).
+  enough (V q - Rpower (l + y q) K <= 0) by lra.
+  apply (stays_below (fun s => V s - Rpower (l + y s) K)
+                     (fun s => Derive V s - - c * (Rpower (l + y s) r * rpow (y s) r)) p q L).
+  - intros s S. apply (is_derive_minus V); [apply Derive_correct, A, S|].
+    destruct (Y0 s S) as [_ D]. pose proof (Y1 s S) as Q.
+    assert (E : is_derive (fun u => Rpower u K) (l + y s) (K * Rpower (l + y s) r)).
+    { unfold Rpower. auto_derive; [exact Q|]. fold (Rpower (l + y s) K). fold (Rpower (l + y s) r).
+      replace (Rpower (l + y s) K) with (Rpower (l + y s) r * (l + y s)); [field; lra|].
+      rewrite EK, Rpower_plus, Rpower_1 by exact Q. reflexivity. }
+    replace (- c * (Rpower (l + y s) r * rpow (y s) r)) with ((0 + - (c / K) * rpow (y s) r) * (K * Rpower (l + y s) r))
+      by (field; lra).
+    apply (is_derive_comp (fun u => Rpower u K) (fun s => l + y s)); [exact E|].
+    apply (is_derive_plus (fun _ => l) y); [apply constant | exact D].
+  - rewrite Yp. rewrite <- (rpow_Rpower (l + w)) by lra. rewrite <- Ew at 1.
+    assert (rpow w K <= rpow (l + w) K); [apply rpow_mono; lra | lra].
+  - intros s S D. destruct (A s S) as [_ Q]. destruct (Y0 s S) as [T _]. pose proof (Y1 s S) as P1.
+    assert (Vs : 0 < V s) by (pose proof (exp_pos (K * ln (l + y s))); unfold Rpower in D; lra).
+    set (X := rpow (V s) (r / K)) in *.
+    assert (EX : rpow (V s) (2 * r / K) = X * X).
+    { unfold X. rewrite !rpow_Rpower by exact Vs. rewrite <- Rpower_plus. f_equal. field. lra. }
+    assert (G : rpow (l + y s) r <= X).
+    { unfold X. rewrite !rpow_Rpower by lra. replace (Rpower (l + y s) r) with (Rpower (Rpower (l + y s) K) (r / K)).
+      - apply Rle_Rpower_l; [apply Rdiv_le_0_compat; lra|]. split; [apply exp_pos | lra].
+      - rewrite Rpower_mult. f_equal. field. lra. }
+    pose proof (rpow_sum l (y s) r R1 l0 T) as M. rewrite El in M.
+    rewrite <- (rpow_Rpower (l + y s) r) by exact P1. set (J := rpow (l + y s) r) in *.
+    set (H := rpow (y s) r) in *. assert (H0 : 0 <= H) by apply rpow_nonneg.
+    rewrite EX in Q. set (a := b / c) in *. assert (Eb : b = c * a) by (unfold a; field; lra).
+    assert (J * H <= X * (X - a)) by (apply Rmult_le_compat; lra).
+    assert (c * (J * H) <= c * (X * (X - a))) by (apply Rmult_le_compat_l; lra).
+    rewrite Eb in Q. lra.
+Qed.
+
 (* The rate of U at s, by an assumption for all s. *)
 Ltac bound := first [ assumption | lra ].
 Ltac premises_of H :=
@@ -447,6 +512,34 @@ Lemma bernoulli_any_rate_as : forall (U F a : R -> R) p q r v B e, p <= q -> 1 <
   U q <= rpow B e * U p.
 Proof.
   intros U F a p q r v B e L R1 N A D Ev EB Ee P. subst v B e. apply (bernoulli_any_rate U F a); assumption.
+Qed.
+Lemma root_bound_as : forall (V : R -> R) p q b c K r m n v B e i A j, p <= q -> 0 < c -> 0 <= b -> 1 < r -> K = r + 1 ->
+  (forall s, p <= s <= q -> 0 <= V s) ->
+  (forall s, p <= s <= q -> ex_derive V s /\ Derive V s <= b * rpow (V s) m - c * rpow (V s) n) ->
+  m = r / K -> n = 2 * r / K -> v = rpow (V p) ((r - 1) / K) -> B = 1 + c / K * (r - 1) * v * (q - p) ->
+  e = - (1 / (r - 1)) -> i = / K -> A = b / c -> j = / r ->
+  V q <= rpow (rpow B e * rpow (V p) i + rpow A j) K.
+Proof.
+  intros V p q b c K r m n v B e i A j L C BN R1 EK N H Em En Ev EB Ee Ei EA Ej. subst m n v B e i A j.
+  pose proof (root_bound V p q b c K r L C BN R1 EK N H) as F. unfold bernoulli_solution in F.
+  replace (rpow (rpow (V p) (/ K)) (r - 1)) with (rpow (V p) ((r - 1) / K)) in F; [rewrite Rplus_comm; exact F|].
+  assert (0 < K) by lra. destruct (N p (conj (Rle_refl p) L)) as [P | P].
+  - rewrite (rpow_Rpower (V p)), (rpow_Rpower (V p)), rpow_Rpower by (try apply exp_pos; exact P).
+    rewrite Rpower_mult. f_equal. field. lra.
+  - assert (0 < / K) by (apply Rinv_0_lt_compat; assumption). assert (0 < (r - 1) / K) by (apply Rdiv_lt_0_compat; lra).
+    rewrite <- P, !rpow_zero by (try apply rpow_zero; lra). reflexivity.
+Qed.
+Lemma root_decay_as : forall (V : R -> R) p q c K r n v B e i, p <= q -> 0 < c -> 1 < r -> K = r + 1 ->
+  (forall s, p <= s <= q -> 0 <= V s) ->
+  (forall s, p <= s <= q -> ex_derive V s /\ Derive V s <= - (c * rpow (V s) n)) ->
+  n = 2 * r / K -> v = rpow (V p) ((r - 1) / K) -> B = 1 + c / K * (r - 1) * v * (q - p) ->
+  e = - (1 / (r - 1)) -> i = / K -> V q <= rpow (rpow B e * rpow (V p) i) K.
+Proof.
+  intros V p q c K r n v B e i L C R1 EK N H En Ev EB Ee Ei.
+  replace (rpow B e * rpow (V p) i) with (rpow B e * rpow (V p) i + rpow (0 / c) (/ r)).
+  - apply (root_bound_as V p q 0 c K r (r / K) n v B e i (0 / c) (/ r)); try assumption; try reflexivity; [lra|].
+    intros s S. destruct (H s S). split; [assumption | lra].
+  - rewrite (rpow_zero (0 / c)); [ring | unfold Rdiv; ring | apply Rinv_0_lt_compat; lra].
 Qed.
 Ltac never_negative := intros ? ?; facts; cbv beta;
   first [ sign | apply Rge_le; match goal with H : forall _, _ |- _ => solve [ apply H; first [ assumption | lra ] ] end ].

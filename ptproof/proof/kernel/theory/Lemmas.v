@@ -125,10 +125,15 @@ Ltac said_by_powers H := lazymatch type of H with
   | _ > _ => apply (gt_as _ _ _ _ H)
   | _ = _ => apply (eq_as _ _ _ _ H)
   end; same_by_powers.
+(* Squares of products with roots and exponentials. *)
+Lemma exp_square : forall x, exp x ^ 2 = exp (2 * x).
+Proof. intro x. replace (2 * x) with (x + x) by ring. rewrite exp_plus. ring. Qed.
+Ltac squares_of_factors := progress (rewrite ?Rpow_mult_distr, ?exp_square; repeat rewrite pow2_sqrt by sign).
 (* H in other words: both sides are the same by arithmetic. *)
 Ltac in_words H := first
   [ exact H | timeout 10 (as_said H) | lra
-  | solve [ revert H; progress simple_powers; intro H; first [ exact H | timeout 10 (as_said H) ] ]
+  | solve [ revert H; progress simple_powers; intro H;
+      first [ exact H | timeout 10 (as_said H) | squares_of_factors; timeout 10 (as_said H) ] ]
   | solve [ progress (repeat match goal with |- context [sqrt ?x] => is_var x; by_root x end); timeout 10 (as_said H) ]
   | solve [ timeout 12 (said_by_powers H) ] ].
 Ltac as_claimed P t := let H := fresh in assert (H : P) by (first [ assumption | t ]); in_words H.
@@ -136,9 +141,20 @@ Ltac as_known P H := first [ assert P by assumption; clear H | assert P by (time
 Ltac function_premise :=
   first [ assumption | intros; cbv beta; first [ assumption | solve [ sign ] | solve [ derivable ] | solve [ whole ]
         | match goal with H : forall _, _ |- _ => solve [ apply H ] end ] ].
+(* A root and what it is below, or above. *)
+Lemma below_root : forall x y, 0 <= x -> x ^ 2 <= y -> x <= sqrt y.
+Proof. intros x y X L. rewrite <- (sqrt_pow2 x X). apply sqrt_le_1_alt, L. Qed.
+Lemma root_below : forall x y, 0 <= y -> x <= y ^ 2 -> sqrt x <= y.
+Proof. intros x y Y L. rewrite <- (sqrt_pow2 y Y). apply sqrt_le_1_alt, L. Qed.
+Ltac by_square_of_root :=
+  first [ apply below_root; [ sign | ] | apply root_below; [ sign | ] ];
+  rewrite ?Rpow_mult_distr; repeat rewrite pow2_sqrt by sign; found_as.
+Ltac by_squares_of_sides := match goal with H : ?x <= ?y |- ?a <= ?y ^ 2 =>
+  apply Rle_trans with (x ^ 2); [ right; squares_of_factors; alike | apply pow_incr; split; [ first [ assumption | sign ] | exact H ] ] end.
 Ltac library_lemma := first
   [ assumption | lra | solve [ sign ] | apply rpow_nonneg
   | apply exp_le_exp; lra | apply exp_above
+  | solve [ by_square_of_root ] | solve [ by_squares_of_sides ]
   | apply rpow_mono; first [ assumption | lra | sign ]
   | timeout 3 inequality ].
 

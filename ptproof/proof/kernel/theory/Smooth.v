@@ -527,10 +527,10 @@ Proof. intros; lra. Qed.
 Ltac last_of H := lazymatch type of H with _ /\ _ => let P := fresh in destruct H as [P H]; last_of H | _ => idtac end.
 Ltac as_said H :=
   lazymatch type of H with
-  | _ <= _ => apply (le_as _ _ _ _ H); alike
-  | _ < _ => apply (lt_as _ _ _ _ H); alike
-  | _ >= _ => apply (ge_as _ _ _ _ H); alike
-  | _ > _ => apply (gt_as _ _ _ _ H); alike
+  | _ <= _ => lazymatch goal with |- _ >= _ => apply Rle_ge | |- _ => idtac end; apply (le_as _ _ _ _ H); alike
+  | _ < _ => lazymatch goal with |- _ > _ => red | |- _ => idtac end; apply (lt_as _ _ _ _ H); alike
+  | _ >= _ => lazymatch goal with |- _ <= _ => apply (le_as _ _ _ _ (Rge_le _ _ H)) | |- _ => apply (ge_as _ _ _ _ H) end; alike
+  | _ > _ => lazymatch goal with |- _ < _ => apply (lt_as _ _ _ _ H) | |- _ => apply (gt_as _ _ _ _ H) end; alike
   | _ = _ => apply (eq_as _ _ _ _ H); alike
   | _ <> _ => apply (ne_as _ _ _ _ H); alike
   end.
