@@ -8,11 +8,12 @@ from typing import Any
 import pytest
 import sympy as sp
 
-from ptproof.proof import Evidence, ForAll, Goal, claim, eq, exact, ge, instances, le, reals, specialise
+from ptproof.proof import Evidence, ForAll, Goal, claim, eq, exact, exists_by, ge, instances, le, reals, specialise
 from ptproof.proof.claim import Claim
 from ptproof.proof.kernel import Confirmation, missing
 from ptproof.proof.kernel.lemmas import Noted, lemmas_of, settled, steps_of
 from ptproof.proof.kernel.theorem import proposition
+from ptproof.proof.statement import Exists
 from ptproof.proof.steps import Put
 
 EFFORT = "lemmas"
@@ -54,6 +55,14 @@ def placed(id: str, statement: Any, **options: Any) -> Claim:
     return made
 
 
+def chosen(id: str, statement: Exists, value: Any, **options: Any) -> Claim:
+    @claim(id, id, statement, **options)
+    def made(goal: Goal) -> Evidence:
+        return exists_by(goal, {b: value})
+
+    return made
+
+
 INSIDE = (ge(s, p), le(s, q))
 
 
@@ -73,6 +82,7 @@ BETWEEN = [ForAll((x, y), le(a * AWAY**k, F(x, y))), ForAll((x, y), le(F(x, y), 
 FALLING = [rate(X(s), -X(s)), ge(q, p)]
 ON_A_CURVE = [rate(F(X(s), Y(s)), -F(X(s), Y(s))), rate(X(s), Y(s)), rate(Y(s), X(s)), ge(q, p)]
 root = lemma("root", le(sp.sqrt(x**2 + b**2) ** (2 * a), (x**2 + b**2) ** a))
+SMALL, ABOVE = Exists((b,), (le(k * sp.exp(-k * b), a),)), Exists((b,), (le(x**2, b),), (x,))
 SQUARED, CURVED = {U(s): X(s) ** 2, k: 2}, {U(s): F(X(s), Y(s)), k: 1}
 
 TRUE = [
@@ -85,10 +95,14 @@ TRUE = [
         "beside-an-unmet-one", le((y + 1) ** 2, b**2), square, {x: y + 1, a: b}, cube, given=[ge(y, 0), le(y + 1, b)]
     ),
     placed("at-a-place", le(a, b), given=BETWEEN),
+    chosen("a-choice", SMALL, sp.log(k / a + 1) / k),
+    chosen("a-choice-for-some", ABOVE, k**2, given=[ge(x, -k), le(x, k)]),
     using("in-other-words", le(y**2 + 1, sp.sqrt(y**2 + 1) ** 2), root, {x: y, a: 1, b: 1}),
 ]  # fmt: skip
 NOT_CONFIRMED = [
     placed("at-a-place-false", le(a, b / 2), given=BETWEEN),
+    chosen("a-choice-false", SMALL, sp.log(k / a + 1) / (2 * k)),
+    chosen("a-choice-for-all-false", ABOVE, k**2),
     using("at-a-value-false", le((y + 1) ** 2, b), square, {x: y + 1, a: b}, given=[ge(y, 0), le(y + 1, b)]),
     using("at-a-value-unmet", le((y + 1) ** 2, b**2), square, {x: y + 1, a: b}, given=[le(y + 1, b)]),
     using("for-a-function-false", le(X(q) ** 2, X(p) ** 2 * sp.exp(-3 * (q - p))), decays, SQUARED, given=FALLING),

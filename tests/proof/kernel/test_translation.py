@@ -122,6 +122,12 @@ def test_a_choice_comes_after_what_it_may_depend_on() -> None:
     assert text(statement) == "forall y : R, (exists a : R, 0 < a /\\ (forall x : R, ((a * (x ^ 2)) > y)))"
 
 
+def test_what_is_assumed_of_what_comes_after_a_choice_stands_inside() -> None:
+    statement = Exists((a,), (gt(a * x**2, y),), (x,))
+    said = "forall b y : R, 0 < b -> y > 0 -> (exists a : R, 0 < a /\\ (forall x : R, x >= b -> ((a * (x ^ 2)) > y)))"
+    assert text(statement, given=[ge(x, b), gt(y, 0)]) == said
+
+
 def test_a_limit_is_of_a_function_that_is_defined_near_the_place() -> None:
     said = text(eq(sp.Limit(1 / x, x, sp.oo), 0))
     assert (

@@ -48,6 +48,20 @@ def masked(goal: Goal) -> tuple[list[str], Goal]:
     return lines, goal
 
 
+def opaque(goal: Goal) -> tuple[list[str], Goal]:
+    """The goal with a letter for each exponential, if it needs nothing but that they are positive and the same."""
+    found = [part for part in goal.atoms(sp.exp) if not part.has(*_BOUND)]
+    names = dict(goal.names)
+    there: dict[sp.Basic, sp.Basic] = {}
+    for number, part in enumerate(found):
+        there[part] = letter = sp.Symbol(fresh(f"e{number}", names), positive=True)
+        names[letter] = letter.name
+    inner = goal.map(partial(put, there), names)
+    if len(found) < 2 or needed(inner.relation, inner.known, _MILLISECONDS) is None:
+        return [], goal
+    return [f"atom {letter} {goal.text(part)}" for part, letter in there.items()], inner
+
+
 def _solved(part: sp.Basic, letter: sp.Symbol, goal: Goal) -> tuple[sp.Symbol, sp.Expr] | None:
     """A symbol by the letter for a sum that stands below a line."""
     if part not in bottoms(goal):

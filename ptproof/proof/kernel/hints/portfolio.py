@@ -15,6 +15,7 @@ from sympy.core.function import AppliedUndef
 
 from ptproof.proof.kernel.declared import of_symbol
 from ptproof.proof.kernel.hints.atoms import Atoms
+from ptproof.proof.kernel.hints.cases import KINDS
 from ptproof.proof.kernel.hints.certificates import certificate
 from ptproof.proof.kernel.hints.comparisons import solved
 from ptproof.proof.kernel.hints.derived import Derived, derived
@@ -298,7 +299,7 @@ def _equal(goal: Goal, sought: _Sought, roots: bool) -> str:
     with contextlib.suppress(NoTranslation, sp.PolynomialError):
         quick += by_equations(goal)
         quick += by_equal_pieces(goal)
-        if sought.chains:
+        if sought.chains or any(item.has(*KINDS) for item in sought.known):
             quick += by_two_inequalities(replace(goal, known=sought.every or sought.known))
     if sought.thorough:
         quick += _thoroughly(goal, sought)

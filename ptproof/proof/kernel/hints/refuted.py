@@ -25,7 +25,7 @@ from ptproof.proof.kernel.hints.enclosed import of_exponentials, of_powers, of_w
 from ptproof.proof.kernel.hints.exponents import by_one_power
 from ptproof.proof.kernel.hints.goals import Goal
 from ptproof.proof.kernel.hints.ground import Ground
-from ptproof.proof.kernel.hints.masks import bottoms, hidden, masked, put_in
+from ptproof.proof.kernel.hints.masks import bottoms, hidden, masked, opaque, put_in
 from ptproof.proof.kernel.hints.needed import can_be_told, needed
 from ptproof.proof.kernel.hints.ordered import ordered
 from ptproof.proof.kernel.hints.positivstellensatz import SECONDS
@@ -77,11 +77,12 @@ def _refuted_from_few(goal: Goal, deeper: bool = True) -> Iterator[str]:
             below += [f"assert ({text_of(positive, goal.names)}) by (solve [ {line} ])" for line in found]
         facts += reasons
     facts = list(dict.fromkeys(facts))
-    if inner := _by_branches(Goal(goal.relation, tuple(facts), goal.names), _MOST_CASES, deeper):
+    letters, focused = opaque(Goal(goal.relation, tuple(facts), goal.names))
+    if inner := _by_branches(focused, _MOST_CASES, deeper):
         said = "".join(f"({text_of(item, goal.names)}) -> " for item in facts)
         lines = [line for line, found in bounds if any(item in facts for item in found)]
         lines += [f"assert ({text_of(item, goal.names)}) by lra" for item in equal if item in facts]
-        yield "; ".join([*lines, f"only_from ({said}True)", *below, inner])
+        yield "; ".join([*lines, f"only_from ({said}True)", *below, *letters, inner])
 
 
 def _with_equations(goal: Goal) -> tuple[Goal, list[Relation]]:

@@ -119,6 +119,7 @@ with sign_pos :=
     | |- 0 < sqrt _ => apply sqrt_lt_R0; sign_pos
     | |- 0 < exp _ => apply exp_pos
     | |- 0 < ln (_ + 1) => apply ln_of_more; sign_pos
+    | |- 0 < ln (1 + _) => rewrite Rplus_comm; apply ln_of_more; sign_pos
     | |- 0 < Rpower _ _ => apply exp_pos
     | |- 0 < rpow _ _ => rewrite rpow_Rpower by sign_pos; apply exp_pos
     | |- 0 < PI => exact PI_RGT_0
