@@ -13,7 +13,6 @@ from dataclasses import dataclass, field, replace
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from ptproof.proof.kernel.declared import of_symbol
 from ptproof.proof.kernel.hints.atoms import Atoms
 from ptproof.proof.kernel.hints.cases import KINDS
 from ptproof.proof.kernel.hints.certificates import certificate
@@ -33,11 +32,11 @@ from ptproof.proof.kernel.hints.replay import Replay
 from ptproof.proof.kernel.hints.search import by_steps
 from ptproof.proof.kernel.hints.told import Told, relevant
 from ptproof.proof.kernel.hints.values import by_values
-from ptproof.proof.kernel.hints.witnesses import witnesses
+from ptproof.proof.kernel.hints.witnesses import shown_for, witnesses
 from ptproof.proof.kernel.names import Names, fresh
 from ptproof.proof.kernel.obligations import Part
 from ptproof.proof.kernel.smooth import script as smoothness
-from ptproof.proof.kernel.terms import NoTranslation, term
+from ptproof.proof.kernel.terms import NoTranslation
 from ptproof.proof.kernel.theorem import Proposition, inside
 from ptproof.proof.statement import Relation
 from ptproof.proof.steps import Chosen, Step
@@ -262,19 +261,9 @@ def _witnessed(part: Part, sought: _Sought) -> str:
     values = sought.chosen or (witnesses(part.exists, known) if part.exists else None)
     if part.exists is None or not values or not set(part.exists.variables) <= set(values):
         return ""
-    steps: list[str] = []
-    for symbol in part.exists.variables:
-        positive = Relation(sp.Integer(0), "<", values[symbol])
-        ways = _leaf(Part("", positive), replace(sought, more=()))
-        kinds = f"; split; [> solve [ first [ sign | {ways} ] ] | ]" * len(of_symbol(symbol, said.names[symbol]))
-        steps.append(f"exists {term(values[symbol], said.names)}{kinds}")
-    put = (item.relation and item.relation.map(lambda side: side.xreplace(values)) for item in part.body)
-    body = [replace(item, relation=relation) for item, relation in zip(part.body, put, strict=True)]
     later = [item for item in inside(said.claim) if isinstance(item, Relation)]
-    sought = replace(sought, known=(*known, *later), every=(*(sought.every or known), *later), more=())
-    leaves = [_leaf(item, sought) for item in body]
-    intro = f"intros {' '.join(said.names[symbol] for symbol in part.exists.over)}; " if part.exists.over else ""
-    return f"{'; '.join(steps)}; {intro}intros; facts; simple_values; pieces; [> {' | '.join(leaves)} ]"
+    there = replace(sought, known=(*known, *later), every=(*(sought.every or known), *later), more=())
+    return shown_for(part, part.exists, values, said.names, lambda item: _leaf(item, there))
 
 
 def _by_steps(goal: Goal, said: Proposition) -> Iterator[str]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 
 import sympy as sp
 
@@ -24,14 +25,17 @@ def slackened(goal: Goal) -> tuple[list[str], Goal]:
         strictly = item.standard().sign == "<"
         above = sp.Symbol(name, **{"positive" if strictly else "nonnegative": True})
         lines.append(f"{'above' if strictly else 'at_least'} {goal.names[variable]} {goal.text(bound)} {name}")
-        there = {variable: bound + above}
-        left = [other.map(lambda side, there=there: side.xreplace(there)) for other in left]  # type: ignore[misc]
+        there: dict[sp.Basic, sp.Expr] = {variable: bound + above}
+        change = partial(_put, there)
+        left = [other.map(change) for other in left]
         known = tuple(other for other in goal.known if other is not item)
-        goal = replace(goal, known=known).map(
-            lambda side, there=there: sp.expand(side.xreplace(there)) if side.is_polynomial() else side.xreplace(there),
-            {**goal.names, above: name},
-        )
+        goal = replace(goal, known=known).map(change, {**goal.names, above: name})
     return lines, goal
+
+
+def _put(values: dict[sp.Basic, sp.Expr], side: sp.Basic) -> sp.Basic:
+    found = side.xreplace(values)
+    return sp.expand(found) if side.is_polynomial() else found
 
 
 def _bounded(item: Relation, goal: Goal) -> tuple[sp.Symbol, sp.Expr] | None:

@@ -4,10 +4,15 @@ from __future__ import annotations
 
 import math
 import random
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import replace
 
 import sympy as sp
 
+from ptproof.proof.kernel.declared import of_symbol
+from ptproof.proof.kernel.names import Names
+from ptproof.proof.kernel.obligations import Part
+from ptproof.proof.kernel.terms import term
 from ptproof.proof.statement import Exists, Relation, plain
 
 _NUMBERS = tuple(sp.Integer(2) ** power for power in range(-4, 7))
@@ -25,6 +30,21 @@ def witnesses(exists: Exists, known: Sequence[Relation]) -> dict[sp.Symbol, sp.E
         return None
     (symbol,) = exists.variables
     return {symbol: _between(symbol, parts, known)}
+
+
+def shown_for(
+    part: Part, exists: Exists, values: Mapping[sp.Basic, sp.Expr], names: Names, leaf: Callable[[Part], str]
+) -> str:  # fmt: skip
+    """The tactics that put the values in and show the part for them."""
+    steps: list[str] = []
+    for symbol in exists.variables:
+        positive = leaf(Part("", Relation(sp.S.Zero, "<", values[symbol])))
+        kinds = f"; split; [> solve [ first [ sign | {positive} ] ] | ]" * len(of_symbol(symbol, names[symbol]))
+        steps.append(f"exists {term(values[symbol], names)}{kinds}")
+    put = (item.relation and item.relation.map(lambda side: side.xreplace(values)) for item in part.body)
+    leaves = [leaf(replace(item, relation=relation)) for item, relation in zip(part.body, put, strict=True)]
+    intro = f"intros {' '.join(names[symbol] for symbol in exists.over)}; " if exists.over else ""
+    return f"{'; '.join(steps)}; {intro}intros; facts; simple_values; pieces; [> {' | '.join(leaves)} ]"
 
 
 def _number(symbol: sp.Symbol, exists: Exists, parts: Sequence[Relation]) -> sp.Expr | None:
