@@ -1,4 +1,4 @@
-"""Letters for sums below a line, which are positive and in an order by what is known: there is less to multiply out."""
+"""The order of sums below a line, with letters for them, and of letters: there is less to multiply out."""
 
 from __future__ import annotations
 
@@ -49,3 +49,17 @@ def ordered(goal: Goal, shown: Callable[[Goal], Iterator[str]]) -> tuple[list[st
         return None
     facts = (*core, *signs_of_bases((inner.relation, *core), inner.known))
     return lines, Goal(inner.relation, tuple(dict.fromkeys(facts)), names)
+
+
+def letters_in_order(goal: Goal, shown: Callable[[Goal], Iterator[str]]) -> tuple[list[str], Goal]:
+    """The goal with the order of its letters that are not negative, as far as it follows by the tactics ``shown``."""
+    there = set().union(*(item.free_symbols for item in goal.relations()))
+    letters = sorted((symbol for symbol in there if symbol.is_nonnegative and not symbol.is_positive), key=str)
+    lines, known = list[str](), {item.standard() for item in goal.known}
+    for pair in itertools.permutations(letters, 2) if len(letters) <= _MOST else ():
+        item = Relation(pair[0], "<=", pair[1])
+        if item not in known and (found := needed(item, goal.known, _MILLISECONDS)) is not None:
+            for tactic in shown(Goal(item, found, goal.names)):
+                lines.append(f"assert ({text_of(item, goal.names)}) by (solve [ {tactic} ])")
+                goal = goal.with_known(item)
+    return lines, goal

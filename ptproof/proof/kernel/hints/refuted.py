@@ -27,7 +27,7 @@ from ptproof.proof.kernel.hints.goals import Goal
 from ptproof.proof.kernel.hints.ground import Ground
 from ptproof.proof.kernel.hints.masks import bottoms, hidden, masked, opaque, put_in
 from ptproof.proof.kernel.hints.needed import can_be_told, needed
-from ptproof.proof.kernel.hints.ordered import ordered
+from ptproof.proof.kernel.hints.ordered import letters_in_order, ordered
 from ptproof.proof.kernel.hints.positivstellensatz import SECONDS
 from ptproof.proof.kernel.hints.slack import slackened
 from ptproof.proof.kernel.hints.told import text_of
@@ -108,6 +108,10 @@ def _ways(goal: Goal, deeper: bool) -> Iterator[tuple[list[str], Goal, float]]:
     yield lines, plain, SECONDS / 2 if more else SECONDS
     if more:
         yield [*lines, *more], loose, SECONDS
+    if deeper:
+        more, there = letters_in_order(goal, partial(_refuted_from_few, deeper=False))
+        if more:
+            yield *_in_letters(more, there), SECONDS
 
 
 def _in_letters(lines: list[str], goal: Goal) -> tuple[list[str], Goal]:

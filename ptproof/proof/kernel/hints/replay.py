@@ -264,12 +264,17 @@ class Replay:
 
     def _lemma(self, says: Implication, told: Told) -> None:
         names, known = told.names, told.known
-        if not says.conclusion.free_symbols:
+        if not says.conclusion.free_symbols or not self._is_met(says, told):
             return
         for part in says.hypotheses:
             told.lines.append(f"assert ({text_of(part, names)}) by (first [ assumption | {self._leaf(part, told)} ])")
         told.lines.append(f"assert ({text_of(says.conclusion, names)}) by library_lemma")
         known.append(says.conclusion)
+
+    def _is_met(self, says: Implication, told: Told) -> bool:
+        """Whether nothing that the implication assumes is seen not to follow."""
+        known = tuple(told.known)
+        return all(item in known or follows(Goal(item, known, told.names)) is not False for item in says.hypotheses)
 
     def _learn(
         self, key: str, parts: Sequence[Part], spoken: Sequence[Relation], values: Substitution, told: Told
