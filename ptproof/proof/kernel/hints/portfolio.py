@@ -30,7 +30,7 @@ from ptproof.proof.kernel.hints.reduced import reduced_relation
 from ptproof.proof.kernel.hints.refuted import by_refutation
 from ptproof.proof.kernel.hints.replay import Replay
 from ptproof.proof.kernel.hints.search import by_steps
-from ptproof.proof.kernel.hints.told import Told, relevant
+from ptproof.proof.kernel.hints.told import Told, in_other_words, relevant, text_of
 from ptproof.proof.kernel.hints.values import by_values
 from ptproof.proof.kernel.hints.witnesses import shown_for, witnesses
 from ptproof.proof.kernel.names import Names, fresh
@@ -201,7 +201,8 @@ def _leaf(part: Part, sought: _Sought) -> str:
             return _tried(f"cbv beta; left; {_leaf(Part('', Relation(sp.S.Zero, '<', part.base)), sought)}")
         signs = Relation(part.base, ">=", sp.Integer(0)), Relation(part.exponent, ">", sp.Integer(0))
         base, exponent = (_leaf(Part("", sign), sought) for sign in signs)
-        return _tried(f"cbv beta; apply rpow_defined_as; [> {base} | {exponent} ]")
+        plainly = "cbv beta; apply rpow_defined; [ sign | exponent_sign ]"
+        return _tried(plainly, f"cbv beta; apply rpow_defined_as; [> {base} | {exponent} ]")
     if part.relation is None or _trivial(part.relation):
         return _tried("everywhere", "derivable") if sought.thorough else _tried(*["derivable"] * sought.chains)
     goal = sought.goal(part.relation)
@@ -210,7 +211,9 @@ def _leaf(part: Part, sought: _Sought) -> str:
     tries: list[str] = []
     # Before what looks at all that is known: it has less to look at.
     focused = ""
-    if sought.chains or sought.thorough:
+    if sought.chains and (same := in_other_words(part.relation, sought.every or sought.known)) is not None:
+        focused = f"try (solve [ as_claimed ({text_of(same, sought.said.names)}) ltac:(assumption) ]); "
+    elif sought.chains or sought.thorough:
         with contextlib.suppress(NoTranslation, sp.PolynomialError):
             hints = by_refutation(replace(goal, known=sought.every or sought.known))
             focused = "".join(f"try (solve [ {hint} ]); " for hint in hints)

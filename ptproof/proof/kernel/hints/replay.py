@@ -18,7 +18,7 @@ from ptproof.errors import InputError
 from ptproof.proof.kernel import declared
 from ptproof.proof.kernel.hints.goals import Goal
 from ptproof.proof.kernel.hints.refuted import follows
-from ptproof.proof.kernel.hints.told import Told, alike, sides_of, text_of
+from ptproof.proof.kernel.hints.told import Told, in_other_words, text_of
 from ptproof.proof.kernel.names import Names, fresh
 from ptproof.proof.kernel.obligations import Part
 from ptproof.proof.kernel.terms import NoTranslation, term
@@ -167,6 +167,10 @@ class Replay:
                 yield self._quantified(item, used.names, values, next(anywhere, Anywhere()), told)
                 continue
             for part in parts:
+                if part.base is not None and part.exponent is not None:
+                    there = replace(part, base=values.into(part.base), exponent=values.into(part.exponent))
+                    yield self.leaf(there, told.known, told.names)
+                    continue
                 yield self._shown(replace(part, relation=part.relation and values.relation(part.relation)), told)
 
     def _kind(self, text: str, value: sp.Expr, told: Told) -> str:
@@ -193,13 +197,10 @@ class Replay:
         return f"as_claimed ({text_of(part.relation, told.names)}) ltac:({self._leaf(part.relation, told)})"
 
     def _leaf(self, relation: Relation, told: Told) -> str:
-        wanted = relation.standard()
-        for item in map(Relation.standard, told.known):
-            if item == wanted:
-                return "quickly"
-            if item.sign == wanted.sign and all(map(alike, sides_of(item), sides_of(wanted))):
-                turned = Relation(item.right, relation.sign, item.left) if relation != wanted else item
-                return f"as_claimed ({text_of(turned, told.names)}) ltac:(quickly)"
+        if relation.standard() in map(Relation.standard, told.known):
+            return "quickly"
+        if (said := in_other_words(relation, told.known)) is not None:
+            return f"as_claimed ({text_of(said, told.names)}) ltac:(quickly)"
         return self.leaf(Part("", relation), told.known, told.names)
 
     def _quantified(

@@ -80,6 +80,15 @@ def _plain(expression: sp.Basic) -> sp.Basic:
     return expression.func(*map(_plain, expression.args))
 
 
+def in_other_words(wanted: Relation, known: Iterable[Relation]) -> Relation | None:
+    """What is known that says the same, turned as what is wanted is."""
+    upright = wanted.standard()
+    for item in map(Relation.standard, known):
+        if item.sign == upright.sign and all(map(alike, sides_of(item), sides_of(upright))):
+            return Relation(item.right, wanted.sign, item.left) if wanted != upright else item
+    return None
+
+
 def text_of(relation: Relation, names: Names) -> str:
     """The relation for Coq."""
     return f"{term(relation.left, names)} {SIGNS[relation.sign]} {term(relation.right, names)}"

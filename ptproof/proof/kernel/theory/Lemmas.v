@@ -129,9 +129,29 @@ Ltac said_by_powers H := lazymatch type of H with
 Lemma exp_square : forall x, exp x ^ 2 = exp (2 * x).
 Proof. intro x. replace (2 * x) with (x + x) by ring. rewrite exp_plus. ring. Qed.
 Ltac squares_of_factors := progress (rewrite ?Rpow_mult_distr, ?exp_square; repeat rewrite pow2_sqrt by sign).
+(* Equal part by part: the same powers, exponentials and roots of what is equal, in sums and products of either order. *)
+Ltac agree := as_reals; first
+  [ reflexivity
+  | lazymatch goal with
+    | |- rpow _ _ = rpow _ _ => f_equal; agree
+    | |- Rpower _ _ = Rpower _ _ => f_equal; agree
+    | |- exp _ = exp _ => f_equal; agree
+    | |- sqrt _ = sqrt _ => f_equal; agree
+    | |- ?a + ?b = ?c + ?d => first [ by_arithmetic | solve [ f_equal; agree ] | solve [ rewrite (Rplus_comm c d); f_equal; agree ] ]
+    | |- ?a * ?b = ?c * ?d => first [ by_arithmetic | solve [ f_equal; agree ] | solve [ rewrite (Rmult_comm c d); f_equal; agree ] ]
+    | |- _ / _ = _ / _ => first [ by_arithmetic | solve [ f_equal; agree ] ]
+    | |- _ => by_arithmetic
+    end ]
+with by_arithmetic := solve [ ring | field; sides ].
+Ltac agrees H := lazymatch type of H with
+  | _ <= _ => lazymatch goal with |- _ >= _ => apply Rle_ge | |- _ => idtac end; apply (le_as _ _ _ _ H); agree
+  | _ < _ => lazymatch goal with |- _ > _ => red | |- _ => idtac end; apply (lt_as _ _ _ _ H); agree
+  | _ >= _ => lazymatch goal with |- _ <= _ => apply (le_as _ _ _ _ (Rge_le _ _ H)) | |- _ => apply (ge_as _ _ _ _ H) end; agree
+  | _ = _ => apply (eq_as _ _ _ _ H); agree
+  end.
 (* H in other words: both sides are the same by arithmetic. *)
 Ltac in_words H := first
-  [ exact H | timeout 10 (as_said H) | lra
+  [ exact H | lra | solve [ timeout 10 (agrees H) ] | timeout 10 (as_said H)
   | solve [ revert H; progress simple_powers; intro H;
       first [ exact H | timeout 10 (as_said H) | squares_of_factors; timeout 10 (as_said H) ] ]
   | solve [ progress (repeat match goal with |- context [sqrt ?x] => is_var x; by_root x end); timeout 10 (as_said H) ]
