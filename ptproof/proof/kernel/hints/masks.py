@@ -50,7 +50,9 @@ def masked(goal: Goal) -> tuple[list[str], Goal]:
 
 def opaque(goal: Goal) -> tuple[list[str], Goal]:
     """The goal with a letter for each exponential, if it needs nothing but that they are positive and the same."""
-    found = [part for part in goal.atoms(sp.exp) if not part.has(*_BOUND)]
+    sides = [side for item in goal.relations() for side in (item.left, item.right)]
+    free = {part for side in sides for part in free_parts(side) if isinstance(part, sp.exp)}
+    found = [part for part in goal.atoms(sp.exp) if part in free]
     names = dict(goal.names)
     there: dict[sp.Basic, sp.Basic] = {}
     for number, part in enumerate(found):

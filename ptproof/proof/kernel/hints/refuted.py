@@ -115,7 +115,7 @@ def _ways(goal: Goal, deeper: bool) -> Iterator[tuple[list[str], Goal, float]]:
 
 
 def _in_letters(lines: list[str], goal: Goal) -> tuple[list[str], Goal]:
-    for step in (aligned, masked, _without_functions, masked, by_one_power, lettered):
+    for step in (aligned, masked, _without_functions, opaque, masked, by_one_power, lettered):
         more, goal = step(goal)
         lines = [*lines, *more]
     return lines, goal

@@ -73,6 +73,15 @@ Ltac as_multiple c x r :=
 (* Equal up to the square of a root q, with Q : q q = c. *)
 Ltac up_to Q := as_reals; first [ ring [Q] | field [Q]; sides ].
 
+(* What is below a positive root is its square. *)
+Ltac by_squares_of_roots := as_reals;
+  repeat match goal with |- context [sqrt ?x] =>
+    let p := fresh in let s := fresh in let P := fresh in let E := fresh in
+    set (p := x) in *;
+    assert (P : 0 < sqrt p) by (apply sqrt_lt_R0; first [ sign | unfold p; sign ]);
+    assert (E : p = sqrt p * sqrt p) by (symmetry; apply sqrt_sqrt; first [ sign | unfold p; sign ]);
+    set (s := sqrt p) in *; clearbody s; clearbody p; subst p end; rational.
+
 (* Forms of degree two in two variables. *)
 Lemma form_positive : forall a b c x y, 0 < a -> 0 < a * c - b ^ 2 -> 0 < x ^ 2 + y ^ 2 ->
   0 < a * x ^ 2 + 2 * b * x * y + c * y ^ 2.

@@ -170,12 +170,3 @@ Ltac positive_powers ::=
   | |- context [rpow ?x ?e] => rewrite (rpow_Rpower x e) by sign
   | H : context [rpow ?x ?e] |- _ => rewrite (rpow_Rpower x e) in H by sign
   end.
-
-(* What is below a positive root is its square. *)
-Ltac by_squares_of_roots := as_reals;
-  repeat match goal with |- context [sqrt ?x] =>
-    let p := fresh in let s := fresh in let P := fresh in let E := fresh in
-    set (p := x) in *;
-    assert (P : 0 < sqrt p) by (apply sqrt_lt_R0; first [ sign | unfold p; sign ]);
-    assert (E : p = sqrt p * sqrt p) by (symmetry; apply sqrt_sqrt; first [ sign | unfold p; sign ]);
-    set (s := sqrt p) in *; clearbody s; clearbody p; subst p end; rational.

@@ -489,7 +489,7 @@ with derivable := cbv beta; first
   | eexists; rated ].
 Ltac derivative_as d e :=
   let E := fresh in
-  assert (E : d = e) by (apply is_derive_unique; eapply rate_value; [ rated | cbn [INR pred]; rational ]); rewrite ?E in *; clear E.
+  assert (E : d = e) by (apply is_derive_unique; eapply rate_value; [ rated | cbn [INR pred]; first [ rational | by_squares_of_roots ] ]); rewrite ?E in *; clear E.
 
 (* Values of unknown functions, and their derivatives, as numbers. *)
 Ltac named a e := set (a := e) in *; clearbody a.
