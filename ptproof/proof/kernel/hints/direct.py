@@ -17,6 +17,8 @@ from ptproof.proof.kernel.names import fresh
 from ptproof.proof.kernel.terms import NoTranslation, term
 from ptproof.proof.statement import Relation
 
+_BOUND = (sp.Derivative, sp.Integral, sp.Limit, sp.Subs)
+
 
 def directly(goal: Goal) -> Iterator[str]:
     """The difference of both sides as a term of plain sign, or as products of what is known."""
@@ -150,6 +152,19 @@ def _solvable(gap: sp.Expr, sign: str) -> sp.Symbol | None:
 
     found = [symbol for symbol in gap.free_symbols if fits(symbol)]
     return min(found, key=lambda s: (s.name.startswith("gap"), s.is_nonnegative is True, s.name), default=None)
+
+
+def by_bisection(goal: Goal) -> Iterator[str]:
+    """An inequality in one variable between numbers, by intervals that cover all of its values."""
+    relation, symbols = goal.relation, goal.relation.free_symbols
+    if relation.sign in ("=", "!=") or len(symbols) != 1 or relation.has(AppliedUndef, *_BOUND):
+        return
+    (symbol,) = symbols
+    items = [item.standard() for item in goal.known if item.sign not in ("=", "!=")]
+    if any(i.left == symbol and i.right.is_number for i in items) and any(
+        i.right == symbol and i.left.is_number for i in items
+    ):
+        yield f"bisected {goal.text(symbol)}"
 
 
 def by_growth_of_parts(relation: Relation, known: Sequence[Relation]) -> Iterator[str]:

@@ -18,7 +18,7 @@ from ptproof.proof.kernel.hints.cases import KINDS
 from ptproof.proof.kernel.hints.certificates import certificate
 from ptproof.proof.kernel.hints.comparisons import solved
 from ptproof.proof.kernel.hints.derived import Derived, derived
-from ptproof.proof.kernel.hints.direct import by_growth_of_parts, by_logarithms, by_norms, directly
+from ptproof.proof.kernel.hints.direct import by_bisection, by_growth_of_parts, by_logarithms, by_norms, directly
 from ptproof.proof.kernel.hints.equations import by_equations
 from ptproof.proof.kernel.hints.goals import Goal
 from ptproof.proof.kernel.hints.instances import Instance, instances
@@ -231,7 +231,7 @@ def _leaf(part: Part, sought: _Sought) -> str:
     powers = sp.Tuple(part.relation.left, part.relation.right).atoms(sp.Pow)
     if part.relation.sign != "!=" and any(not power.exp.is_number for power in powers):
         tries.append("by_growth")
-    tries += by_growth_of_parts(part.relation, sought.known)
+    tries += (*by_bisection(goal), *by_growth_of_parts(part.relation, sought.known))
     return f"cbv beta; {focused}quickly; {_tried(*tries)}"
 
 

@@ -232,6 +232,7 @@ Ltac bounded_as w e :=
   end;
   try (assert (0 < e) by (first [ sign | lra ])); try (assert (0 <= e) by (first [ sign | lra ]));
   named w e.
+Ltac bisected x := cbv beta; interval with (i_bisect x, i_depth 14).
 (* A value between numbers. *)
 Ltac between_numbers low e high := assert (low <= e) by interval; assert (e <= high) by interval.
 (* Powers of exponentials as exponentials. *)
