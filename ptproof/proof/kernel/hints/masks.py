@@ -59,7 +59,7 @@ def opaque(goal: Goal) -> tuple[list[str], Goal]:
         there[part] = letter = sp.Symbol(fresh(f"e{number}", names), positive=True)
         names[letter] = letter.name
     inner = goal.map(partial(put, there), names)
-    if len(found) < 2 or needed(inner.relation, inner.known, _MILLISECONDS) is None:
+    if not found or needed(inner.relation, inner.known, _MILLISECONDS) is None:
         return [], goal
     return [f"atom {letter} {goal.text(part)}" for part, letter in there.items()], inner
 

@@ -7,12 +7,14 @@ what the claim says of q.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from ptproof.proof.kernel.hints.comparisons import Compared, Rate, rates
 from ptproof.proof.kernel.hints.goals import Goal
+from ptproof.proof.kernel.hints.masks import bottoms
 from ptproof.proof.kernel.hints.refuted import by_refutation
 from ptproof.proof.kernel.terms import term
 from ptproof.proof.kernel.theorem import Proposition
@@ -91,9 +93,10 @@ def _never_above(rate: Rate, start: sp.Expr, end: sp.Symbol, wanted: Relation) -
     there = {**rate.names, time: p}
     values = [(part, part.xreplace({time: start})) for part in bound.atoms(sp.exp, sp.Pow)]
     replaced = [f"try (value_at {term(part, there)} {rate.write(value)})" for part, value in values if value.is_number]
+    defined = "; ".join(_defined(Goal(Relation(slope, "=", bound), (*rate.known, *inside), rate.names)))
     lines = [
         "bound",
-        f"gap_moves {U} {Y} {s}",
+        f"gap_moves {U} {Y} {s} ltac:({defined or 'idtac'})",
         f"cbv beta; {'; '.join([*replaced, ''])}apply Rle_minus; apply Rle_trans with {rate.write(first)}; "
         f"[ {before[0]} | right; first [ rational | same_values; rational ] ]",
         f"intros {s} ? ?; facts; cbv beta in *; rate {U} {s}; apply Rle_minus; "
@@ -109,3 +112,11 @@ def _never_above(rate: Rate, start: sp.Expr, end: sp.Symbol, wanted: Relation) -
             f"[> {' | '.join(lines)} ] | right; cbv beta; first [ rational | same_values; rational ] ] | ]"
         ),
     )
+
+
+def _defined(goal: Goal) -> Iterator[str]:
+    """That what stands below a line in the relation is not 0."""
+    for bottom in dict.fromkeys(bottoms(replace(goal, known=()))):
+        wanted = Relation(bottom, "!=", sp.S.Zero)
+        for tactic in by_refutation(replace(goal, relation=wanted)) if not bottom.is_positive else ():
+            yield f"assert ({goal.text(bottom)} <> 0) by (solve [ {tactic} ])"

@@ -210,7 +210,7 @@ Ltac no_product p := assert (p = 0) by (apply times_zero; assumption).
 Ltac power_known := first [ by_powers | solve [ rewrite <- Rsqr_pow2; apply Rsqr_sqrt; sign ] | solve [ apply pow2_sqrt; sign ]
   | match goal with |- sin ?x ^ 2 = _ => pose proof (sin2_cos2 x); unfold Rsqr in *; lra end ].
 (* A bound that a function never comes above: how the gap moves, and what an exponential or a power is at the start. *)
-Ltac gap_moves U Y s := intros s ?; facts; apply (is_derive_minus U Y);
+Ltac gap_moves U Y s defined := intros s ?; facts; defined; apply (is_derive_minus U Y);
   [ apply Derive_correct; first [ assumption | match goal with H : forall _, _ |- _ => solve [ apply H; lra ] end ]
   | auto_derive; [ repeat split; sign | first [ rational | same_values; rational ] ] ].
 Ltac value_at old new := replace old with new by
