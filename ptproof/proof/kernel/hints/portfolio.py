@@ -205,6 +205,8 @@ def _leaf(part: Part, sought: _Sought) -> str:
         return _tried(plainly, f"cbv beta; apply rpow_defined_as; [> {base} | {exponent} ]")
     if part.relation is None or _trivial(part.relation):
         return _tried("everywhere", "derivable") if sought.thorough else _tried(*["derivable"] * sought.chains)
+    if part.relation.sign == "!=" and part.relation.left.is_positive:
+        return _tried("cbv beta; sign")
     goal = sought.goal(part.relation)
     if part.relation.sign == "=":
         return _equal(goal, sought, "sqrt" in part.text)

@@ -580,6 +580,17 @@ Ltac near_smoothly ::=
     | |- locally _ (fun p => 0 <= @?f p) => apply (smooth_nonneg f); [ smoothly | point ]
     end ].
 
+(* Close to a place, also where what is unknown is composed; a power is defined where its base is positive. *)
+Ltac near ::=
+  let rated := first [ differentiable | derivable ] in
+  lazymatch goal with
+  | |- locally ?x (fun y => 0 < @?f y \/ _) => apply (filter_imp (fun y => 0 < f y)); [ intros ? ?; left; assumption | near ]
+  | |- locally ?x (fun y => @?f y <> 0) => apply (near_nonzero f); [ rated | cbv beta; sign ]
+  | |- locally ?x (fun y => 0 < @?f y) => first [ apply filter_forall; intro; sign | apply (near_positive f); [ rated | cbv beta; sign ] ]
+  | |- locally ?x (fun y => 0 <= @?f y) => first [ apply filter_forall; intro; sign | apply (near_nonneg f); [ rated | cbv beta; sign ] ]
+  | |- locally ?x _ => apply filter_forall; intro; first [ rated | sign ]
+  end.
+
 (* Whether two derivatives are the same is asked of what is derived, not of the definition by filters: a hypothesis that
    does not fit is then passed over at once. *)
 #[global] Opaque ex_derive is_derive Derive RInt is_RInt ex_RInt exp sin cos ln sqrt PI.
