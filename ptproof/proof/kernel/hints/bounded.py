@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 import sympy as sp
 
 from ptproof.proof.kernel.hints.goals import Goal
+from ptproof.proof.kernel.hints.masks import put
 from ptproof.proof.kernel.hints.needed import needed
+from ptproof.proof.kernel.hints.told import text_of
 from ptproof.proof.kernel.names import fresh
 from ptproof.proof.statement import Relation
 
@@ -45,11 +48,14 @@ def bounded(goal: Goal) -> tuple[list[str], Goal]:
         positive, nonnegative = bool(part.is_positive), bool(part.is_nonnegative)
         kinds = {"positive": True} if positive else {"nonnegative": True} if nonnegative else {"real": True}
         letter = sp.Symbol(name, **kinds)
-        inner = goal.with_known(*_bounds(part)).replaced(part, letter, {**goal.names, letter: name})
+        bounds = _bounds(part)
+        inner = goal.with_known(*bounds).replaced(part, letter, {**goal.names, letter: name})
         if needed(inner.relation, inner.known, _MILLISECONDS) is None:
             continue
         lines.append(f"bounded_as {name} {goal.text(part)}")
         goal = inner
+        there = (item.map(partial(put, {part: letter})) for item in bounds)
+        lines += [f"try (assert ({text_of(item, goal.names)}) by lra)" for item in there]
     return lines, goal
 
 

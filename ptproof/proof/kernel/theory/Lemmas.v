@@ -249,7 +249,10 @@ Ltac powers_of_exponentials :=
 Ltac alike ::= as_reals; first
   [ reflexivity | ring | field; sides | solve [ same_heads; first [ reflexivity | ring | field; sides ] ]
   | solve [ progress powers_of_exponentials; same_heads; first [ ring | field; sides ] ]
-  | solve [ progress absolute_values; first [ ring | field; sides ] ] ].
+  | solve [ progress absolute_values; first [ ring | field; sides ] ]
+  | solve [ match goal with |- context [Rabs ?a] => match goal with |- context [Rabs ?b] =>
+      assert_fails (constr_eq a b); replace (Rabs a) with (Rabs b) by (rewrite <- Rabs_Ropp; f_equal; ring) end end;
+      first [ reflexivity | ring | field; sides ] ] ].
 (* What is known to be positive at all times is so at q. *)
 Ltac positive_at q := match goal with H : forall _ : R, _ |- _ =>
   solve [ let K := fresh in pose proof (H q) as K; premises_of K; facts; found_as ] end.
