@@ -1,17 +1,17 @@
-"""Questions to Coq: several claims in a file, each of them again with other hints where Coq finds no proof."""
+"""Questions to Coq: several claims in a file, those that it did not come to in another one."""
 
 from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal, TypeAlias
 
 from ptproof.proof.claim import Claim
 from ptproof.proof.kernel import coq
 from ptproof.proof.kernel.hints.portfolio import script
-from ptproof.proof.kernel.lemmas import from_lemmas, has_steps, lemmas_of
+from ptproof.proof.kernel.lemmas import from_lemmas, lemmas_of
 from ptproof.proof.kernel.remembered import Confirmation
 from ptproof.proof.kernel.theorem import Proposition
 from ptproof.proof.steps import Put, Step
@@ -22,23 +22,34 @@ _TO_START = 30.0
 
 
 @dataclass(frozen=True)
-class Asked:
-    """A claim in Coq's words, and how it is asked about now: with which tactics, and from which lemmas."""
+class Question:
+    """A claim in Coq's words; ``late``: whether it was asked about before and an answer came too late."""
 
     claim: Claim
     said: Proposition
+    late: bool = False
+
+
+@dataclass(frozen=True)
+class _Asked:
+    """A question with the tactics that Coq is to try now, and the lemmas that it may use."""
+
+    question: Question
     theorem: coq.Theorem
-    left: tuple[Effort, ...] = ()
     lemmas: tuple[Proposition, ...] = ()
-    late: bool = False  # whether another effort came to its time limit
 
     def answered(self, against: str, seconds: float) -> Confirmation:
         """What it means that the kernel has checked the theorem."""
-        given = tuple(lemma.text for lemma in self.lemmas)
+        given, text = tuple(lemma.text for lemma in self.lemmas), self.question.said.text
         if not against and given:
             names = ", ".join(lemma.claim.id for lemma in self.lemmas)
-            return Confirmation(False, f"only if {names}", self.said.text, seconds, given=given)
-        return Confirmation(not against, against, self.said.text, seconds)
+            return Confirmation(False, f"only if {names}", text, seconds, given=given)
+        return Confirmation(not against, against, text, seconds)
+
+    def refused(self, why: coq.Refusal | None, seconds: float) -> Confirmation:
+        """What it means that Coq has found no proof."""
+        why = why or coq.Refusal("Coq gave no answer", late=True)
+        return Confirmation(False, why.reason, self.question.said.text, seconds, late=why.late)
 
 
 @dataclass(frozen=True)
@@ -50,62 +61,46 @@ class Asking:
 
     folder: Path
     timeout: float
-    efforts: tuple[Effort, ...]
     stop: coq.Stop
     steps: Callable[[Claim], Sequence[Step]]
 
-    def answers(self, number: int, claims: Sequence[tuple[Claim, Proposition]]) -> Iterator[tuple[Claim, Confirmation]]:
-        """What Coq says of the claims of one file; those at which it stops are asked about again."""
-        left: list[Asked] = []
-        for claim, said in claims:
-            if (first := self._asked(claim, said, number, self.efforts)) is not None:
-                left.append(first)
-            else:
-                yield claim, Confirmation(False, "it uses no claim that Coq could be told", said.text)
+    def answers(self, name: str, effort: Effort, asked: Sequence[Question]) -> Iterator[tuple[Question, Confirmation]]:
+        """What Coq says of the claims of one file with the tactics of one effort.
+
+        Those that it did not come to are asked about again, as long as it comes to any.
+        """
+        left = [self._asked(question, name, effort) for question in asked]
         run = 0
         while left and not self.stop.is_set():
-            theorems = [asked.theorem for asked in left]
-            file = self.folder / f"claims_{number:03d}{f'_{run}' if run else ''}.v"
+            theorems = [item.theorem for item in left]
+            file = self.folder / f"claims_{name}{f'_{run}' if run else ''}.v"
             file.write_text(coq.source(theorems, self.timeout), encoding="utf-8")
             start = time.perf_counter()
             printed = coq.ask(self.folder, file.name, _TO_START + 2 * self.timeout * len(left), self.stop)
             if self.stop.is_set():
                 return
             seconds = (time.perf_counter() - start) / len(left)
-            again: list[Asked] = []
+            again: list[_Asked] = []
             heard, reasons = _read(printed, theorems)
             moved = bool(heard) or any(reason is not None for reason in reasons.values())
-            for asked in left:
-                if (against := heard.get(asked.theorem.name)) is not None:
-                    yield asked.claim, asked.answered(against, seconds)
-                    continue
-                reason = reasons[asked.theorem.name]
-                if reason is None and moved:  # Coq was ended before it came to this one
-                    again.append(asked)
-                elif (
-                    reason is not None
-                    and (more := self._asked(asked.claim, asked.said, number, asked.left)) is not None
-                ):
-                    again.append(replace(more, late=asked.late or reason.late))
+            for item in left:
+                if (against := heard.get(item.theorem.name)) is not None:
+                    yield item.question, item.answered(against, seconds)
+                elif (reason := reasons[item.theorem.name]) is None and moved:  # Coq was ended before it came to it
+                    again.append(item)
                 else:
-                    why = reason or coq.Refusal("Coq gave no answer", late=True)
-                    late = asked.late or why.late
-                    yield asked.claim, Confirmation(False, why.reason, asked.said.text, seconds, late=late)
+                    yield item.question, item.refused(reason, seconds)
             left = again
             run += 1
 
-    def _asked(self, claim: Claim, said: Proposition, number: int, efforts: Sequence[Effort]) -> Asked | None:
-        """The claim with the tactics of the first of the efforts that can be made for it."""
-        for position, effort in enumerate(efforts):
-            lemmas = lemmas_of(claim) if effort == "lemmas" else {}
-            steps = self._steps(claim, lemmas) if effort == "lemmas" and has_steps(claim) else ()
-            if effort == "lemmas" and not steps:
-                continue
-            name, left = f"{said.name}_{number}", tuple(efforts[position + 1 :])
-            text = from_lemmas(said, lemmas.values()) if lemmas else said.text
-            tactics = _tactics(said, effort, lemmas, steps)
-            return Asked(claim, said, coq.Theorem(name, text, tactics), left, tuple(lemmas.values()))
-        return None
+    def _asked(self, question: Question, name: str, effort: Effort) -> _Asked:
+        """The question with the tactics of an effort."""
+        claim, said = question.claim, question.said
+        lemmas = lemmas_of(claim) if effort == "lemmas" else {}
+        steps = self._steps(claim, lemmas) if effort == "lemmas" else ()
+        text = from_lemmas(said, lemmas.values()) if lemmas else said.text
+        theorem = coq.Theorem(f"{said.name}_{name}", text, _tactics(said, effort, lemmas, steps))
+        return _Asked(question, theorem, tuple(lemmas.values()))
 
     def _steps(self, claim: Claim, lemmas: dict[str, Proposition]) -> tuple[Step, ...]:
         """The claims that it uses as they stand, and the steps of the proof."""

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 from ptproof.proof.claim import Claim
 from ptproof.proof.kernel import coq, remembered
-from ptproof.proof.kernel.asking import EFFORTS, Asking, Effort
+from ptproof.proof.kernel.asking import EFFORTS, Asking, Effort, Question
 from ptproof.proof.kernel.lemmas import Noted, has_steps, settled
 from ptproof.proof.kernel.remembered import Confirmation
 from ptproof.proof.kernel.terms import NoTranslation
@@ -123,32 +123,58 @@ def _ask(
     asked: Sequence[tuple[Claim, Proposition]], processes: int, timeout: float, efforts: Sequence[Effort],
     keep: Path | None, answer: Progress,
 ) -> None:  # fmt: skip
-    """What Coq says of each, in files of several; meanwhile the steps of their proofs are noted."""
-    least, most = _IN_A_FILE
-    size = min(max(least, -(-len(asked) // processes)), most)
-    stop = coq.Stop()
-    noted = Noted([claim for claim, _ in asked if has_steps(claim) and "lemmas" in efforts], processes, timeout)
+    """What Coq says of each, with one effort after the other: all that the first one confirms comes in first."""
+    left = [Question(claim, said) for claim, said in asked]
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as temporary:
         folder = Path(temporary) if keep is None else keep
         folder.mkdir(parents=True, exist_ok=True)
         coq.prepare(folder)
-        asking = Asking(folder, timeout, tuple(efforts), stop, noted.of)
+        for position, effort in enumerate(efforts):
+            # Where a proof puts nothing to use, there is nothing to ask about with lemmas.
+            now = [question for question in left if effort != "lemmas" or has_steps(question.claim)]
+            passed = [question for question in left if question not in now]
+            left, more = list[Question](), len(efforts) > position + 1
+            say = partial(_say, answer, left if more else None)
+            for question in passed:
+                say(question, Confirmation(False, "it uses no claim that Coq could be told", question.said.text))
+            _ask_once(now, effort, processes, timeout, folder, say)
 
-        def work(number: int) -> None:
-            for claim, confirmation in asking.answers(number, asked[number * size : (number + 1) * size]):
-                answer(claim, confirmation)
 
-        pool = ThreadPoolExecutor(processes)
-        try:
-            working = [pool.submit(work, number) for number in range(-(-len(asked) // size))]
-            noted.take()
-            for part in working:
-                part.result()
-        finally:
-            # A search for hints cannot be stopped, and is not waited for if this ends before its time.
-            stop.set()
-            noted.stop()
-            pool.shutdown(wait=False, cancel_futures=True)
+def _say(answer: Progress, left: list[Question] | None, question: Question, said: Confirmation) -> None:
+    """Give the answer, or keep the question, if it may be asked again and what was said is not the last word."""
+    if left is None or said.confirmed or said.given:
+        answer(question.claim, replace(said, late=said.late or question.late))
+    else:
+        left.append(replace(question, late=said.late or question.late))
+
+
+def _ask_once(
+    asked: Sequence[Question], effort: Effort, processes: int, timeout: float, folder: Path,
+    say: Callable[[Question, Confirmation], None],
+) -> None:  # fmt: skip
+    """What Coq says of each with one effort, in files of several; meanwhile the steps of proofs are noted."""
+    least, most = _IN_A_FILE
+    size = min(max(least, -(-len(asked) // processes)), most)
+    stop = coq.Stop()
+    noted = Noted([question.claim for question in asked] if effort == "lemmas" else [], processes, timeout)
+    asking = Asking(folder, timeout, stop, noted.of)
+
+    def work(number: int) -> None:
+        some = asked[number * size : (number + 1) * size]
+        for question, confirmation in asking.answers(f"{effort}_{number:03d}", effort, some):
+            say(question, confirmation)
+
+    pool = ThreadPoolExecutor(processes)
+    try:
+        working = [pool.submit(work, number) for number in range(-(-len(asked) // size))]
+        noted.take()
+        for part in working:
+            part.result()
+    finally:
+        # A search for hints cannot be stopped, and is not waited for if this ends before its time.
+        stop.set()
+        noted.stop()
+        pool.shutdown(wait=False, cancel_futures=True)
 
 
 def with_opinion(results: Sequence[Result], said: Mapping[str, Confirmation]) -> tuple[Result, ...]:

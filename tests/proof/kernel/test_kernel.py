@@ -181,7 +181,7 @@ def test_an_interrupt_ends_coq_and_keeps_what_is_known(
     confirming, begun, ended = coq.ask, threading.Event(), threading.Event()
 
     def ask(folder: Path, file: str, seconds: float, stop: coq.Stop) -> coq.Printed:
-        if "claims_000" in file:
+        if "quick_000" in file:
             return confirming(folder, file, seconds)
         begun.set()
         until = time.monotonic() + 30
