@@ -34,6 +34,23 @@ ROOT = [ge(r, (z / a) ** (1 / (2 * n - 1))), le(v, z - a * r ** (2 * n - 1))]
 LEVEL = (z / c) ** (1 / (2 * n + 1))
 BERNOULLI = [*rate(U, z - c * U(s) ** (2 * n + 1))]
 FADING = z / (1 + (s - p) / r) ** 2
+SIGMA = n / (n + 1)
+SAVED = a * (1 - 1 / (1 + (s - p) / r) ** 2)
+TIMED = [*rate(Y, -SAVED * Y(s) ** (1 + SIGMA)), ForAll([s], ge(Y(s), 0))]
+PASSED = a * (t - p) ** 2 / (r + t - p)
+Q = (2 * n + 1) / (2 * n + 2)
+ROOTED = rate(U, -(2 * n + 2) * c * U(s) ** (2 * Q))
+
+
+def timed(paid: sp.Expr) -> Any:
+    return le(Y(t), Y(p) * (1 + SIGMA * Y(p) ** SIGMA * paid) ** (-1 / SIGMA))
+
+
+def rooted(speed: sp.Expr) -> Any:
+    start = U(p) ** (1 / (2 * n + 2))
+    return le(U(t), (start * (1 + 2 * n * speed * start ** (2 * n) * (t - p)) ** (-1 / (2 * n))) ** (2 * n + 2))
+
+
 EFFORT = "thorough"
 TRUE = [
     stated("chain", le(v, -(b**2) * (c / a) ** POWER), given=CHAIN),
@@ -45,6 +62,8 @@ TRUE = [
     stated("greatest", le(U(t), z / a + U(p) * sp.exp(-a * (t - p))), given=rate(U, FADING - a * U(s))),
     stated("bernoulli", le(U(t), LEVEL + U(p) * (1 + 2 * n * c * U(p) ** (2 * n) * (t - p)) ** (-1 / (2 * n))),
            given=BERNOULLI),
+    stated("bernoulli-in-time", timed(PASSED), given=TIMED),
+    stated("rooted", rooted(c), given=ROOTED),
 ]  # fmt: skip
 NOT_CONFIRMED = [
     stated("chain-factor", le(v, -2 * (b**2) * (c / a) ** POWER), given=CHAIN),
@@ -57,5 +76,7 @@ NOT_CONFIRMED = [
            given=rate(U, z * (1 + s - p) - a * U(s))),
     stated("bernoulli-faster", le(U(t), LEVEL + U(p) * (1 + 4 * n * c * U(p) ** (2 * n) * (t - p)) ** (-1 / (2 * n))),
            given=BERNOULLI),
+    stated("bernoulli-in-time-below-0", timed(PASSED), given=TIMED[:2]),
+    stated("rooted-faster", rooted(2 * c), given=ROOTED),
     stated("before-the-start", le(Y(t), Y(p) + a * (t - p)), given=rate(Y, a)[1:]),
 ]  # fmt: skip
