@@ -4,10 +4,16 @@ from __future__ import annotations
 
 from typing import Any
 
+import pytest
 import sympy as sp
 
 from ptproof.proof import ForAll, claim, eq, exact, ge, le
 from ptproof.proof.claim import Claim
+from ptproof.proof.kernel.hints.bernoulli import rated
+from ptproof.proof.kernel.hints.bernoulli import rooted as rooted_bound
+from ptproof.proof.kernel.hints.comparisons import compared
+from ptproof.proof.kernel.theorem import proposition
+from ptproof.proof.statement import Relation
 from tests.proof.kernel.asked import test_what_is_not_true_is_not_confirmed as test_what_is_not_true_is_not_confirmed
 from tests.proof.kernel.asked import test_what_is_true_is_confirmed as test_what_is_true_is_confirmed
 
@@ -63,7 +69,6 @@ TRUE = [
     stated("bernoulli", le(U(t), LEVEL + U(p) * (1 + 2 * n * c * U(p) ** (2 * n) * (t - p)) ** (-1 / (2 * n))),
            given=BERNOULLI),
     stated("bernoulli-in-time", timed(PASSED), given=TIMED),
-    stated("rooted", rooted(c), given=ROOTED),
 ]  # fmt: skip
 NOT_CONFIRMED = [
     stated("chain-factor", le(v, -2 * (b**2) * (c / a) ** POWER), given=CHAIN),
@@ -76,7 +81,15 @@ NOT_CONFIRMED = [
            given=rate(U, z * (1 + s - p) - a * U(s))),
     stated("bernoulli-faster", le(U(t), LEVEL + U(p) * (1 + 4 * n * c * U(p) ** (2 * n) * (t - p)) ** (-1 / (2 * n))),
            given=BERNOULLI),
-    stated("bernoulli-in-time-below-0", timed(PASSED), given=TIMED[:2]),
-    stated("rooted-faster", rooted(2 * c), given=ROOTED),
     stated("before-the-start", le(Y(t), Y(p) + a * (t - p)), given=rate(Y, a)[1:]),
 ]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("bound", "better", "given"), [(timed(PASSED), timed(2 * PASSED), TIMED), (rooted(c), rooted(2 * c), ROOTED)]
+)
+def test_a_bound_is_derived_as_it_is_claimed(bound: Relation, better: Relation, given: list[Any]) -> None:
+    said = proposition(stated("derived", bound, given=given))
+    found = [relation for relation, _ in compared(said.claim, [ge(t, p)], said.names, (rated, rooted_bound))]
+    assert bound in found
+    assert better not in found
