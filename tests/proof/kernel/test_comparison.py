@@ -4,10 +4,16 @@ from __future__ import annotations
 
 from typing import Any
 
+import pytest
 import sympy as sp
 
 from ptproof.proof import ForAll, claim, eq, exact, ge, le
 from ptproof.proof.claim import Claim
+from ptproof.proof.kernel.hints.bernoulli import rated
+from ptproof.proof.kernel.hints.bernoulli import rooted as rooted_bound
+from ptproof.proof.kernel.hints.comparisons import compared
+from ptproof.proof.kernel.theorem import proposition
+from ptproof.proof.statement import Relation
 from tests.proof.kernel.asked import test_what_is_not_true_is_not_confirmed as test_what_is_not_true_is_not_confirmed
 from tests.proof.kernel.asked import test_what_is_true_is_confirmed as test_what_is_true_is_confirmed
 
@@ -34,6 +40,23 @@ ROOT = [ge(r, (z / a) ** (1 / (2 * n - 1))), le(v, z - a * r ** (2 * n - 1))]
 LEVEL = (z / c) ** (1 / (2 * n + 1))
 BERNOULLI = [*rate(U, z - c * U(s) ** (2 * n + 1))]
 FADING = z / (1 + (s - p) / r) ** 2
+SIGMA = n / (n + 1)
+SAVED = a * (1 - 1 / (1 + (s - p) / r) ** 2)
+TIMED = [*rate(Y, -SAVED * Y(s) ** (1 + SIGMA)), ForAll([s], ge(Y(s), 0))]
+PASSED = a * (t - p) ** 2 / (r + t - p)
+Q = (2 * n + 1) / (2 * n + 2)
+ROOTED = rate(U, -(2 * n + 2) * c * U(s) ** (2 * Q))
+
+
+def timed(paid: sp.Expr) -> Any:
+    return le(Y(t), Y(p) * (1 + SIGMA * Y(p) ** SIGMA * paid) ** (-1 / SIGMA))
+
+
+def rooted(speed: sp.Expr) -> Any:
+    start = U(p) ** (1 / (2 * n + 2))
+    return le(U(t), (start * (1 + 2 * n * speed * start ** (2 * n) * (t - p)) ** (-1 / (2 * n))) ** (2 * n + 2))
+
+
 EFFORT = "thorough"
 TRUE = [
     stated("chain", le(v, -(b**2) * (c / a) ** POWER), given=CHAIN),
@@ -45,6 +68,7 @@ TRUE = [
     stated("greatest", le(U(t), z / a + U(p) * sp.exp(-a * (t - p))), given=rate(U, FADING - a * U(s))),
     stated("bernoulli", le(U(t), LEVEL + U(p) * (1 + 2 * n * c * U(p) ** (2 * n) * (t - p)) ** (-1 / (2 * n))),
            given=BERNOULLI),
+    stated("bernoulli-in-time", timed(PASSED), given=TIMED),
 ]  # fmt: skip
 NOT_CONFIRMED = [
     stated("chain-factor", le(v, -2 * (b**2) * (c / a) ** POWER), given=CHAIN),
@@ -59,3 +83,13 @@ NOT_CONFIRMED = [
            given=BERNOULLI),
     stated("before-the-start", le(Y(t), Y(p) + a * (t - p)), given=rate(Y, a)[1:]),
 ]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("bound", "better", "given"), [(timed(PASSED), timed(2 * PASSED), TIMED), (rooted(c), rooted(2 * c), ROOTED)]
+)
+def test_a_bound_is_derived_as_it_is_claimed(bound: Relation, better: Relation, given: list[Any]) -> None:
+    said = proposition(stated("derived", bound, given=given))
+    found = [relation for relation, _ in compared(said.claim, [ge(t, p)], said.names, (rated, rooted_bound))]
+    assert bound in found
+    assert better not in found

@@ -45,12 +45,15 @@ def beside(id: str, statement: Any, used: Claim, values: dict[Any, Any], unmet: 
     return made
 
 
-def placed(id: str, statement: Any, **options: Any) -> Claim:
+PLACE = (q + 1, 0)
+
+
+def placed(id: str, statement: Any, place: Any = PLACE, **options: Any) -> Claim:
     """A claim that uses no other, and what it assumes for all values at one place."""
 
     @claim(id, id, statement, **options)
     def made(goal: Goal) -> Evidence:
-        return reals(goal, *instances(goal, (q + 1, 0)))
+        return reals(goal, *instances(goal, place))
 
     return made
 
@@ -81,6 +84,10 @@ AWAY = (x - q) ** 2 + y**2
 BETWEEN = [ForAll((x, y), le(a * AWAY**k, F(x, y))), ForAll((x, y), le(F(x, y), b * AWAY**k))]
 FALLING = [rate(X(s), -X(s)), ge(q, p)]
 ON_A_CURVE = [rate(F(X(s), Y(s)), -F(X(s), Y(s))), rate(X(s), Y(s)), rate(Y(s), X(s)), ge(q, p)]
+SLOPES = [ForAll((x, y), le(sp.Derivative(F(x, y), x), k))]
+SLOPE = sp.Subs(sp.Derivative(F(x, Y(q)), x), x, X(q))
+DECAYED = [ge(x, 0), le(x, a**2 * sp.exp(-2 * b))]
+below = lemma("below", le(sp.sqrt(x), y), given=[ge(x, 0), ge(y, 0), le(x, y**2)])
 root = lemma("root", le(sp.sqrt(x**2 + b**2) ** (2 * a), (x**2 + b**2) ** a))
 SMALL, ABOVE = Exists((b,), (le(k * sp.exp(-k * b), a),)), Exists((b,), (le(x**2, b),), (x,))
 SQUARED, CURVED = {U(s): X(s) ** 2, k: 2}, {U(s): F(X(s), Y(s)), k: 1}
@@ -97,12 +104,16 @@ TRUE = [
     placed("at-a-place", le(a, b), given=BETWEEN),
     chosen("a-choice", SMALL, sp.log(k / a + 1) / k),
     chosen("a-choice-for-some", ABOVE, k**2, given=[ge(x, -k), le(x, k)]),
+    placed("at-a-moving-place", le(SLOPE, k), place=(X(q), Y(q)), given=SLOPES),
+    using("by-squares", le(sp.sqrt(x), a * sp.exp(-b)), below, {y: a * sp.exp(-b)}, given=DECAYED),
     using("in-other-words", le(y**2 + 1, sp.sqrt(y**2 + 1) ** 2), root, {x: y, a: 1, b: 1}),
 ]  # fmt: skip
 NOT_CONFIRMED = [
     placed("at-a-place-false", le(a, b / 2), given=BETWEEN),
     chosen("a-choice-false", SMALL, sp.log(k / a + 1) / (2 * k)),
     chosen("a-choice-for-all-false", ABOVE, k**2),
+    placed("at-a-moving-place-false", le(SLOPE, k / 2), place=(X(q), Y(q)), given=SLOPES),
+    using("by-squares-false", le(sp.sqrt(x), a * sp.exp(-2 * b)), below, {y: a * sp.exp(-2 * b)}, given=DECAYED),
     using("at-a-value-false", le((y + 1) ** 2, b), square, {x: y + 1, a: b}, given=[ge(y, 0), le(y + 1, b)]),
     using("at-a-value-unmet", le((y + 1) ** 2, b**2), square, {x: y + 1, a: b}, given=[le(y + 1, b)]),
     using("for-a-function-false", le(X(q) ** 2, X(p) ** 2 * sp.exp(-3 * (q - p))), decays, SQUARED, given=FALLING),

@@ -43,12 +43,9 @@ from ptproof.proof.steps import Chosen, Step
 
 
 def script(
-    said: Proposition,
-    *,
-    thorough: bool = False,
-    lemmas: Mapping[str, Proposition] | None = None,
+    said: Proposition, *, thorough: bool = False, lemmas: Mapping[str, Proposition] | None = None,
     steps: Sequence[Step] = (),
-) -> str:
+) -> str:  # fmt: skip
     """The tactics for the whole proposition, as one sentence for Coq; the thorough ones take longer to find and try.
 
     With ``lemmas``, by the contents of their claims, they are for what follows from these by the ``steps`` of a proof.
@@ -201,8 +198,8 @@ def _leaf(part: Part, sought: _Sought) -> str:
             return _tried(f"cbv beta; left; {_leaf(Part('', Relation(sp.S.Zero, '<', part.base)), sought)}")
         signs = Relation(part.base, ">=", sp.Integer(0)), Relation(part.exponent, ">", sp.Integer(0))
         base, exponent = (_leaf(Part("", sign), sought) for sign in signs)
-        plainly = "cbv beta; apply rpow_defined; [ sign | exponent_sign ]"
-        return _tried(plainly, f"cbv beta; apply rpow_defined_as; [> {base} | {exponent} ]")
+        plainly, shown = "rpow_defined; [ sign | exponent_sign ]", f"rpow_defined_as; [> {base} | {exponent} ]"
+        return _tried(*(f"cbv beta; apply {way}" for way in (plainly, shown)))
     if part.relation is None or _trivial(part.relation):
         return _tried("everywhere", "derivable") if sought.thorough else _tried(*["derivable"] * sought.chains)
     if part.relation.sign == "!=" and part.relation.left.is_positive:

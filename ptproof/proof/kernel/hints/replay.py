@@ -177,13 +177,8 @@ class Replay:
         if text.startswith("is_integer"):
             return "whole"
         signs: dict[str, RelationSign] = {
-            "0 < x": ">",
-            "x < 0": "<",
-            "0 <= x": ">=",
-            "x <= 0": "<=",
-            "x <> 0": "!=",
-            "x = 0": "=",
-        }
+            "0 < x": ">", "x < 0": "<", "0 <= x": ">=", "x <= 0": "<=", "x <> 0": "!=", "x = 0": "=",
+        }  # fmt: skip
         relation = Relation(value, signs[text], sp.S.Zero)
         if value.is_number:
             return "lra"

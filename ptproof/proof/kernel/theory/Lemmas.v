@@ -152,6 +152,7 @@ Ltac agrees H := lazymatch type of H with
 (* H in other words: both sides are the same by arithmetic. *)
 Ltac in_words H := first
   [ exact H | lra | solve [ timeout 10 (agrees H) ] | timeout 10 (as_said H)
+  | solve [ squares_of_factors; timeout 10 (as_said H) ]
   | solve [ revert H; progress simple_powers; intro H;
       first [ exact H | timeout 10 (as_said H) | squares_of_factors; timeout 10 (as_said H) ] ]
   | solve [ progress (repeat match goal with |- context [sqrt ?x] => is_var x; by_root x end); timeout 10 (as_said H) ]
