@@ -227,8 +227,10 @@ def inside(claim: Claim) -> tuple[Assumption, ...]:
     """What is assumed of letters that come after those which exist: it says which of their values count."""
     if not isinstance(claim.statement, Exists):
         return ()
-    later = claim.statement.over
-    return tuple(item for item in claim.assumptions if not free_symbols([item]).isdisjoint(later))
+    later = set(claim.statement.over)
+    own = (set(item.variables) if isinstance(item, ForAll) else set() for item in claim.assumptions)
+    return tuple(item for item, bound in zip(claim.assumptions, own, strict=True)
+                 if later & (free_symbols([item]) - bound))  # fmt: skip
 
 
 def outside(claim: Claim) -> tuple[Assumption, ...]:
