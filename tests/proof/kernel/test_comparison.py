@@ -19,7 +19,7 @@ from tests.proof.kernel.asked import test_what_is_true_is_confirmed as test_what
 
 s, t, p, v = sp.symbols("s t p v", real=True)
 a, b, c, g, r = sp.symbols("a b c g r", positive=True)
-z = sp.Symbol("z", nonnegative=True)
+z, w = sp.symbols("z w", nonnegative=True)
 n = sp.Symbol("n", integer=True, positive=True)
 U = sp.Function("U", nonnegative=True)
 V = sp.Function("V", positive=True)
@@ -62,6 +62,7 @@ TRUE = [
     stated("chain", le(v, -(b**2) * (c / a) ** POWER), given=CHAIN),
     stated("value", le(v, b**2 * z), given=[eq(z, a**2), le(v, g**2 * a**2), le(g, b)]),
     stated("raised", le(v, 0), given=ROOT),
+    stated("raised-from-0", le(v, 0), given=[item.map(lambda side: side.subs(r, w)) for item in ROOT]),
     stated("integral", le(Y(t), Y(p) + a * (t - p)), given=rate(Y, a)),
     stated("exponential", le(Y(t), Y(p) * sp.exp(-a * (t - p))), given=rate(Y, -a * Y(s))),
     stated("decay", le(U(t), z / a + U(p) * sp.exp(-a * (t - p))), given=rate(U, z - a * U(s))),

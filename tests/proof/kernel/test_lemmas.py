@@ -79,6 +79,10 @@ decays = lemma(
     "decays", le(U(q), U(p) * sp.exp(-k * (q - p))),
     given=[ForAll((s,), le(sp.Derivative(U(s), s), -k * U(s)), INSIDE), ge(q, p)],
 )  # fmt: skip
+drifts = lemma(
+    "drifts", le(U(q), U(p) + b * y * (q - p)),
+    given=[ForAll((s,), le(sp.Derivative(U(s), s), b * y), INSIDE), ge(q, p)],
+)  # fmt: skip
 cube = lemma("cube", le(x**3, a**3), given=[ge(x, 0), le(x, a)])
 AWAY = (x - q) ** 2 + y**2
 BETWEEN = [ForAll((x, y), le(a * AWAY**k, F(x, y))), ForAll((x, y), le(F(x, y), b * AWAY**k))]
@@ -104,6 +108,7 @@ TRUE = [
     placed("at-a-place", le(a, b), given=BETWEEN),
     chosen("a-choice", SMALL, sp.log(k / a + 1) / k),
     chosen("a-choice-for-some", ABOVE, k**2, given=[ge(x, -k), le(x, k)]),
+    using("without-its-letter", le(X(q) ** 2, X(p) ** 2), drifts, {U(s): X(s) ** 2, y: 0}, given=FALLING),
     placed("at-a-moving-place", le(SLOPE, k), place=(X(q), Y(q)), given=SLOPES),
     using("by-squares", le(sp.sqrt(x), a * sp.exp(-b)), below, {y: a * sp.exp(-b)}, given=DECAYED),
     using("in-other-words", le(y**2 + 1, sp.sqrt(y**2 + 1) ** 2), root, {x: y, a: 1, b: 1}),
@@ -112,6 +117,7 @@ NOT_CONFIRMED = [
     placed("at-a-place-false", le(a, b / 2), given=BETWEEN),
     chosen("a-choice-false", SMALL, sp.log(k / a + 1) / (2 * k)),
     chosen("a-choice-for-all-false", ABOVE, k**2),
+    using("without-its-letter-false", le(X(q) ** 2, X(p) ** 2 / 2), drifts, {U(s): X(s) ** 2, y: 0}, given=FALLING),
     placed("at-a-moving-place-false", le(SLOPE, k / 2), place=(X(q), Y(q)), given=SLOPES),
     using("by-squares-false", le(sp.sqrt(x), a * sp.exp(-2 * b)), below, {y: a * sp.exp(-2 * b)}, given=DECAYED),
     using("at-a-value-false", le((y + 1) ** 2, b), square, {x: y + 1, a: b}, given=[ge(y, 0), le(y + 1, b)]),

@@ -32,12 +32,12 @@ def derived(known: Sequence[Relation], said: Proposition) -> list[Derived]:
 
 
 def _raised(item: Relation, names: Names) -> Iterator[Derived]:
-    """From x^(1/q) <= r: x <= r^q, also where x may be 0."""
+    """From x^(1/q) <= r: x <= r^q, also where x or r may be 0."""
     power, bound = item.left, item.right
-    if not (isinstance(power, sp.Pow) and item.sign == "<=" and bound.is_positive and power.base.is_nonnegative):
+    if not (isinstance(power, sp.Pow) and item.sign == "<=" and bound.is_nonnegative and power.base.is_nonnegative):
         return
     if power.base.is_positive or power.exp.is_Rational:
         return
     inverse = 1 / power.exp
     words = " ".join(f"({term(part, names)})" for part in (power.base, power.exp, inverse, bound))
-    yield Relation(power.base, "<=", bound**inverse), f"raised_bound {words}"
+    yield Relation(power.base, "<=", bound**inverse), f"raised_bound{'' if bound.is_positive else '_from_0'} {words}"

@@ -110,7 +110,10 @@ class Replay:
         name, used = self.lemmas[step.content]
         if not step.values and not all(self._in_scope(item, told) for item in _items(used)):
             return
-        values = Substitution(dict(step.values), has_sign=lambda value, sign: True)
+        # Of what nobody speaks here, the lemma is told one value that its kind allows.
+        some = {item: sp.S.NegativeOne if item.is_negative else sp.S.One for item in _items(used)
+                if isinstance(item, sp.Symbol) and not self._in_scope(item, told)}  # fmt: skip
+        values = Substitution(some | dict(step.values), has_sign=lambda value, sign: True)
         key = told.new("K")
         told.lines.append(
             f"pose proof ({name} {' '.join(self._arguments(used, values, told))}) as {key}; cbv beta in {key}"
@@ -135,8 +138,6 @@ class Replay:
                 yield term(values.values[item], told.names)
             elif self._in_scope(item, told):
                 yield told.names[item]
-            elif isinstance(item, sp.Symbol):
-                yield "(-1)" if item.is_negative else "1"
             else:
                 arity = next(len(call.args) for call in _calls(used) if call.func == item)
                 yield f"(fun {' '.join('_' * arity)} => 1)"

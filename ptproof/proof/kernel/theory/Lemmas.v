@@ -280,3 +280,12 @@ Ltac whole_power old new n := let E := fresh in
     [ apply Rpower_whole; cbn [INR]; rational
     | apply rpow_whole; [ cbn [INR]; rational | first [ assumption | lra | sign ] | exponent_sign | lia ] ]);
   rewrite ?E in *; clear E.
+(* What is below a power of what may be 0. *)
+Lemma below_power_from_0 : forall x e q r, 0 <= x -> 0 <= r -> 0 < e -> q * e = 1 -> rpow x e <= r -> x <= rpow r q.
+Proof.
+  intros x e q r X R E I L. assert (Q : 0 < q) by (apply Rmult_lt_reg_r with e; lra).
+  replace x with (rpow (rpow x e) q); [apply rpow_mono; [exact Q | apply rpow_nonneg | exact L]|].
+  replace e with (/ q); [apply rpow_root; assumption|]. apply (Rmult_eq_reg_l q); [rewrite I; field; lra | lra].
+Qed.
+Ltac raised_bound_from_0 x e q r :=
+  assert (x <= rpow r q) by (apply (below_power_from_0 x e q r); [ sign | sign | sign | rational | lra ]).
