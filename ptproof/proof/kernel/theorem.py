@@ -242,6 +242,8 @@ def outside(claim: Claim) -> tuple[Assumption, ...]:
 def _exists(statement: Exists, assumed: Sequence[Assumption], names: Names) -> Part:
     body = {part.text: part for given in plain(statement.body) for part in _relation(given, names)}
     text = _conjunction(body.values())
+    if free_symbols(assumed) & set(statement.variables):
+        raise NoTranslation("no translation for an assumption about both what exists and what comes after it")
     if statement.over:
         premises = (part.text for item in assumed for part in given(item, names))
         text = declared.for_all(statement.over, f"({text})", names, premises)

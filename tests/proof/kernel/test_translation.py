@@ -128,6 +128,11 @@ def test_what_is_assumed_of_what_comes_after_a_choice_stands_inside() -> None:
     assert text(statement, given=[ge(x, b), gt(y, 0)]) == said
 
 
+def test_what_is_chosen_is_not_restricted_by_an_assumption_of_a_letter_of_its_name() -> None:
+    with pytest.raises(NoTranslation, match="what exists and what comes after"):
+        text(Exists((a,), (gt(a * x**2, y),), (x,)), given=[ge(x, a)])
+
+
 def test_a_limit_is_of_a_function_that_is_defined_near_the_place() -> None:
     said = text(eq(sp.Limit(1 / x, x, sp.oo), 0))
     assert (
