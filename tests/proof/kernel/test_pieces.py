@@ -29,6 +29,7 @@ def clipped(above: int) -> Any:
 
 BEFORE = [ge(t, p), lt(t, p + T)]
 MOST = sp.Max(c, 1 - (t - p) / T)
+SATURATED = sp.Min(c, sp.Max(-c, x))
 NEAR = [le(x, sp.Rational(1, 2)), ge(x, -sp.Rational(1, 2))]
 WAVES = (sp.sin(3 * t) + 1) * sp.cos(x)
 ROOT = sp.sqrt(1 + (t - p) / T)
@@ -37,6 +38,7 @@ TRUE = [
     stated("branches", clipped(4), given=BEFORE),
     stated("bounded", le(sp.Abs(x - y) / MOST**2, d / c**2), given=[le(sp.Abs(x - y), d)]),
     stated("settled", eq(v, x / c), given=[eq(v, x / MOST), ge(t, p + T * (1 - c))]),
+    stated("saturated", eq(v, x), given=[eq(v, SATURATED), le(x, c), ge(x, -c)]),
     stated("waves", ge(WAVES, 7 * (sp.sin(3 * t) + 1) / 8), given=NEAR),
     stated("powers", gt(d * (1 + 1 / d) ** (2 * n), 1 + d)),
     stated("circle", eq(c * sp.sin(x) ** 2 / (T - t) ** 2 + c * sp.cos(x) ** 2 / (T - t) ** 2, c / (T - t) ** 2),
@@ -47,6 +49,7 @@ NOT_CONFIRMED = [
     stated("branches-false", clipped(5), given=BEFORE),
     stated("bounded-false", le(sp.Abs(x - y) / MOST**2, d / (2 * c**2)), given=[le(sp.Abs(x - y), d)]),
     stated("settled-false", eq(v, x / c), given=[eq(v, x / MOST), le(t, p + T * (1 - c))]),
+    stated("saturated-false", eq(v, x), given=[eq(v, SATURATED), le(x, c), ge(x, -2 * c)]),
     stated("waves-false", ge(WAVES, 9 * (sp.sin(3 * t) + 1) / 10), given=NEAR),
     stated("powers-false", gt(d * (1 + 1 / d) ** (2 * n), 2 + d + 1 / d)),
     stated("circle-false", eq(c * sp.sin(x) ** 2 / (T - t) ** 2 - c * sp.cos(x) ** 2 / (T - t) ** 2, c / (T - t) ** 2),

@@ -22,12 +22,14 @@ def settled(goal: Goal, shown: Callable[[Goal], str]) -> tuple[list[str], Goal]:
     """The goal in which a minimum or maximum is the argument that it is known to be, if that is ``shown``."""
     lines: list[str] = []
     for part in goal.atoms(sp.Max, sp.Min):
-        if len(part.args) != 2:
+        if len(part.args) != 2 or any(argument.has(sp.Max, sp.Min) for argument in part.args):
             continue
         first, last = sorted(part.args, key=sp.default_sort_key)  # as they are written
         for value, other in ((first, last), (last, first)):
             wanted = Relation(other, "<=", value) if isinstance(part, sp.Max) else Relation(value, "<=", other)
-            found = needed(wanted, goal.known, _MILLISECONDS)
+            # Without what speaks of it, so that the question gets smaller.
+            others = tuple(item for item in goal.known if not item.has(part))
+            found = needed(wanted, others, _MILLISECONDS)
             if found is None or not (tactic := shown(replace(goal, relation=wanted, known=found))):
                 continue
             word = f"{'Rmax' if isinstance(part, sp.Max) else 'Rmin'}_{'left' if value == first else 'right'}"
