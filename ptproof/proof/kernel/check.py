@@ -142,10 +142,13 @@ def _ask(
 
 def _say(answer: Progress, left: list[Question] | None, question: Question, said: Confirmation) -> None:
     """Give the answer, or keep the question, if it may be asked again and what was said is not the last word."""
-    if left is None or said.confirmed or said.given:
-        answer(question.claim, replace(said, late=said.late or question.late))
+    late = said.late or question.late
+    if said.confirmed or said.given:
+        answer(question.claim, said)
+    elif left is None:
+        answer(question.claim, replace(said, late=late))
     else:
-        left.append(replace(question, late=said.late or question.late))
+        left.append(replace(question, late=late))
 
 
 def _ask_once(

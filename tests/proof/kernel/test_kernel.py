@@ -174,6 +174,18 @@ def test_what_came_too_late_is_not_remembered(
     assert pretended
 
 
+def test_what_a_later_effort_confirms_is_remembered_although_an_earlier_one_was_late(
+    pretended: list[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setenv("PTPROOF_CACHE", str(tmp_path))
+    hearing = coq.heard
+    monkeypatch.setattr(coq, "heard", lambda output, asked: {} if "quick" in asked[0].name else hearing(output, asked))
+    answer = check(TRUE[:1], memory=Memory([tmp_path]), efforts=["quick", "thorough"])["identity"]
+    assert answer.confirmed
+    assert not answer.late
+    assert check(TRUE[:1], memory=Memory([tmp_path]), efforts=["quick", "thorough"])["identity"].remembered
+
+
 def test_an_interrupt_ends_coq_and_keeps_what_is_known(
     pretended: list[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
