@@ -203,7 +203,7 @@ def _leaf(part: Part, sought: _Sought) -> str:
     if part.relation is None or _trivial(part.relation):
         return _tried("everywhere", "derivable") if sought.thorough else _tried(*["derivable"] * sought.chains)
     if part.relation.sign == "!=" and part.relation.left.is_positive:
-        return _tried("cbv beta; sign")
+        return _tried("cbv beta; sign", f"cbv beta; nonzero_as {sought.goal(part.relation).text(part.relation.left)}")
     goal = sought.goal(part.relation)
     if part.relation.sign == "=":
         return _equal(goal, sought, "sqrt" in part.text)

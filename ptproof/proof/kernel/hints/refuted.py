@@ -51,8 +51,8 @@ def by_refutation(goal: Goal) -> Iterator[str]:
                 for line in _refuted_from_few(replace(goal, relation=item))
             )
             yield from itertools.islice(found, 1)
-        case Relation(left, "<=" | ">=", right) if left == right:
-            yield "first [ apply Rle_refl | apply Rge_refl ]"
+        case Relation(left, "<=" | ">=", right) if left == right or sp.expand(left - right) == 0:
+            yield "first [ apply Rle_refl | apply Rge_refl | apply Req_le; rational | apply Req_ge; rational ]"
         case Relation(_, "<=" | "<" | ">=" | ">", _):
             yield from _refuted_from_few(goal)
 
