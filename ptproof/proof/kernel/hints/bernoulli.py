@@ -13,6 +13,11 @@ from ptproof.proof.kernel.terms import NoTranslation
 from ptproof.proof.statement import Relation
 
 
+def _powers(rate: Rate) -> set[sp.Pow]:
+    """The powers of the function in its rate."""
+    return {part for part in rate.rate.atoms(sp.Pow) if part.base == rate.function}
+
+
 def _power_of(rate: Rate) -> tuple[sp.Expr, sp.Expr, sp.Expr, sp.Expr]:
     """The power U^r, r, a and b of the rate a U^r + b.
 
@@ -21,7 +26,7 @@ def _power_of(rate: Rate) -> tuple[sp.Expr, sp.Expr, sp.Expr, sp.Expr]:
     NoTranslation
         If it is not of this form.
     """
-    found = {part for part in rate.rate.atoms(sp.Pow) if part.base == rate.function}
+    found = _powers(rate)
     if len(found) != 1:
         raise NoTranslation("no power")
     power = found.pop()
@@ -139,7 +144,7 @@ def _two_powers(rate: Rate) -> tuple[sp.Expr, sp.Expr, sp.Expr, sp.Expr]:
     NoTranslation
         If it is not of this form.
     """
-    found = {part for part in rate.rate.atoms(sp.Pow) if part.base == rate.function}
+    found = _powers(rate)
     large = max(found, key=lambda part: float(part.exp.subs(dict.fromkeys(part.exp.free_symbols, 2))), default=None)
     rest = found - {large}
     if large is None or len(rest) > 1:
