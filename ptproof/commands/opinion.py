@@ -64,8 +64,8 @@ def confirmed(
     with progress("asking Coq", len(proved)) as advance:
 
         def heard(claim: Claim, answer: Confirmation) -> None:
+            advance(claim.id not in said)
             said[claim.id] = answer
-            advance(1)
 
         try:
             check(proved, workers=jobs, keep=keep, progress=heard, memory=memory)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Literal, TypeAlias
 
@@ -18,16 +18,23 @@ from ptproof.proof.steps import Put, Step
 
 Effort: TypeAlias = Literal["quick", "lemmas", "thorough"]
 EFFORTS: tuple[Effort, ...] = ("quick", "lemmas", "thorough")
+StepsOf: TypeAlias = Callable[[Claim], Sequence[Step]]
 _TO_START = 30.0
 
 
 @dataclass(frozen=True)
 class Question:
-    """A claim in Coq's words; ``late``: whether it was asked about before and an answer came too late."""
+    """A claim in Coq's words.
+
+    ``late`` are the efforts whose answers came too late so far, ``given`` is the answer that it follows from other
+    claims, and ``last`` the last one that was none.
+    """
 
     claim: Claim
     said: Proposition
-    late: bool = False
+    late: frozenset[Effort] = frozenset()
+    given: Confirmation | None = None
+    last: Confirmation | None = None
 
 
 @dataclass(frozen=True)
@@ -54,29 +61,41 @@ class _Asked:
 
 @dataclass(frozen=True)
 class Asking:
-    """How claims are asked about: ``folder`` for the files, the time limit of one claim [s], and whether to stop.
+    """How claims are asked about: ``folder`` for the files, and whether to stop.
 
-    ``steps`` gives those of a claim's proof.
+    The tactics of what was late are kept: finding them may take longer than Coq takes.
     """
 
     folder: Path
-    timeout: float
     stop: coq.Stop
-    steps: Callable[[Claim], Sequence[Step]]
+    _late: dict[tuple[str, Effort], _Asked] = field(default_factory=dict)
 
-    def answers(self, name: str, effort: Effort, asked: Sequence[Question]) -> Iterator[tuple[Question, Confirmation]]:
+    def answers(
+        self, name: str, effort: Effort, asked: Sequence[Question], timeout: float, steps: StepsOf
+    ) -> Iterator[tuple[Question, Confirmation]]:
         """What Coq says of the claims of one file with the tactics of one effort.
 
         Those that it did not come to are asked about again, as long as it comes to any.
+
+        Parameters
+        ----------
+        name
+            That of the file.
+        effort, asked
+            The effort, and the claims.
+        timeout
+            The time limit of one claim. [s]
+        steps
+            Gives those of a claim's proof.
         """
-        left = [self._asked(question, name, effort) for question in asked]
+        left = [self._asked(question, name, effort, steps) for question in asked]
         run = 0
         while left and not self.stop.is_set():
             theorems = [item.theorem for item in left]
             file = self.folder / f"claims_{name}{f'_{run}' if run else ''}.v"
-            file.write_text(coq.source(theorems, self.timeout), encoding="utf-8")
+            file.write_text(coq.source(theorems, timeout), encoding="utf-8")
             start = time.perf_counter()
-            printed = coq.ask(self.folder, file.name, _TO_START + 2 * self.timeout * len(left), self.stop)
+            printed = coq.ask(self.folder, file.name, _TO_START + 2 * timeout * len(left), self.stop)
             if self.stop.is_set():
                 return
             seconds = (time.perf_counter() - start) / len(left)
@@ -89,24 +108,29 @@ class Asking:
                 elif (reason := reasons[item.theorem.name]) is None and moved:  # Coq was ended before it came to it
                     again.append(item)
                 else:
-                    yield item.question, item.refused(reason, seconds)
+                    refused = item.refused(reason, seconds)
+                    if refused.late:
+                        self._late[item.question.claim.id, effort] = item
+                    yield item.question, refused
             left = again
             run += 1
 
-    def _asked(self, question: Question, name: str, effort: Effort) -> _Asked:
+    def _asked(self, question: Question, name: str, effort: Effort, steps: StepsOf) -> _Asked:
         """The question with the tactics of an effort."""
         claim, said = question.claim, question.said
+        if (before := self._late.pop((claim.id, effort), None)) is not None:
+            return replace(before, question=question)
         lemmas = lemmas_of(claim) if effort == "lemmas" else {}
-        steps = self._steps(claim, lemmas) if effort == "lemmas" else ()
+        taken = _steps(steps(claim), lemmas) if effort == "lemmas" else ()
         text = from_lemmas(said, lemmas.values()) if lemmas else said.text
-        theorem = coq.Theorem(f"{said.name}_{name}", text, _tactics(said, effort, lemmas, steps))
+        theorem = coq.Theorem(f"{said.name}_{name}", text, _tactics(said, effort, lemmas, taken))
         return _Asked(question, theorem, tuple(lemmas.values()))
 
-    def _steps(self, claim: Claim, lemmas: dict[str, Proposition]) -> tuple[Step, ...]:
-        """The claims that it uses as they stand, and the steps of the proof."""
-        steps = tuple(self.steps(claim))
-        put = {step.content for step in steps if isinstance(step, Put)}
-        return (*(Put(content) for content in lemmas if content not in put), *steps)
+
+def _steps(noted: Sequence[Step], lemmas: dict[str, Proposition]) -> tuple[Step, ...]:
+    """The claims that it uses as they stand, and the steps of the proof."""
+    put = {step.content for step in noted if isinstance(step, Put)}
+    return (*(Put(content) for content in lemmas if content not in put), *noted)
 
 
 def _read(

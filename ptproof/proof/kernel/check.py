@@ -15,10 +15,11 @@ from typing import TYPE_CHECKING
 from ptproof.proof.claim import Claim
 from ptproof.proof.kernel import coq, remembered
 from ptproof.proof.kernel.asking import EFFORTS, Asking, Effort, Question
-from ptproof.proof.kernel.lemmas import Noted, has_steps, settled
+from ptproof.proof.kernel.lemmas import Noted, settled
 from ptproof.proof.kernel.remembered import Confirmation
+from ptproof.proof.kernel.rounds import Inquiry, Round, rounds
 from ptproof.proof.kernel.terms import NoTranslation
-from ptproof.proof.kernel.theorem import Proposition, proposition
+from ptproof.proof.kernel.theorem import proposition
 from ptproof.proof.result import Result
 from ptproof.proof.verdict import Evidence, Verdict
 
@@ -50,13 +51,15 @@ def check(
     timeout
         The time limit of one claim. [s]
     progress
-        Called with each claim and what became of it, as it comes in: what follows from lemmas is not confirmed yet, and
-        is so by :func:`ptproof.proof.kernel.lemmas.settled` of all that is known.
+        Called with each claim and what became of it, as it comes in; again if there is a better answer later. What
+        follows from lemmas is not confirmed yet, and is so by :func:`ptproof.proof.kernel.lemmas.settled` of all that
+        is known.
     keep
         A folder in which the files for Coq are left.
     efforts
         What is tried one after the other while Coq finds no proof: "quick" hints, the claims that this one uses as
-        "lemmas", and "thorough" hints, which take longer to find.
+        "lemmas", and "thorough" hints, which take longer to find. Each has little of the time at first, and all of it
+        once the others have failed (:mod:`ptproof.proof.kernel.rounds`).
     memory
         Where answers are kept as they come in, but for those that were late. Nothing is recalled where files are to
         be left in ``keep``.
@@ -81,15 +84,17 @@ def check(
             if progress is not None:
                 progress(claim, confirmation)
 
-    asked: list[tuple[Claim, Proposition]] = []
-    for claim, known in _known(wanted, None if keep else memory, efforts):
-        if isinstance(known, Confirmation):
-            answer(claim, known)
+    asked, known = list[Question](), dict[str, Confirmation]()
+    for claim, found in _known(wanted, None if keep else memory, efforts):
+        if isinstance(found, Confirmation):
+            known[claim.id] = found
+            answer(claim, found)
         else:
-            asked.append((claim, known))
+            asked.append(found)
     if asked:
-        learn = partial(_learn, answer, memory, efforts)
-        _ask(asked, workers or os.cpu_count() or 1, timeout, efforts, keep, learn)
+        inquiry = Inquiry(asked, partial(_learn, answer, memory, efforts))
+        inquiry.known(known)
+        _ask(workers or os.cpu_count() or 1, timeout, efforts, keep, inquiry)
     answers = settled(answers)
     return {claim.id: answers[claim.id] for claim in wanted}
 
@@ -104,7 +109,7 @@ def _learn(
 
 def _known(
     claims: Iterable[Claim], memory: Memory | None, efforts: Sequence[Effort]
-) -> Iterator[tuple[Claim, Confirmation | Proposition]]:
+) -> Iterator[tuple[Claim, Confirmation | Question]]:
     """What is known of each claim before Coq is asked, or what Coq is to be asked."""
     lacking = coq.missing()
     for claim in claims:
@@ -115,56 +120,42 @@ def _known(
             continue
         if said is None:
             yield claim, Confirmation(False, lacking)
-        else:
-            yield claim, (memory and remembered.recall(memory, said.text, efforts)) or said
+            continue
+        known = None if memory is None else remembered.recall(memory, said.text, efforts)
+        yield claim, known if known and not known.more else Question(claim, said, given=known)
 
 
 def _ask(
-    asked: Sequence[tuple[Claim, Proposition]], processes: int, timeout: float, efforts: Sequence[Effort],
-    keep: Path | None, answer: Progress,
+    processes: int, timeout: float, efforts: Sequence[Effort], keep: Path | None,
+    inquiry: Inquiry,
 ) -> None:  # fmt: skip
-    """What Coq says of each, with one effort after the other: all that the first one confirms comes in first."""
-    left = [Question(claim, said) for claim, said in asked]
+    """What Coq says of each, in one round after the other: all that the first one confirms comes in first."""
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as temporary:
         folder = Path(temporary) if keep is None else keep
         folder.mkdir(parents=True, exist_ok=True)
         coq.prepare(folder)
-        for position, effort in enumerate(efforts):
-            # Where a proof puts nothing to use, there is nothing to ask about with lemmas.
-            now = [question for question in left if effort != "lemmas" or has_steps(question.claim)]
-            passed = [question for question in left if question not in now]
-            left, more = list[Question](), len(efforts) > position + 1
-            say = partial(_say, answer, left if more else None)
-            for question in passed:
-                say(question, Confirmation(False, "it uses no claim that Coq could be told", question.said.text))
-            _ask_once(now, effort, processes, timeout, folder, say)
-
-
-def _say(answer: Progress, left: list[Question] | None, question: Question, said: Confirmation) -> None:
-    """Give the answer, or keep the question, if it may be asked again and what was said is not the last word."""
-    late = said.late or question.late
-    if said.confirmed or said.given:
-        answer(question.claim, said)
-    elif left is None:
-        answer(question.claim, replace(said, late=late))
-    else:
-        left.append(replace(question, late=late))
+        asking = Asking(folder, coq.Stop())
+        for round_ in rounds(efforts, timeout):
+            _ask_once(inquiry.now(round_), round_, processes, asking, partial(inquiry.say, round_))
+        inquiry.end()
 
 
 def _ask_once(
-    asked: Sequence[Question], effort: Effort, processes: int, timeout: float, folder: Path,
+    asked: Sequence[Question], now: Round, processes: int, asking: Asking,
     say: Callable[[Question, Confirmation], None],
 ) -> None:  # fmt: skip
-    """What Coq says of each with one effort, in files of several; meanwhile the steps of proofs are noted."""
+    """What Coq says of each in one round, in files of several; meanwhile the steps of proofs are noted."""
     least, most = _IN_A_FILE
     size = min(max(least, -(-len(asked) // processes)), most)
-    stop = coq.Stop()
-    noted = Noted([question.claim for question in asked] if effort == "lemmas" else [], processes, timeout)
-    asking = Asking(folder, timeout, stop, noted.of)
+    by_steps = now.effort == "lemmas" and not now.again
+    noted = Noted([question.claim for question in asked] if by_steps else [], processes, now.seconds)
+    name = f"{now.effort}_again" if now.again else now.effort
 
     def work(number: int) -> None:
         some = asked[number * size : (number + 1) * size]
-        for question, confirmation in asking.answers(f"{effort}_{number:03d}", effort, some):
+        for question, confirmation in asking.answers(
+            f"{name}_{number:03d}", now.effort, some, now.seconds, noted.of
+        ):  # fmt: skip
             say(question, confirmation)
 
     pool = ThreadPoolExecutor(processes)
@@ -173,9 +164,11 @@ def _ask_once(
         noted.take()
         for part in working:
             part.result()
-    finally:
+    except BaseException:
         # A search for hints cannot be stopped, and is not waited for if this ends before its time.
-        stop.set()
+        asking.stop.set()
+        raise
+    finally:
         noted.stop()
         pool.shutdown(wait=False, cancel_futures=True)
 

@@ -19,6 +19,7 @@ class Confirmation:
     ``proposition`` is the claim in Coq's words, where it has a translation. ``seconds`` is how long the file took that
     the claim stood in, shared among its claims. [s] ``late``: for want of time; ``remembered``: from an earlier run.
     ``given`` are the propositions of the claims from which Coq has shown that it follows; it is confirmed if they are.
+    ``more``: there are efforts with which it has not been asked, should they not be.
     """
 
     confirmed: bool
@@ -28,13 +29,15 @@ class Confirmation:
     late: bool = False
     remembered: bool = False
     given: tuple[str, ...] = ()
+    more: bool = False
 
 
 def recall(memory: Memory, proposition: str, efforts: Sequence[str]) -> Confirmation | None:
     """What an earlier run was answered about this very text, with these efforts and this version of Coq."""
     match memory.recall_said(*_key(proposition, efforts)):
-        case {"confirmed": bool(sure), "reason": str(why), "seconds": int() | float() as seconds, "given": list(given)}:
-            return Confirmation(sure, why, proposition, seconds, remembered=True, given=tuple(map(str, given)))
+        case {"confirmed": bool(sure), "reason": str(why), "seconds": int() | float() as seconds, "given": list(given),
+              "more": bool(more)}:  # fmt: skip
+            return Confirmation(sure, why, proposition, seconds, remembered=True, given=tuple(given), more=more)
     return None
 
 
