@@ -60,6 +60,9 @@ class Inquiry:
         self._open = {question.claim.id: question for question in questions}
         self._answer = answer
         self._answered: dict[str, Confirmation] = {}
+        for question in self._open.values():
+            if question.given is not None:
+                self._tell(question, question.given)
 
     def known(self, answers: Mapping[str, Confirmation]) -> None:
         """What was known before, by the ids of claims."""
