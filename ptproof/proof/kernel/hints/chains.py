@@ -77,7 +77,7 @@ class Search:
     def chain(self, gap: sp.Expr) -> Chain | None:
         """How ``gap`` is a sum of what is not negative."""
         for self.narrow in (True, False):
-            self.until = time.monotonic() + _SECONDS
+            self.until = time.thread_time() + _SECONDS
             for depth in range(1, _DEPTH + 1):
                 found = self._chain(summands(gap), (), depth)
                 if found is not None:
@@ -85,7 +85,7 @@ class Search:
         return None
 
     def _chain(self, gap: Summands, used: tuple[tuple[int, sp.Expr], ...], depth: int) -> Chain | None:
-        if time.monotonic() > self.until:
+        if time.thread_time() > self.until:
             return None
         open_, matched, left = self._matched(gap)
         if open_ and used and _vanishes(gap):

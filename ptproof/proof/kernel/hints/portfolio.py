@@ -7,6 +7,7 @@ is not negative. None of them is believed.
 from __future__ import annotations
 
 import contextlib
+import time
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
@@ -26,7 +27,7 @@ from ptproof.proof.kernel.hints.instances import lines as instance_lines
 from ptproof.proof.kernel.hints.integrals import integrals
 from ptproof.proof.kernel.hints.limits import near
 from ptproof.proof.kernel.hints.pieces import by_equal_pieces, by_two_inequalities
-from ptproof.proof.kernel.hints.reduced import reduced_relation
+from ptproof.proof.kernel.hints.reduced import reduced_proposition
 from ptproof.proof.kernel.hints.refuted import by_refutation
 from ptproof.proof.kernel.hints.replay import Replay
 from ptproof.proof.kernel.hints.search import by_steps
@@ -41,6 +42,10 @@ from ptproof.proof.kernel.theorem import Proposition, inside
 from ptproof.proof.statement import Relation
 from ptproof.proof.steps import Chosen, Step
 
+# Of the thread's processor time, for the hints of one proposition. The scripts that Coq accepted took 11 s at most, but
+# for two with 19 and 22 s; the others up to 75 s.
+_SECONDS = 24.0
+
 
 def script(
     said: Proposition, *, thorough: bool = False, lemmas: Mapping[str, Proposition] | None = None,
@@ -50,15 +55,16 @@ def script(
 
     With ``lemmas``, by the contents of their claims, they are for what follows from these by the ``steps`` of a proof.
     """
-    said = _without_substitutions(said)
+    said = reduced_proposition(said)
+    until = time.thread_time() + _SECONDS
     assumed = (part.relation for part in said.premises if part.limit is None)
     told = (item for item in assumed if item is not None and item.sign != "!=" and not _trivial(item))
     known = list(dict.fromkeys(told))
     given = [fresh(f"given_{number}", said.names) for number in range(len(said.premises))]
     if lemmas or steps:
-        sought, before = _replayed(said, known, given, lemmas or {}, steps, thorough)
+        sought, before = _replayed(said, known, given, lemmas or {}, steps, thorough, until)
     else:
-        sought, before = _instantiated(said, known, given, thorough)
+        sought, before = _instantiated(said, known, given, thorough, until)
     said = sought.said
     leaves = [_near(part, said, thorough) if part.limit is not None else _leaf(part, sought.narrowed(part))
               for part in said.conclusions]  # fmt: skip
@@ -87,7 +93,7 @@ def _begun(said: Proposition, given: Sequence[str], lemmas: Iterable[str] = ()) 
 
 
 def _instantiated(
-    said: Proposition, known: list[Relation], given: Sequence[str], thorough: bool
+    said: Proposition, known: list[Relation], given: Sequence[str], thorough: bool, until: float
 ) -> tuple[_Sought, list[str]]:
     """What the leaves are shown from, with instances of what is assumed for all values; and the lines for these."""
     found = instances(said, known)
@@ -109,19 +115,19 @@ def _instantiated(
         *(f"try ({line})" for _, line in solutions),
         *(["facts"] if found else []),
     ]
-    return _Sought(said, tuple(known), tuple(derived(known, said)), tuple(found), thorough), lines
+    return _Sought(said, tuple(known), tuple(derived(known, said)), tuple(found), thorough, until), lines
 
 
 def _replayed(
     said: Proposition, known: list[Relation], given: Sequence[str], lemmas: Mapping[str, Proposition],
-    steps: Sequence[Step], thorough: bool,
+    steps: Sequence[Step], thorough: bool, until: float,
 ) -> tuple[_Sought, list[str]]:  # fmt: skip
     """The same after the steps of a proof, which put the lemmas to use."""
     told = Told(dict(said.names), known, [])
     named = {content: (told.new(f"used_{number}"), lemma) for number, (content, lemma) in enumerate(lemmas.items())}
     told.lines += _begun(said, given, (name for name, _ in named.values()))
     chosen = {symbol: value for step in steps if isinstance(step, Chosen) for symbol, value in step.values}
-    sought = _Sought(said, (), (), (), False, chains=True, chosen=chosen)
+    sought = _Sought(said, (), (), (), False, until, chains=True, chosen=chosen)
     more = tuple(derived(known, said))
     # What has to be defined is shown while little is known: Coq looks at all of it for each step of arithmetic.
     alone = replace(sought, known=tuple(known))
@@ -137,15 +143,6 @@ def _replayed(
     Replay(said, named, tuple(given), leaf).take(steps, told)
     now = replace(said, names=told.names)
     return replace(sought, said=now, known=tuple(dict.fromkeys(told.known)), more=more, thorough=thorough), told.lines
-
-
-def _without_substitutions(said: Proposition) -> Proposition:
-    """The proposition as hints look at it: the substitutions in its relations are carried out, as Coq does at once."""
-
-    def seen(part: Part) -> Part:
-        return replace(part, relation=part.relation and reduced_relation(part.relation))
-
-    return replace(said, premises=tuple(map(seen, said.premises)), conclusions=tuple(map(seen, said.conclusions)))
 
 
 def _tried(*hints: str) -> str:
@@ -176,6 +173,7 @@ class _Sought:
     more: tuple[Derived, ...]
     found: tuple[Instance, ...]
     thorough: bool
+    until: float  # of the thread's processor time: what is looked for later is only what is quick
     chains: bool = False
     every: tuple[Relation, ...] = ()  # what is known before it was narrowed
     chosen: Mapping[sp.Basic, sp.Expr] = field(default_factory=dict)  # values that are shown to exist
@@ -191,6 +189,8 @@ class _Sought:
 
 
 def _leaf(part: Part, sought: _Sought) -> str:
+    if sought.thorough and time.thread_time() > sought.until:
+        sought = replace(sought, thorough=False)
     if part.exists is not None and (sought.thorough or sought.chosen) and (hint := _witnessed(part, sought)):
         return _tried(hint)
     if part.base is not None and part.exponent is not None and (sought.thorough or sought.chains):
@@ -212,7 +212,7 @@ def _leaf(part: Part, sought: _Sought) -> str:
     focused = ""
     if sought.chains and (same := in_other_words(part.relation, sought.every or sought.known)) is not None:
         focused = f"try (solve [ as_claimed ({text_of(same, sought.said.names)}) ltac:(assumption) ]); "
-    elif sought.chains or sought.thorough:
+    elif (sought.chains or sought.thorough) and time.thread_time() < sought.until:
         with contextlib.suppress(NoTranslation, sp.PolynomialError):
             hints = by_refutation(replace(goal, known=sought.every or sought.known))
             focused = "".join(f"try (solve [ {hint} ]); " for hint in hints)

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import sympy as sp
 
-from ptproof.proof.statement import Relation
+from ptproof.proof.kernel.obligations import Part
+from ptproof.proof.kernel.theorem import Proposition
 
 # What binds a symbol.
 BINDERS = (sp.Derivative, sp.Integral, sp.Limit, sp.Subs)
@@ -24,9 +27,13 @@ def reduced(expression: sp.Basic) -> sp.Basic:
     return sp.Subs(inner, expression.variables, points)
 
 
-def reduced_relation(relation: Relation) -> Relation:
-    """Both sides with their substitutions carried out."""
-    return relation.map(reduced)
+def reduced_proposition(said: Proposition) -> Proposition:
+    """The proposition as hints look at it: the substitutions in its relations are carried out, as Coq does at once."""
+
+    def seen(part: Part) -> Part:
+        return replace(part, relation=part.relation and part.relation.map(reduced))
+
+    return replace(said, premises=tuple(map(seen, said.premises)), conclusions=tuple(map(seen, said.conclusions)))
 
 
 def _apart(part: sp.Basic, values: dict[sp.Symbol, sp.Expr]) -> bool:

@@ -44,7 +44,7 @@ def by_steps(goal: Goal, others: Sequence[Way] = ()) -> Iterator[str]:
         for step in (powers_back, factored, substituted, lettered):
             more, simpler = step(simpler)
             lines += more
-        yield "; ".join([*lines, _cases(simpler, others, _MOST_CASES, time.monotonic() + _MOST_SECONDS)])
+        yield "; ".join([*lines, _cases(simpler, others, _MOST_CASES, time.thread_time() + _MOST_SECONDS)])
     except (NoTranslation, sp.PolynomialError):
         return
 
@@ -85,7 +85,7 @@ def _by_chain(goal: Goal) -> Iterator[str]:
 
 def _closed(goal: Goal, others: Sequence[Way], until: float) -> Iterator[str]:
     for way in (*_CLOSING, _by_chain, *others):
-        if time.monotonic() > until:
+        if time.thread_time() > until:
             return
         with contextlib.suppress(NoTranslation, sp.PolynomialError):
             yield from way(goal)
