@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal, TypeAlias
 
@@ -61,14 +61,10 @@ class _Asked:
 
 @dataclass(frozen=True)
 class Asking:
-    """How claims are asked about: ``folder`` for the files, and whether to stop.
-
-    The tactics of what was late are kept: finding them may take longer than Coq takes.
-    """
+    """How claims are asked about: ``folder`` for the files, and whether to stop."""
 
     folder: Path
     stop: coq.Stop
-    _late: dict[tuple[str, Effort], _Asked] = field(default_factory=dict)
 
     def answers(
         self, name: str, effort: Effort, asked: Sequence[Question], timeout: float, steps: StepsOf
@@ -88,7 +84,7 @@ class Asking:
         steps
             Gives those of a claim's proof.
         """
-        left = [self._asked(question, name, effort, steps) for question in asked]
+        left = [_asked(question, name, effort, steps) for question in asked]
         run = 0
         while left and not self.stop.is_set():
             theorems = [item.theorem for item in left]
@@ -108,23 +104,19 @@ class Asking:
                 elif (reason := reasons[item.theorem.name]) is None and moved:  # Coq was ended before it came to it
                     again.append(item)
                 else:
-                    refused = item.refused(reason, seconds)
-                    if refused.late:
-                        self._late[item.question.claim.id, effort] = item
-                    yield item.question, refused
+                    yield item.question, item.refused(reason, seconds)
             left = again
             run += 1
 
-    def _asked(self, question: Question, name: str, effort: Effort, steps: StepsOf) -> _Asked:
-        """The question with the tactics of an effort."""
-        claim, said = question.claim, question.said
-        if (before := self._late.pop((claim.id, effort), None)) is not None:
-            return replace(before, question=question)
-        lemmas = lemmas_of(claim) if effort == "lemmas" else {}
-        taken = _steps(steps(claim), lemmas) if effort == "lemmas" else ()
-        text = from_lemmas(said, lemmas.values()) if lemmas else said.text
-        theorem = coq.Theorem(f"{said.name}_{name}", text, _tactics(said, effort, lemmas, taken))
-        return _Asked(question, theorem, tuple(lemmas.values()))
+
+def _asked(question: Question, name: str, effort: Effort, steps: StepsOf) -> _Asked:
+    """The question with the tactics of an effort."""
+    claim, said = question.claim, question.said
+    lemmas = lemmas_of(claim) if effort == "lemmas" else {}
+    taken = _steps(steps(claim), lemmas) if effort == "lemmas" else ()
+    text = from_lemmas(said, lemmas.values()) if lemmas else said.text
+    theorem = coq.Theorem(f"{said.name}_{name}", text, _tactics(said, effort, lemmas, taken))
+    return _Asked(question, theorem, tuple(lemmas.values()))
 
 
 def _steps(noted: Sequence[Step], lemmas: dict[str, Proposition]) -> tuple[Step, ...]:

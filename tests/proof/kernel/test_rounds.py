@@ -56,7 +56,7 @@ def asked_of(
     for now in rounds(efforts, 40.0):
         for question in inquiry.now(now):
             asked.append((question.claim.id, now.effort, now.seconds))
-            inquiry.say(now, question, says.get((question.claim.id, now.effort, now.again), NO))
+            inquiry.say(now, question, says.get((question.claim.id, now.effort, now.waiting), NO))
     inquiry.end()
     return asked, told
 
@@ -65,45 +65,45 @@ def test_one_effort_has_all_the_time_at_once() -> None:
     assert list(rounds(["thorough"], 40.0)) == [Round("thorough", 40.0)]
 
 
-def test_who_was_late_has_all_the_time_once_the_others_have_failed() -> None:
-    asked, told = asked_of({("used", "thorough", False): LATE, ("used", "thorough", True): YES})
-    assert [item[1:] for item in asked if item[0] == "used"] == [("quick", 8.0), ("thorough", 20.0), ("thorough", 40.0)]
-    assert [said.confirmed for said in told["used"]] == [True]
-    assert [item[1:] for item in asked if item[0] == "using"] == [("quick", 8.0), ("lemmas", 20.0), ("thorough", 20.0)]
-    assert told["using"] == [NO]
+def test_quick_tactics_have_little_of_the_time_where_others_come_after_them() -> None:
+    asked, told = asked_of({("used", "quick", False): LATE, ("used", "thorough", False): YES})
+    assert [item[1:] for item in asked if item[0] == "used"] == [("quick", 12.0), ("thorough", 40.0)]
+    assert [item[1:] for item in asked if item[0] == "using"] == [("quick", 12.0), ("lemmas", 40.0), ("thorough", 40.0)]
+    assert told == {"used": [YES], "using": [NO]}
 
 
-def test_what_is_late_with_quick_tactics_is_left_to_the_others() -> None:
-    asked, told = asked_of({("used", "quick", False): LATE})
-    assert [effort for id, effort, _ in asked if id == "used"] == ["quick", "thorough"]
-    assert not told["used"][-1].late
+def test_what_was_late_comes_last() -> None:
+    asked, _ = asked_of({("used", "quick", False): LATE})
+    assert [id for id, effort, _ in asked if effort == "quick"] == ["used", "using"]
+    assert [id for id, effort, _ in asked if effort == "thorough"] == ["using", "used"]
 
 
-@pytest.mark.parametrize("again", [LATE, NO])
-def test_who_is_late_to_the_end_is_late(again: Confirmation) -> None:
-    _, told = asked_of({("using", "lemmas", False): LATE, ("using", "lemmas", True): again})
-    assert told["using"][-1].late == again.late
+@pytest.mark.parametrize(("effort", "late"), [("quick", False), ("lemmas", True), ("thorough", True)])
+def test_who_is_late_with_more_than_quick_tactics_may_come_to_something_else(effort: str, late: bool) -> None:
+    _, told = asked_of({("using", effort, False): LATE})
+    assert told["using"][-1].late == late
+    assert asked_of({("used", "quick", False): LATE}, efforts=["quick"])[1]["used"][-1].late
 
 
 def test_what_follows_from_an_open_claim_is_asked_further_and_said_at_once() -> None:
     asked, told = asked_of({("using", "lemmas", False): IF})
-    assert ("using", "thorough", 20.0) in asked
+    assert asked[-1] == ("using", "thorough", 40.0)  # after all others
     assert [(said.given, said.more) for said in told["using"]] == [((USED,), True), ((USED,), False)]
-    _, told = asked_of({("using", "lemmas", False): IF, ("using", "thorough", False): YES})
+    _, told = asked_of({("using", "lemmas", False): IF, ("using", "thorough", True): YES})
     assert told["using"][-1] == YES
 
 
 def test_what_follows_from_a_confirmed_claim_is_not_asked_further() -> None:
     sure = Confirmation(True, "", USED)
-    asked, told = asked_of({("used", "quick", False): sure, ("using", "lemmas", False): IF})
+    asked, told = asked_of({("used", "thorough", False): sure, ("using", "lemmas", False): IF})
     assert [effort for id, effort, _ in asked if id == "using"] == ["quick", "lemmas"]
     assert not told["using"][-1].more
     assert asked_of({}, known={"used": sure}, given=IF)[0] == []
 
 
 def test_what_was_to_be_asked_further_in_an_earlier_run_is_not_asked_by_lemmas_again() -> None:
-    asked, told = asked_of({("using", "thorough", False): YES}, known={"used": NO}, given=IF)
-    assert [effort for _, effort, _ in asked] == ["quick", "thorough"]
+    asked, told = asked_of({("using", "thorough", True): YES}, known={"used": NO}, given=IF)
+    assert [effort for _, effort, _ in asked] == ["thorough"]
     assert told["using"] == [IF, YES]
 
 

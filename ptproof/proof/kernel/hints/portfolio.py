@@ -44,7 +44,7 @@ from ptproof.proof.steps import Chosen, Step
 
 # Of the thread's processor time, for the hints of one proposition. The scripts that Coq accepted took 11 s at most, but
 # for two with 19 and 22 s; the others up to 75 s.
-_SECONDS = 24.0
+_SECONDS = 20.0
 
 
 def script(
