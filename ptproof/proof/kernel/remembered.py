@@ -19,7 +19,7 @@ class Confirmation:
     ``proposition`` is the claim in Coq's words, where it has a translation. ``seconds`` is how long the file took that
     the claim stood in, shared among its claims. [s] ``late``: for want of time; ``remembered``: from an earlier run.
     ``given`` are the propositions of the claims from which Coq has shown that it follows; it is confirmed if they are.
-    ``more``: there are efforts with which it has not been asked, should they not be.
+    ``more``: there are efforts with which it may be asked, should they not be.
     """
 
     confirmed: bool

@@ -85,11 +85,12 @@ class Inquiry:
         """What is left has no other answer."""
         self._settle()
         for question in self._open.values():
+            late = bool(question.late - {"quick"})
             if question.given is not None:
-                self._tell(question, replace(question.given, more=False))
+                self._tell(question, replace(question.given, more=late))
             else:
                 last = question.last or Confirmation(False, _NOT_ASKED, question.said.text)
-                self._tell(question, replace(last, late=last.late or bool(question.late - {"quick"})))
+                self._tell(question, replace(last, late=last.late or late))
 
     def _tell(self, question: Question, said: Confirmation) -> None:
         self._answered[question.claim.id] = said

@@ -93,6 +93,11 @@ def test_what_follows_from_an_open_claim_is_asked_further_and_said_at_once() -> 
     assert told["using"][-1] == YES
 
 
+def test_what_was_late_without_the_open_claim_may_be_asked_again_by_another_run() -> None:
+    _, told = asked_of({("using", "lemmas", False): IF, ("using", "thorough", True): LATE})
+    assert told["using"][-1].more
+
+
 def test_what_follows_from_a_confirmed_claim_is_not_asked_further() -> None:
     sure = Confirmation(True, "", USED)
     asked, told = asked_of({("used", "thorough", False): sure, ("using", "lemmas", False): IF})
