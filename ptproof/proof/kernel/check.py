@@ -84,16 +84,14 @@ def check(
             if progress is not None:
                 progress(claim, confirmation)
 
-    asked, known = list[Question](), dict[str, Confirmation]()
+    asked = list[Question]()
     for claim, found in _known(wanted, None if keep else memory, efforts):
         if isinstance(found, Confirmation):
-            known[claim.id] = found
             answer(claim, found)
         else:
             asked.append(found)
     if asked:
-        inquiry = Inquiry(asked, partial(_learn, answer, memory, efforts))
-        inquiry.known(known)
+        inquiry = Inquiry(asked, answers, partial(_learn, answer, memory, efforts))
         _ask(workers or os.cpu_count() or 1, timeout, efforts, keep, inquiry)
     answers = settled(answers)
     return {claim.id: answers[claim.id] for claim in wanted}

@@ -45,22 +45,23 @@ class Inquiry:
     ----------
     questions
         All of them.
+    known
+        What was known before, by the ids of claims.
     answer
         Called with what is known of a claim: once it is confirmed, when it is found to follow from claims that may
         never be, and else at the end.
     """
 
-    def __init__(self, questions: Iterable[Question], answer: Callable[[Claim, Confirmation], None]) -> None:
+    def __init__(
+        self, questions: Iterable[Question], known: Mapping[str, Confirmation],
+        answer: Callable[[Claim, Confirmation], None],
+    ) -> None:  # fmt: skip
         self._open = {question.claim.id: question for question in questions}
         self._answer = answer
-        self._answered: dict[str, Confirmation] = {}
+        self._answered = dict(known)
         for question in self._open.values():
             if question.given is not None:
                 self._tell(question, question.given)
-
-    def known(self, answers: Mapping[str, Confirmation]) -> None:
-        """What was known before, by the ids of claims."""
-        self._answered.update(answers)
 
     def now(self, asked: Round) -> list[Question]:
         """What is asked in this round, last of all what was late before."""

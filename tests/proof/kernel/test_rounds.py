@@ -51,8 +51,7 @@ def asked_of(
     def answer(about: Claim, said: Confirmation) -> None:
         told.setdefault(about.id, []).append(said)
 
-    inquiry = Inquiry(questions, answer)
-    inquiry.known(known or {})
+    inquiry = Inquiry(questions, known or {}, answer)
     for now in rounds(efforts, 40.0):
         for question in inquiry.now(now):
             asked.append((question.claim.id, now.effort, now.seconds))
