@@ -28,9 +28,10 @@ if TYPE_CHECKING:
 
 # Of 507 proofs that Coq found in the first paper the longest took 17 s, and all but four less than 10.
 SECONDS_PER_CLAIM = 25.0
-# Most of a file's time goes into reading the libraries and finding the axioms, at 2 to 7 s however many claims it has;
-# fewer than these are left to one process, and not more, so that what comes in is seen.
-_IN_A_FILE = (6, 12)
+# A file takes 2 to 7 s for reading the libraries and finding the axioms, however many claims it has. Where these are
+# quick, fewer are left to one process, and not more, so that what comes in is seen; where they are not, no process
+# shall have many left when the others are done.
+_IN_A_FILE: dict[Effort, tuple[int, int]] = {"quick": (6, 12), "lemmas": (2, 4), "thorough": (2, 4)}
 
 
 Progress = Callable[[Claim, Confirmation], None]
@@ -143,7 +144,7 @@ def _ask_once(
     say: Callable[[Question, Confirmation], None],
 ) -> None:  # fmt: skip
     """What Coq says of each in one round, in files of several; meanwhile the steps of proofs are noted."""
-    least, most = _IN_A_FILE
+    least, most = _IN_A_FILE[now.effort]
     size = min(max(least, -(-len(asked) // processes)), most)
     noted = Noted([question.claim for question in asked] if now.effort == "lemmas" else [], processes, now.seconds)
     name = f"{now.effort}_waiting" if now.waiting else now.effort
