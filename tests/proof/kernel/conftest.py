@@ -116,7 +116,7 @@ def _asked(modules: Sequence[Any], effort: Effort, folder: Path) -> dict[str, Co
         for kind in ("TRUE", "NOT_CONFIRMED") for module in modules for item in getattr(module, kind)
     ]  # fmt: skip
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(import_module("ptproof.proof.kernel.check"), "_IN_A_FILE", (len(claims), len(claims)))
+        patch.setattr(import_module("ptproof.proof.kernel.check"), "_IN_A_FILE", {effort: (len(claims), len(claims))})
         patch.setattr(import_module("ptproof.proof.kernel.check"), "Noted", _NotedHere)
         told = check(claims, timeout=20.0, efforts=[effort], keep=folder)
     assert len(list(folder.glob("claims_*.v"))) == 1
